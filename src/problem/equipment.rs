@@ -1,0 +1,138 @@
+//! What the jet is made of: shot, jet, nozzle, contacts, and surfaces with rules of their own.
+
+use nalgebra::Vector3;
+
+use crate::impact::Contact;
+use crate::problem::setting::Range;
+
+/// The shot: solid spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot {
+    /// Mean radius, m.
+    pub radius: f64,
+    /// Density, kg/m3.
+    pub density: f64,
+    /// Standard deviation of the radius relative to its mean, cut at two.
+    pub size_spread: f64,
+}
+
+impl Shot {
+    /// Mass of a sphere of the mean radius, kg.
+    pub fn mass(&self) -> f64 {
+        4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3) * self.density
+    }
+}
+
+/// How the shots leave the nozzle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jet {
+    /// Diameter of the exit disc, m.
+    pub exit_diameter: f64,
+    /// Half-angle of the cone, rad.
+    pub divergence: f64,
+    /// How directions fill the cone.
+    pub spread: Spread,
+    /// Standard deviation of the speed relative to its mean, cut at two.
+    pub speed_spread: f64,
+}
+
+/// How directions fill the cone of the jet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spread {
+    /// Uniform in solid angle.
+    Uniform,
+    /// Normal in the two transverse angles with a standard deviation of half the half-angle,
+    /// cut at the half-angle.
+    Gaussian,
+}
+
+/// The solid body that carries the jet; it must stay clear of every surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Nozzle {
+    /// Pieces of the body; none means that the nozzle takes no room.
+    pub body: Vec<Body>,
+    /// Least distance from every surface, m.
+    pub clearance: f64,
+}
+
+/// One piece of the nozzle's body, placed at the exit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Body {
+    /// A ball round the exit.
+    Ball {
+        /// m.
+        radius: f64,
+    },
+    /// A rod with round ends that starts at the exit.
+    Capsule {
+        /// m.
+        length: f64,
+        /// m.
+        radius: f64,
+        /// Fixed unit direction in the scene; back along the jet axis when absent.
+        direction: Option<Vector3<f64>>,
+    },
+}
+
+/// A contact that may be chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactChoice {
+    /// Its name in the file.
+    pub name: String,
+    /// The contact at the lower end of the friction range.
+    pub contact: Contact,
+    /// Static friction; more than a point when the search may tune it.
+    pub static_friction: Range,
+    /// Dynamic over static friction, for a tuned contact.
+    pub dynamic_ratio: Option<f64>,
+}
+
+impl ContactChoice {
+    /// The contact with the given static friction (ignored unless the friction is tuned).
+    pub fn at(&self, static_friction: f64) -> Contact {
+        match self.dynamic_ratio {
+            Some(ratio) => Contact {
+                static_friction,
+                dynamic_friction: ratio * static_friction,
+                ..self.contact
+            },
+            None => self.contact,
+        }
+    }
+}
+
+/// Where one surface differs from the others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceRule {
+    /// Full name, `part.surface`.
+    pub surface: String,
+    /// Normal impulse that it may take, N s.
+    pub allow: Option<f64>,
+    /// Share of all shots that may exceed it.
+    pub share: Option<f64>,
+    /// Weight of its impacts in the objective.
+    pub weight: Option<f64>,
+    /// Its own contact, whatever contact is chosen.
+    pub contact: Option<Contact>,
+    /// What a hit on it counts as.
+    pub role: Role,
+}
+
+/// What a hit on a surface counts as.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// As any surface: first hit or rebound.
+    #[default]
+    Part,
+    /// Hits belong to the flight: neither first hit nor rebound.
+    Deflector,
+}
+
+/// When a path ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathLimits {
+    /// Most impacts; the first hit is number 1.
+    pub impacts: usize,
+    /// Share of its first kinetic energy below which a shot is followed no further.
+    pub least_energy: f64,
+}

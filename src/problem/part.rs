@@ -1,0 +1,181 @@
+//! The parts of a scene as the user described them: checked, in metres, not yet built.
+
+use std::path::PathBuf;
+
+use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
+
+/// One named part of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Name of the part; its surfaces are called `name.surface`.
+    pub name: String,
+    /// What the part looks like in its own frame.
+    pub shape: Shape,
+    /// Where that frame stands in the scene.
+    pub place: Place,
+}
+
+/// A rotation about fixed x, then y, then z, followed by a shift (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Rotation of the part about its own origin.
+    pub rotation: UnitQuaternion<f64>,
+    /// Position of the part's origin in the scene, m.
+    pub shift: Vector3<f64>,
+}
+
+impl Default for Place {
+    fn default() -> Self {
+        Self {
+            rotation: UnitQuaternion::identity(),
+            shift: Vector3::zeros(),
+        }
+    }
+}
+
+/// The geometry of a part in its own frame; every length in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A bore along z with a groove towards +y, open at both ends; see [`Keyway`].
+    Keyway(Keyway),
+    /// A round hole (or, seen from outside, a pin) along z from 0 to `length`.
+    Bore {
+        /// Diameter, m.
+        diameter: f64,
+        /// Length along z, m.
+        length: f64,
+        /// Which of the two ends carry a flat cap.
+        ends: Ends,
+    },
+    /// A cross-section of lines and arcs, along z from 0 to `length`.
+    Extrude {
+        /// The outline, in the order in which it was written; free space lies to its left.
+        profile: Vec<Segment>,
+        /// Length along z, m.
+        length: f64,
+        /// Which of the two ends carry a flat cap.
+        ends: Ends,
+    },
+    /// An axis-parallel block.
+    Box {
+        /// Smallest corner, m.
+        min: Point3<f64>,
+        /// Largest corner, m.
+        max: Point3<f64>,
+    },
+    /// Triangles from a file.
+    Mesh {
+        /// The file, resolved against the folder of the problem file.
+        path: PathBuf,
+        /// Metres per unit of length in the file.
+        metres_per_unit: f64,
+        /// Boxes (in the file's frame, m) that name the triangles whose centre they hold.
+        regions: Vec<Region>,
+    },
+}
+
+/// A groove of rectangular section in the wall of a round bore (DIN 6885 style).
+///
+/// The axis is z, from 0 to `length`; the groove points towards +y and its floor lies at
+/// y = bore/2 + depth. Surfaces: `floor`, `wall_neg` (x < 0), `wall_pos`, `bore`, and with a
+/// root radius also `root_neg` and `root_pos`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keyway {
+    /// Diameter of the bore, m.
+    pub bore: f64,
+    /// Width of the groove, m.
+    pub width: f64,
+    /// Depth of the groove below the bore's crown, m.
+    pub depth: f64,
+    /// Length along z, m.
+    pub length: f64,
+    /// Radius between floor and walls, m; 0 for sharp roots.
+    pub root_radius: f64,
+}
+
+/// Whether the two ends of a prismatic part are closed by a flat cap.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Ends {
+    /// The end at z = 0, surface `near`.
+    pub near_closed: bool,
+    /// The end at z = length, surface `far`.
+    pub far_closed: bool,
+}
+
+/// One piece of a cross-section, in m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Where it starts.
+    pub from: Point2<f64>,
+    /// Where it ends.
+    pub to: Point2<f64>,
+    /// A point that a circular arc passes through on its way; `None` for a straight line.
+    pub via: Option<Point2<f64>>,
+    /// Name of the surface that it becomes.
+    pub surface: String,
+}
+
+/// A named axis-parallel box.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// Name of the surface that the box cuts out of the mesh.
+    pub name: String,
+    /// Smallest corner, m.
+    pub min: Point3<f64>,
+    /// Largest corner, m.
+    pub max: Point3<f64>,
+}
+
+/// The surface to be peened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Full name of the surface, `part.surface`.
+    pub surface: String,
+    /// Only this box of it (scene frame, m); the rest of the surface is secondary.
+    pub within: Option<(Point3<f64>, Point3<f64>)>,
+    /// Where the jet axis meets the target (m); the centre of the patch when absent.
+    pub aim: Option<Point3<f64>>,
+    /// The direction that azimuth 0 means; laid into the target's plane later.
+    pub along: Option<Vector3<f64>>,
+    /// A direction that points to the nozzle's side of the target; the surface's own
+    /// orientation decides when absent.
+    pub facing: Option<Vector3<f64>>,
+}
+
+impl Shape {
+    /// Names of the surfaces as far as the problem file alone tells: for a mesh only its regions.
+    pub fn surface_names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        match self {
+            Self::Keyway(keyway) => {
+                names.extend(["floor", "wall_neg", "wall_pos", "bore"]);
+                if keyway.root_radius > 0.0 {
+                    names.extend(["root_neg", "root_pos"]);
+                }
+            }
+            Self::Bore { ends, .. } => {
+                names.push("wall");
+                names.extend(ends.surface_names());
+            }
+            Self::Extrude { profile, ends, .. } => {
+                for segment in profile {
+                    if !names.contains(&segment.surface.as_str()) {
+                        names.push(&segment.surface);
+                    }
+                }
+                names.extend(ends.surface_names());
+            }
+            Self::Box { .. } => names.extend(["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]),
+            Self::Mesh { regions, .. } => names.extend(regions.iter().map(|r| r.name.as_str())),
+        }
+        names
+    }
+}
+
+impl Ends {
+    fn surface_names(self) -> impl Iterator<Item = &'static str> {
+        let near = self.near_closed.then_some("near");
+        let far = self.far_closed.then_some("far");
+        near.into_iter().chain(far)
+    }
+}

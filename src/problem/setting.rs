@@ -1,0 +1,78 @@
+//! What may be chosen: the settings, their ranges, and how exactly a shop can set them.
+
+/// A closed interval in SI units; a single value is an interval of no width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Lower end.
+    pub min: f64,
+    /// Upper end.
+    pub max: f64,
+}
+
+impl Range {
+    /// A setting that is held at one value.
+    pub const fn held(value: f64) -> Self {
+        Self { min: value, max: value }
+    }
+
+    /// Whether there is nothing to search.
+    pub fn is_held(self) -> bool {
+        self.min == self.max
+    }
+
+    /// Upper minus lower end.
+    pub fn width(self) -> f64 {
+        self.max - self.min
+    }
+
+    /// The point at `fraction` (0 to 1) of the way.
+    pub fn at(self, fraction: f64) -> f64 {
+        // Exact at both ends, and exactly the held value for an interval of no width.
+        self.min * (1.0 - fraction) + self.max * fraction
+    }
+
+    /// Whether `value` lies in the interval.
+    pub fn contains(self, value: f64) -> bool {
+        self.min <= value && value <= self.max
+    }
+}
+
+/// The ranges that the search may use, in rad, m and m/s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Angle between the jet axis and the target plane, rad; pi/2 is perpendicular.
+    pub incidence: Range,
+    /// Direction of the jet in the target plane, rad, 0 along `target.along`.
+    pub azimuth: Range,
+    /// Distance from the aim point back along the axis to the exit, m.
+    pub standoff: Range,
+    /// Speed of the shot at the exit, m/s.
+    pub speed: Range,
+    /// Shift of the aim point along azimuth 0, m.
+    pub aim_along: Range,
+    /// Shift of the aim point across it (along b = a x n), m.
+    pub aim_across: Range,
+    /// Indices into the problem's contacts, in the order of the file.
+    pub contact: Vec<usize>,
+}
+
+/// Half-widths of the box in which a shop really hits the settings asked for; 0 means exactly.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tolerance {
+    /// rad.
+    pub incidence: f64,
+    /// rad.
+    pub azimuth: f64,
+    /// m.
+    pub standoff: f64,
+    /// m.
+    pub aim_along: f64,
+    /// m.
+    pub aim_across: f64,
+    /// Relative.
+    pub speed: f64,
+    /// Absolute change of the coefficient of restitution; the result is kept within 0 to 1.
+    pub restitution: f64,
+    /// Relative change of both friction coefficients.
+    pub friction: f64,
+}
