@@ -1,6 +1,7 @@
 //! What the user asked: a problem file, checked and turned into SI.
 
 pub mod equipment;
+pub mod fault;
 pub mod goal;
 pub mod part;
 pub mod setting;

@@ -173,7 +173,8 @@ impl Shape {
 }
 
 impl Ends {
-    fn surface_names(self) -> impl Iterator<Item = &'static str> {
+    /// Names of the caps that are there.
+    pub fn surface_names(self) -> impl Iterator<Item = &'static str> + use<> {
         let near = self.near_closed.then_some("near");
         let far = self.far_closed.then_some("far");
         near.into_iter().chain(far)
