@@ -200,7 +200,10 @@ impl fmt::Display for ContactFault {
                 "dynamic friction {dynamic_friction} must not exceed static friction {static_friction}"
             ),
             Self::Restitution(value) => {
-                write!(f, "coefficient of restitution {value} must lie within 0 to 1")
+                write!(
+                    f,
+                    "coefficient of restitution {value} must lie within 0 to 1"
+                )
             }
             Self::TangentialRestitution(value) => {
                 write!(f, "tangential restitution {value} must lie within -1 to 1")
@@ -210,7 +213,10 @@ impl fmt::Display for ContactFault {
                 "the speed {value} m/s at which restitution was measured must be positive"
             ),
             Self::Exponent(value) => {
-                write!(f, "the exponent {value} of restitution must lie within 0 to 1")
+                write!(
+                    f,
+                    "the exponent {value} of restitution must lie within 0 to 1"
+                )
             }
         }
     }

@@ -165,8 +165,14 @@ impl Shape {
                 }
                 names.extend(ends.surface_names());
             }
-            Self::Box { .. } => names.extend(["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]),
-            Self::Mesh { regions, .. } => names.extend(regions.iter().map(|r| r.name.as_str())),
+            Self::Box { .. } => {
+                names.extend(["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]);
+            }
+            Self::Mesh { regions, .. } => {
+                for region in regions {
+                    names.push(&region.name);
+                }
+            }
         }
         names
     }

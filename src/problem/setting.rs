@@ -12,7 +12,10 @@ pub struct Range {
 impl Range {
     /// A setting that is held at one value.
     pub const fn held(value: f64) -> Self {
-        Self { min: value, max: value }
+        Self {
+            min: value,
+            max: value,
+        }
     }
 
     /// Whether there is nothing to search.
