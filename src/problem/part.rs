@@ -155,7 +155,7 @@ impl Shape {
             }
             Self::Bore { ends, .. } => {
                 names.push("wall");
-                names.extend(ends.surface_names());
+                names.append(&mut ends.surface_names());
             }
             Self::Extrude { profile, ends, .. } => {
                 for segment in profile {
@@ -163,7 +163,7 @@ impl Shape {
                         names.push(&segment.surface);
                     }
                 }
-                names.extend(ends.surface_names());
+                names.append(&mut ends.surface_names());
             }
             Self::Box { .. } => {
                 names.extend(["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]);
@@ -180,9 +180,9 @@ impl Shape {
 
 impl Ends {
     /// Names of the caps that are there.
-    pub fn surface_names(self) -> impl Iterator<Item = &'static str> + use<> {
+    pub fn surface_names<'a>(self) -> Vec<&'a str> {
         let near = self.near_closed.then_some("near");
         let far = self.far_closed.then_some("far");
-        near.into_iter().chain(far)
+        near.into_iter().chain(far).collect()
     }
 }
