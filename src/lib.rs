@@ -5,3 +5,9 @@
 
 pub mod impact;
 pub mod problem;
+pub mod scene;
+pub mod jet;
+pub mod setup;
+pub mod trace;
+pub mod evaluate;
+pub mod objective;

@@ -59,6 +59,27 @@ pub struct Settings {
     pub contact: Vec<usize>,
 }
 
+/// One value for every setting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// Angle between the jet axis and the target plane, rad.
+    pub incidence: f64,
+    /// Direction of the jet in the target plane, rad.
+    pub azimuth: f64,
+    /// Distance from the aim point back along the axis to the exit, m.
+    pub standoff: f64,
+    /// Speed of the shot at the exit, m/s.
+    pub speed: f64,
+    /// Shift of the aim point along azimuth 0, m.
+    pub aim_along: f64,
+    /// Shift of the aim point across it, m.
+    pub aim_across: f64,
+    /// Index into the problem's contacts.
+    pub contact: usize,
+    /// Static friction; matters only for a contact whose friction is tuned.
+    pub static_friction: f64,
+}
+
 /// Half-widths of the box in which a shop really hits the settings asked for; 0 means exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {

@@ -1,0 +1,285 @@
+//! What a choice of settings does, measured on shots that nothing was tuned on.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::impact::Regime;
+use crate::jet::{Samples, Stream};
+use crate::objective::{Sums, Tallier, Tally, Terms};
+use crate::problem::goal::Goals;
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use crate::trace::{End, PathImpact, Tracer};
+
+/// What a choice of settings does, with its statistical errors.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// Number of shots.
+    pub shots: usize,
+    /// Number of rays cast for them.
+    pub rays: usize,
+    /// The terms of the objective.
+    pub terms: Terms,
+    /// Standard error of each term.
+    pub term_errors: Terms,
+    /// Standard error of J.
+    pub standard_error: f64,
+    /// What the target receives.
+    pub target: TargetReceipt,
+    /// What every secondary surface receives; indices are the scene's.
+    pub surfaces: Vec<SurfaceReceipt>,
+    /// How the paths ended: share of all shots.
+    pub ends: BTreeMap<End, f64>,
+}
+
+/// What the target receives by first hits.
+#[derive(Clone, Debug)]
+pub struct TargetReceipt {
+    /// First hits on target.
+    pub hits: usize,
+    /// Normal impulse, N s.
+    pub normal_impulse: Spread,
+    /// Tangential impulse, N s.
+    pub tangential_impulse: Spread,
+    /// First hits off the wanted normal impulse by more than the tolerance.
+    pub off_target: usize,
+    /// First hits over the tangential limit.
+    pub over_limit: usize,
+    /// First hits that stick.
+    pub sticking: usize,
+}
+
+/// What a secondary surface receives, by first hits off target and by rebounds.
+#[derive(Clone, Debug, Default)]
+pub struct SurfaceReceipt {
+    /// Shots that hit it at least once.
+    pub shots: usize,
+    /// Shots with an impact on it over what it may take.
+    pub over: usize,
+    /// Number of impacts by their place in the path: direct hits first.
+    pub impacts_by_number: Vec<usize>,
+    /// The same for impacts over what it may take.
+    pub over_by_number: Vec<usize>,
+    /// Normal impulses, N s.
+    pub normal_impulse: Spread,
+}
+
+/// Mean and range of a quantity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// 5 % of the values are below.
+    pub low: f64,
+    /// 95 % of the values are below.
+    pub high: f64,
+    /// Largest value.
+    pub largest: f64,
+}
+
+/// Independent scramblings whose scatter gives the standard error.
+pub const REPLICATES: usize = 32;
+
+/// Evaluates `choice` on `shots` fresh shots (rounded up to a multiple of [`REPLICATES`]).
+///
+/// `first_stream` numbers the scramblings: evaluations with different ranges of streams are
+/// independent.
+pub fn evaluate(setup: &Setup, choice: &Choice, shots: usize, first_stream: u32) -> Evaluation {
+    let each = shots.div_ceil(REPLICATES).max(1);
+    let replicates: Vec<Replicate> = (0..REPLICATES as u32)
+        .into_par_iter()
+        .map(|number| Replicate::trace(setup, choice, Stream::Fresh(first_stream + number), each))
+        .collect();
+    let goals = &setup.problem.goals;
+    let sums: Vec<Sums> = replicates
+        .iter()
+        .map(|replicate| replicate.tally.sums(goals, choice.speed))
+        .collect();
+    let (terms, term_errors, standard_error) = jackknife(&sums, |sums| sums.terms(goals));
+    let rays = replicates.iter().map(|r| r.tally.rays).sum();
+    let mut ends = BTreeMap::new();
+    for (&end, &count) in replicates.iter().flat_map(|replicate| &replicate.ends) {
+        *ends.entry(end).or_insert(0.0) += count as f64 / (each * REPLICATES) as f64;
+    }
+    let surfaces = (0..setup.surfaces.len())
+        .map(|index| receipt(replicates.iter().map(|r| &r.surfaces[index])))
+        .collect();
+    Evaluation {
+        shots: each * REPLICATES,
+        rays,
+        terms,
+        term_errors,
+        standard_error,
+        target: target_receipt(goals, choice.speed, &replicates),
+        surfaces,
+        ends,
+    }
+}
+
+/// Value of a function of pooled sums and its standard errors, from leaving out one of the
+/// independent scramblings at a time.
+fn jackknife(sums: &[Sums], terms: impl Fn(&Sums) -> Terms) -> (Terms, Terms, f64) {
+    let pooled = |skip: Option<usize>| {
+        let kept = sums.iter().enumerate().filter(|(i, _)| skip != Some(*i));
+        terms(&kept.fold(Sums::default(), |total, (_, one)| total.plus(one)))
+    };
+    let left_out: Vec<Terms> = (0..sums.len()).map(|index| pooled(Some(index))).collect();
+    let count = sums.len() as f64;
+    let error = |part: fn(&Terms) -> f64| {
+        let mean = left_out.iter().map(part).sum::<f64>() / count;
+        let squares: f64 = left_out.iter().map(|t| (part(t) - mean).powi(2)).sum();
+        ((count - 1.0) / count * squares).sqrt()
+    };
+    let errors = Terms {
+        normal_impulse: error(|t| t.normal_impulse),
+        tangential_impulse: error(|t| t.tangential_impulse),
+        rebound: error(|t| t.rebound),
+        miss: error(|t| t.miss),
+    };
+    (pooled(None), errors, error(Terms::total))
+}
+
+/// The shots of one scrambling.
+struct Replicate {
+    tally: Tally,
+    sticking: usize,
+    surfaces: Vec<SurfaceSums>,
+    ends: BTreeMap<End, usize>,
+}
+
+#[derive(Clone, Default)]
+struct SurfaceSums {
+    shots: usize,
+    over: usize,
+    impacts_by_number: Vec<usize>,
+    over_by_number: Vec<usize>,
+    normal_impulses: Vec<f64>,
+}
+
+impl Replicate {
+    fn trace(setup: &Setup, choice: &Choice, stream: Stream, count: usize) -> Self {
+        let samples = Samples::new(&setup.problem, stream, count);
+        let tracer = Tracer::new(setup, choice, choice.speed);
+        let mut ends = BTreeMap::new();
+        let mut sticking = 0;
+        let mut surfaces = vec![SurfaceSums::default(); setup.surfaces.len()];
+        let mut tallier = Tallier::new(setup, choice.speed, count);
+        let mut path: Vec<PathImpact> = Vec::new();
+        for deviate in &samples.deviates {
+            path.clear();
+            let (end, rays) = tracer.follow(deviate, |impact| path.push(*impact));
+            *ends.entry(end).or_insert(0) += 1;
+            tallier.add_shot(&path, rays);
+            sticking += usize::from(
+                path.first()
+                    .is_some_and(|first| first.on_target && first.regime == Regime::Stick),
+            );
+            for (index, impact) in path.iter().enumerate() {
+                if impact.on_target {
+                    continue;
+                }
+                let surface = impact.surface as usize;
+                let earlier = &path[..index];
+                let again = |over: bool| {
+                    earlier.iter().any(|other| {
+                        !other.on_target
+                            && other.surface == impact.surface
+                            && (!over || is_over(setup, other))
+                    })
+                };
+                surfaces[surface].add(impact, is_over(setup, impact), again);
+            }
+        }
+        Self {
+            tally: tallier.finish(),
+            sticking,
+            surfaces,
+            ends,
+        }
+    }
+}
+
+/// Whether an impact exceeds what its surface may take.
+fn is_over(setup: &Setup, impact: &PathImpact) -> bool {
+    let allow = setup.surfaces[impact.surface as usize].allow;
+    allow.is_some_and(|allow| impact.normal_impulse > allow)
+}
+
+impl SurfaceSums {
+    /// Adds an impact; `again(over)` tells whether the shot had hit the surface before (with an
+    /// impact over what it may take).
+    fn add(&mut self, impact: &PathImpact, over: bool, again: impl Fn(bool) -> bool) {
+        count_at(&mut self.impacts_by_number, impact.number);
+        self.normal_impulses.push(impact.normal_impulse);
+        self.shots += usize::from(!again(false));
+        if over {
+            count_at(&mut self.over_by_number, impact.number);
+            self.over += usize::from(!again(true));
+        }
+    }
+}
+
+/// Counts one more at a 1-based place.
+fn count_at(counts: &mut Vec<usize>, number: usize) {
+    if counts.len() < number {
+        counts.resize(number, 0);
+    }
+    counts[number - 1] += 1;
+}
+
+fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {
+    into.resize(into.len().max(counts.len()), 0);
+    for (total, count) in into.iter_mut().zip(counts) {
+        *total += count;
+    }
+}
+
+fn receipt<'a>(parts: impl Iterator<Item = &'a SurfaceSums>) -> SurfaceReceipt {
+    let mut receipt = SurfaceReceipt::default();
+    let mut values = Vec::new();
+    for part in parts {
+        receipt.shots += part.shots;
+        receipt.over += part.over;
+        add_counts(&mut receipt.impacts_by_number, &part.impacts_by_number);
+        add_counts(&mut receipt.over_by_number, &part.over_by_number);
+        values.extend_from_slice(&part.normal_impulses);
+    }
+    receipt.normal_impulse = Spread::of(values);
+    receipt
+}
+
+fn target_receipt(goals: &Goals, speed: f64, replicates: &[Replicate]) -> TargetReceipt {
+    let impulses = || replicates.iter().flat_map(|r| &r.tally.hits);
+    let normal: Vec<f64> = impulses().map(|hit| hit.normal * speed).collect();
+    let tangential: Vec<f64> = impulses().map(|hit| hit.tangential * speed).collect();
+    let goal = goals.normal_impulse;
+    let off = |n: &&f64| (**n / goal.target - 1.0).abs() > goal.tolerance;
+    let over = |f: &&f64| goals.tangential_impulse.is_some_and(|goal| **f > goal.limit);
+    TargetReceipt {
+        hits: normal.len(),
+        off_target: normal.iter().filter(off).count(),
+        over_limit: tangential.iter().filter(over).count(),
+        sticking: replicates.iter().map(|r| r.sticking).sum(),
+        normal_impulse: Spread::of(normal),
+        tangential_impulse: Spread::of(tangential),
+    }
+}
+
+impl Spread {
+    /// Mean and range of some values; zeros when there are none.
+    fn of(mut values: Vec<f64>) -> Self {
+        if values.is_empty() {
+            return Self::default();
+        }
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.sort_unstable_by(f64::total_cmp);
+        let quantile = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
+        Self {
+            mean,
+            low: quantile(0.05),
+            high: quantile(0.95),
+            largest: values[values.len() - 1],
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! The pose of the nozzle that a choice of settings means.
+
+use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+
+use super::sample::Deviate;
+use crate::problem::setting::Choice;
+use crate::scene::patch::Frame;
+use crate::scene::ray::Ray;
+
+/// Where the exit is and how the jet points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Centre of the exit disc, m.
+    pub exit: Point3<f64>,
+    /// d: unit vector along the jet.
+    pub direction: Vector3<f64>,
+    /// Unit vector across the jet, in the target's plane.
+    pub side: Vector3<f64>,
+    /// Unit vector across both.
+    pub up: Vector3<f64>,
+}
+
+impl Pose {
+    /// The pose that a choice means: d = cos(inc) (cos(az) a + sin(az) b) - sin(inc) n, and the
+    /// exit at the aim point minus standoff times d.
+    pub fn new(frame: &Frame, choice: &Choice) -> Self {
+        Aim::new(choice).pose(frame)
+    }
+
+    /// Rotation that takes the z axis to the jet's direction and the x axis across it.
+    pub fn rotation(&self) -> UnitQuaternion<f64> {
+        let axes = Matrix3::from_columns(&[self.up, self.side, self.direction]);
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes))
+    }
+
+    fn shot(&self, deviate: &Deviate) -> Ray {
+        let [x, y] = deviate.exit;
+        let [across, upward, forward] = deviate.cone;
+        Ray {
+            origin: self.exit + self.side * x + self.up * y,
+            direction: self.side * across + self.up * upward + self.direction * forward,
+        }
+    }
+}
+
+/// The settings of a pose with the sines and cosines of its angles, so that every shot of a jet
+/// with a setup tolerance gets its own pose without a trigonometric function.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Aim {
+    incidence: [f64; 2],
+    azimuth: [f64; 2],
+    standoff: f64,
+    along: f64,
+    across: f64,
+}
+
+impl Aim {
+    pub fn new(choice: &Choice) -> Self {
+        Self {
+            incidence: choice.incidence.sin_cos().into(),
+            azimuth: choice.azimuth.sin_cos().into(),
+            standoff: choice.standoff,
+            along: choice.aim_along,
+            across: choice.aim_across,
+        }
+    }
+
+    /// The ray of a shot from the pose that was really set for it.
+    #[inline]
+    pub fn shot(&self, frame: &Frame, deviate: &Deviate) -> Ray {
+        self.perturbed(deviate).pose(frame).shot(deviate)
+    }
+
+    fn perturbed(&self, deviate: &Deviate) -> Self {
+        Self {
+            incidence: add_angle(self.incidence, deviate.incidence),
+            azimuth: add_angle(self.azimuth, deviate.azimuth),
+            standoff: self.standoff + deviate.standoff,
+            along: self.along + deviate.aim[0],
+            across: self.across + deviate.aim[1],
+        }
+    }
+
+    fn pose(&self, frame: &Frame) -> Pose {
+        let [sin_incidence, cos_incidence] = self.incidence;
+        let [sin_azimuth, cos_azimuth] = self.azimuth;
+        let heading = frame.along * cos_azimuth + frame.across * sin_azimuth;
+        let side = frame.across * cos_azimuth - frame.along * sin_azimuth;
+        let direction = heading * cos_incidence - frame.normal * sin_incidence;
+        let aim = frame.aim + frame.along * self.along + frame.across * self.across;
+        Pose {
+            exit: aim - direction * self.standoff,
+            direction,
+            side,
+            up: side.cross(&direction),
+        }
+    }
+}
+
+/// Sine and cosine of the sum of two angles given by theirs.
+#[inline]
+fn add_angle([sin_a, cos_a]: [f64; 2], [sin_b, cos_b]: [f64; 2]) -> [f64; 2] {
+    [
+        sin_a * cos_b + cos_a * sin_b,
+        cos_a * cos_b - sin_a * sin_b,
+    ]
+}

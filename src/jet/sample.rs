@@ -1,0 +1,186 @@
+//! How single shots deviate from the jet's axis: low-discrepancy samples, each a pure function of
+//! (index, dimension, seed), so that neither order nor threads can change a result.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::problem::Problem;
+use crate::problem::equipment::Spread;
+
+/// How one shot deviates from the mean shot on the axis; the same for every pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviate {
+    /// Offset in the exit disc, m.
+    pub exit: [f64; 2],
+    /// Unit direction in the jet's frame; the last component is along the axis.
+    pub cone: [f64; 3],
+    /// Factor on the speed, setup tolerance included.
+    pub speed: f64,
+    /// Factor on the mass.
+    pub mass: f64,
+    /// Sine and cosine of the error in incidence.
+    pub incidence: [f64; 2],
+    /// Sine and cosine of the error in azimuth.
+    pub azimuth: [f64; 2],
+    /// Error in standoff, m.
+    pub standoff: f64,
+    /// Error of the aim point along and across, m.
+    pub aim: [f64; 2],
+    /// Change of the coefficient of restitution.
+    pub restitution: f64,
+    /// Factor on the friction coefficients.
+    pub friction: f64,
+}
+
+/// The shots of a jet, without its pose.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    /// One for each shot.
+    pub deviates: Vec<Deviate>,
+}
+
+/// An independent sequence of samples under one seed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stream {
+    /// The shots that a search decides on.
+    Search,
+    /// Shots that the search has not seen; one scrambling for each number.
+    Fresh(u32),
+}
+
+/// Sample dimensions, those that matter most first: low dimensions are the most uniform.
+#[derive(Clone, Copy)]
+enum Dimension {
+    ConeAngle,
+    ConeTurn,
+    ExitRadius,
+    ExitTurn,
+    Incidence,
+    Azimuth,
+    SpeedScatter,
+    SpeedSetting,
+    Standoff,
+    Restitution,
+    Friction,
+    Size,
+    AimAlong,
+    AimAcross,
+}
+
+/// Points of one scrambling before it repeats itself.
+const POINTS_PER_SEED: u32 = 1 << 16;
+
+impl Samples {
+    /// The first `count` shots of a stream.
+    pub fn new(problem: &Problem, stream: Stream, count: usize) -> Self {
+        let deviates = (0..count as u32)
+            .map(|index| deviate(problem, &Point::new(problem.seed, stream, index)))
+            .collect();
+        Self { deviates }
+    }
+}
+
+/// One point of the low-discrepancy sequence.
+struct Point {
+    index: u32,
+    seed: u32,
+}
+
+impl Point {
+    fn new(seed: u64, stream: Stream, index: u32) -> Self {
+        let stream = match stream {
+            Stream::Search => 0,
+            Stream::Fresh(number) => 1 + u64::from(number),
+        };
+        let block = u64::from(index / POINTS_PER_SEED);
+        let mixed = mix(mix(mix(seed) ^ stream) ^ block);
+        Self {
+            index: index % POINTS_PER_SEED,
+            seed: (mixed >> 32) as u32,
+        }
+    }
+
+    /// Uniform in 0 to 1.
+    fn at(&self, dimension: Dimension) -> f64 {
+        f64::from(sobol_burley::sample(self.index, dimension as u32, self.seed))
+    }
+
+    /// Uniform within +- `half_width`.
+    fn within(&self, half_width: f64, dimension: Dimension) -> f64 {
+        if half_width == 0.0 {
+            return 0.0;
+        }
+        half_width * (2.0 * self.at(dimension) - 1.0)
+    }
+
+    /// 1 plus a normal deviate with standard deviation `spread`, cut at two of them.
+    fn scatter(&self, spread: f64, dimension: Dimension) -> f64 {
+        if spread == 0.0 {
+            return 1.0;
+        }
+        let normal = Normal::standard();
+        let (low, high) = (normal.cdf(-2.0), normal.cdf(2.0));
+        1.0 + spread * normal.inverse_cdf(low + (high - low) * self.at(dimension))
+    }
+}
+
+fn deviate(problem: &Problem, point: &Point) -> Deviate {
+    let (jet, tolerance) = (&problem.jet, &problem.tolerance);
+    let angle = |half_width, dimension| point.within(half_width, dimension).sin_cos().into();
+    Deviate {
+        exit: exit_offset(jet.exit_diameter / 2.0, point),
+        cone: cone_direction(jet.divergence, jet.spread, point),
+        speed: point.scatter(jet.speed_spread, Dimension::SpeedScatter)
+            * (1.0 + point.within(tolerance.speed, Dimension::SpeedSetting)),
+        mass: point
+            .scatter(problem.shot.size_spread, Dimension::Size)
+            .powi(3),
+        incidence: angle(tolerance.incidence, Dimension::Incidence),
+        azimuth: angle(tolerance.azimuth, Dimension::Azimuth),
+        standoff: point.within(tolerance.standoff, Dimension::Standoff),
+        aim: [
+            point.within(tolerance.aim_along, Dimension::AimAlong),
+            point.within(tolerance.aim_across, Dimension::AimAcross),
+        ],
+        restitution: point.within(tolerance.restitution, Dimension::Restitution),
+        friction: 1.0 + point.within(tolerance.friction, Dimension::Friction),
+    }
+}
+
+/// Uniform in a disc.
+fn exit_offset(radius: f64, point: &Point) -> [f64; 2] {
+    if radius == 0.0 {
+        return [0.0; 2];
+    }
+    let distance = radius * point.at(Dimension::ExitRadius).sqrt();
+    let (sin, cos) = (std::f64::consts::TAU * point.at(Dimension::ExitTurn)).sin_cos();
+    [distance * cos, distance * sin]
+}
+
+/// A direction in the cone.
+fn cone_direction(half_angle: f64, spread: Spread, point: &Point) -> [f64; 3] {
+    if half_angle == 0.0 {
+        return [0.0, 0.0, 1.0];
+    }
+    let share = point.at(Dimension::ConeAngle);
+    let versine = match spread {
+        // Uniform in solid angle: 1 - cos is uniform. sin^2 of the half avoids cancellation.
+        Spread::Uniform => 2.0 * (half_angle / 2.0).sin().powi(2) * share,
+        Spread::Gaussian => {
+            let deviation = half_angle / 2.0;
+            let inside = 1.0 - (-2.0_f64).exp();
+            let angle = deviation * (-2.0 * (-share * inside).ln_1p()).sqrt();
+            2.0 * (angle / 2.0).sin().powi(2)
+        }
+    };
+    let sine = (versine * (2.0 - versine)).sqrt();
+    let (sin, cos) = (std::f64::consts::TAU * point.at(Dimension::ConeTurn)).sin_cos();
+    [sine * cos, sine * sin, 1.0 - versine]
+}
+
+/// Spreads the bits of a seed (the finaliser of SplitMix64).
+fn mix(seed: u64) -> u64 {
+    let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}

@@ -1,0 +1,111 @@
+//! Distances from points and rods to the facets of a part, over parry's tree.
+
+use nalgebra::{Point3, Vector3};
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{BvhLeafCost, BvhNode};
+use parry3d_f64::query::PointQuery;
+use parry3d_f64::query::details::closest_points_segment_segment_with_locations_nD;
+use parry3d_f64::shape::{Segment, Triangle};
+
+use super::facets::Facets;
+
+/// The point of a mesh nearest to a given one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct NearestPoint {
+    pub distance: f64,
+    pub triangle: u32,
+    pub point: Point3<f64>,
+}
+
+struct Distance(f64);
+
+impl BvhLeafCost for Distance {
+    fn cost(&self) -> f64 {
+        self.0
+    }
+}
+
+impl Facets {
+    /// The nearest point on the triangles that `counts` lets in.
+    pub(super) fn nearest_point(
+        &self,
+        to: &Point3<f64>,
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<NearestPoint> {
+        let centre: Vector = to.coords.into();
+        let (triangle, _) = self.tree().find_best(
+            f64::INFINITY,
+            |node, _| gap(node, centre, centre),
+            |index, _| {
+                let projection = self.triangle(index).project_local_point(centre, true);
+                counts(index).then(|| Distance((projection.point - centre).length()))
+            },
+        )?;
+        let nearest = self.triangle(triangle).project_local_point(centre, true);
+        let point: Vector3<f64> = nearest.point.into();
+        Some(NearestPoint {
+            distance: (point - to.coords).norm(),
+            triangle,
+            point: Point3::from(point),
+        })
+    }
+
+    /// Distance from the straight line between two points to the nearest triangle, and its index;
+    /// `None` when everything is farther than `limit`. 0 where the line passes through a triangle.
+    pub(super) fn distance_to_segment(
+        &self,
+        from: &Point3<f64>,
+        to: &Point3<f64>,
+        limit: f64,
+    ) -> Option<(f64, u32)> {
+        let segment = Segment::new(from.coords.into(), to.coords.into());
+        let (low, high) = (segment.a.min(segment.b), segment.a.max(segment.b));
+        let (triangle, Distance(distance)) = self.tree().find_best(
+            limit,
+            |node, _| gap(node, low, high),
+            |index, _| Some(Distance(segment_triangle(&segment, &self.triangle(index)))),
+        )?;
+        Some((distance, triangle))
+    }
+
+    fn triangle(&self, index: u32) -> Triangle {
+        let [a, b, c] = self.corners(index).map(|corner| corner.coords.into());
+        Triangle::new(a, b, c)
+    }
+}
+
+/// Distance between a tree node's box and the box from `low` to `high`.
+fn gap(node: &BvhNode, low: Vector, high: Vector) -> f64 {
+    let apart = (node.mins() - high).max(low - node.maxs());
+    apart.max(Vector::ZERO).length()
+}
+
+fn segment_triangle(segment: &Segment, triangle: &Triangle) -> f64 {
+    let to_point = |p: Vector| (triangle.project_local_point(p, true).point - p).length();
+    if crosses(segment, triangle) {
+        return 0.0;
+    }
+    let edges = triangle.edges();
+    let to_edges = edges.iter().map(|edge| {
+        let (on_segment, on_edge) = closest_points_segment_segment_with_locations_nD(
+            (&segment.a, &segment.b),
+            (&edge.a, &edge.b),
+        );
+        (segment.point_at(&on_segment) - edge.point_at(&on_edge)).length()
+    });
+    to_edges.fold(to_point(segment.a).min(to_point(segment.b)), f64::min)
+}
+
+fn crosses(segment: &Segment, triangle: &Triangle) -> bool {
+    let normal = (triangle.b - triangle.a).cross(triangle.c - triangle.a);
+    let (from, to) = (
+        (segment.a - triangle.a).dot(normal),
+        (segment.b - triangle.a).dot(normal),
+    );
+    if from * to > 0.0 || from == to {
+        return false;
+    }
+    let point = segment.a + (segment.b - segment.a) * (from / (from - to));
+    let side = |p: Vector, q: Vector| (q - p).cross(point - p).dot(normal) >= 0.0;
+    side(triangle.a, triangle.b) && side(triangle.b, triangle.c) && side(triangle.c, triangle.a)
+}

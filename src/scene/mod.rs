@@ -1,0 +1,207 @@
+//! What is there: parts, surfaces, the target patch; rays against them and distances to them.
+//!
+//! Prismatic parts are traced against their exact walls, other parts against their triangles.
+//! Surfaces are two-sided. This module is the only one that knows parry.
+
+mod clearance;
+mod facets;
+pub mod mesh;
+mod part;
+pub mod patch;
+mod prism;
+pub mod profile;
+pub mod ray;
+pub mod tessellate;
+
+use nalgebra::{Point3, Vector3};
+
+use crate::problem::equipment::{Body, Nozzle};
+use crate::problem::fault::Fault;
+use crate::problem::part::Part;
+use part::{BuiltPart, Geometry};
+use ray::{Hit, Ray, Spot};
+
+/// Two points nearer than this share of the scene's size count as one.
+const SLACK: f64 = 1e-12;
+
+/// The parts of a problem, ready for rays and distances.
+#[derive(Clone)]
+pub struct Scene {
+    parts: Vec<BuiltPart>,
+    surfaces: Vec<String>,
+    size: f64,
+}
+
+/// How prismatic parts are traced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Walls {
+    /// As planes and cylinders.
+    Exact,
+    /// As triangles whose chords turn by at most this angle, rad.
+    Facets {
+        /// rad.
+        chord_angle: f64,
+    },
+}
+
+impl Scene {
+    /// Builds every part.
+    ///
+    /// # Errors
+    /// Every mesh that cannot be read.
+    pub fn build(parts: &[Part], walls: Walls) -> Result<Self, Vec<Fault>> {
+        let mut faults = Vec::new();
+        let mut geometries = Vec::new();
+        for part in parts {
+            match Geometry::of(part, walls) {
+                Ok(geometry) => geometries.push(geometry),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let size = farthest_coordinate(&geometries);
+        let mut scene = Self {
+            parts: Vec::new(),
+            surfaces: Vec::new(),
+            size,
+        };
+        for (part, geometry) in parts.iter().zip(&geometries) {
+            let base = scene.surfaces.len() as u32;
+            scene.parts.push(geometry.build(part, base, SLACK * size));
+            let names = geometry.mesh.surfaces.iter();
+            let full = names.map(|name| format!("{}.{name}", part.name));
+            scene.surfaces.extend(full);
+        }
+        Ok(scene)
+    }
+
+    /// Full names of all surfaces, `part.surface`; their positions are their indices.
+    pub fn surfaces(&self) -> &[String] {
+        &self.surfaces
+    }
+
+    /// Index of the surface with this full name.
+    ///
+    /// # Errors
+    /// A fault (without a key) that names the nearest surface and lists all of them.
+    pub fn surface_named(&self, name: &str) -> Result<u32, Fault> {
+        let found = self.surfaces.iter().position(|surface| surface == name);
+        found.map(|index| index as u32).ok_or_else(|| {
+            let known = || self.surfaces.iter().map(String::as_str);
+            Fault::at_key("", format!("there is no surface `{name}`"))
+                .expecting(format!("one of {}", known().collect::<Vec<_>>().join(", ")))
+                .nearest(name, known())
+        })
+    }
+
+    /// Largest coordinate of any corner, m: the scale of rounding errors.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Number of triangles of all parts.
+    pub fn triangles(&self) -> usize {
+        self.parts.iter().map(|part| part.facets.len()).sum()
+    }
+
+    /// What a ray meets first. `leaving` is the spot that it starts from, if any: it is not hit
+    /// again at distance 0.
+    #[inline]
+    pub fn first_hit(&self, ray: &Ray, leaving: Option<Spot>) -> Option<Hit> {
+        let mut nearest = f64::INFINITY;
+        let mut hit = None;
+        for (index, part) in self.parts.iter().enumerate() {
+            let index = index as u32;
+            let on_it = leaving.is_some_and(|spot| spot.part == index);
+            let Some((crossing, front)) = part.first_crossing(ray, leaving, on_it, nearest) else {
+                continue;
+            };
+            nearest = crossing.distance;
+            hit = Some(Hit {
+                distance: crossing.distance,
+                point: ray.origin + ray.direction * crossing.distance,
+                normal: if crossing.front { front } else { -front },
+                surface: crossing.surface,
+                spot: Spot {
+                    part: index,
+                    piece: crossing.piece,
+                    front: crossing.front,
+                },
+            });
+        }
+        hit
+    }
+
+    /// Distance between the nozzle's body and the nearest surface, and that surface; negative when
+    /// they overlap. `None` for a nozzle without a body, or when everything is farther than `limit`.
+    pub fn clearance(
+        &self,
+        nozzle: &Nozzle,
+        exit: &Point3<f64>,
+        jet: &Vector3<f64>,
+        limit: f64,
+    ) -> Option<(f64, u32)> {
+        let mut nearest: Option<(f64, u32)> = None;
+        for body in &nozzle.body {
+            let (end, radius) = match *body {
+                Body::Ball { radius } => (*exit, radius),
+                Body::Capsule {
+                    length,
+                    radius,
+                    direction,
+                } => (exit + direction.unwrap_or(-jet) * length, radius),
+            };
+            for part in &self.parts {
+                let bound = nearest.map_or(limit, |(gap, _)| gap) + radius;
+                if let Some((distance, triangle)) = part.facets.distance_to_segment(exit, &end, bound) {
+                    nearest = Some((distance - radius, part.facets.surface(triangle)));
+                }
+            }
+        }
+        nearest
+    }
+
+    /// Corner points of all triangles of a surface.
+    pub fn surface_triangles(&self, surface: u32) -> impl Iterator<Item = [Point3<f64>; 3]> + '_ {
+        self.parts.iter().flat_map(move |part| {
+            let indices = 0..part.facets.len() as u32;
+            let of_surface = indices.filter(move |&index| part.facets.surface(index) == surface);
+            of_surface.map(|index| part.facets.corners(index))
+        })
+    }
+
+    /// The point of a surface nearest to a given point, and the unit normal on the front there.
+    pub fn nearest_on_surface(
+        &self,
+        to: &Point3<f64>,
+        surface: u32,
+    ) -> Option<(Point3<f64>, Vector3<f64>)> {
+        let candidates = self.parts.iter().enumerate().filter_map(|(index, part)| {
+            let on_it = |triangle| part.facets.surface(triangle) == surface;
+            let nearest = part.facets.nearest_point(to, on_it)?;
+            Some((index as u32, nearest))
+        });
+        let (part, nearest) = candidates.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance))?;
+        let facets = &self.parts[part as usize].facets;
+        let [a, b, c] = facets.corners(nearest.triangle);
+        let facet_normal = (b - a).cross(&(c - a)).normalize();
+        // Exact walls know their normal better than the facet that stands in for them.
+        let ray = Ray {
+            origin: nearest.point + facet_normal * (1e-3 * self.size),
+            direction: -facet_normal,
+        };
+        let wall = self.parts[part as usize].first_crossing(&ray, None, false, f64::INFINITY);
+        let normal = match wall {
+            Some((crossing, front)) if crossing.surface == surface && crossing.front => front,
+            _ => facet_normal,
+        };
+        Some((nearest.point, normal))
+    }
+}
+
+fn farthest_coordinate(geometries: &[Geometry]) -> f64 {
+    let vertices = geometries.iter().flat_map(|geometry| &geometry.mesh.vertices);
+    vertices.fold(0.0, |largest: f64, vertex| largest.max(vertex.coords.amax()))
+}

@@ -1,0 +1,189 @@
+//! The target patch: which hits count as on target, where the jet aims, and the directions there.
+
+use nalgebra::{Point3, Vector3};
+
+use super::Scene;
+use super::ray::Hit;
+use crate::problem::fault::Fault;
+use crate::problem::part::Target;
+
+/// The target of the scene.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// Index of its surface.
+    pub surface: u32,
+    /// Only this box of it.
+    pub within: Option<(Point3<f64>, Point3<f64>)>,
+    /// Where the settings are measured from.
+    pub frame: Frame,
+    /// Area of the patch, m2.
+    pub area: f64,
+}
+
+/// The aim point and the directions there: `along` x `normal` = `across`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The aim point, m.
+    pub aim: Point3<f64>,
+    /// n: unit normal towards the nozzle.
+    pub normal: Vector3<f64>,
+    /// a: unit vector of azimuth 0 in the target's plane.
+    pub along: Vector3<f64>,
+    /// b = a x n: unit vector of azimuth 90 deg.
+    pub across: Vector3<f64>,
+}
+
+impl Patch {
+    /// Whether a hit is on the target.
+    #[inline]
+    pub fn holds(&self, hit: &Hit) -> bool {
+        hit.surface == self.surface && self.within.is_none_or(|limits| inside(&hit.point, &limits))
+    }
+
+    /// Finds the patch in a scene.
+    ///
+    /// # Errors
+    /// An unknown surface, an empty patch, an aim point off the patch, or `along` perpendicular
+    /// to it.
+    pub fn find(scene: &Scene, target: &Target) -> Result<Self, Vec<Fault>> {
+        let surface = scene
+            .surface_named(&target.surface)
+            .map_err(|fault| vec![Fault { key: "target.surface".into(), ..fault }])?;
+        let pieces = scene.surface_triangles(surface);
+        let clipped = pieces.map(|corners| match target.within {
+            Some(limits) => clip(&corners, &limits),
+            None => corners.to_vec(),
+        });
+        let (area, centre) = area_and_centre(clipped);
+        if area <= 0.0 {
+            let fault = Fault::at_key(
+                "target.within",
+                format!("no part of `{}` lies in this box: the target is empty", target.surface),
+            );
+            return Err(vec![fault.expecting(format!(
+                "a box that meets {}",
+                extent(scene, surface)
+            ))]);
+        }
+        let aim = target.aim.unwrap_or(centre);
+        let reach = area.sqrt();
+        let nearest = scene.nearest_on_surface(&aim, surface);
+        let on_patch = |p: &Point3<f64>| {
+            target.within.is_none_or(|(low, high)| {
+                let margin = Vector3::repeat(1e-9);
+                inside(p, &(low - margin, high + margin))
+            })
+        };
+        // A mesh's facets lie a little inside the true surface that a drawing's numbers mean.
+        let near_enough = 1e-5_f64.max(1e-3 * reach);
+        let Some((_, front)) = nearest
+            .filter(|(foot, _)| (foot - aim).norm() <= near_enough && on_patch(&aim))
+        else {
+            return Err(vec![aim_fault(target, &aim)]);
+        };
+        let normal = match target.facing {
+            Some(facing) if facing.dot(&front) < 0.0 => -front,
+            _ => front,
+        };
+        let frame = Frame::new(aim, normal, target.along).ok_or_else(|| {
+            let fault = Fault::at_key("target.along", "is perpendicular to the target at the aim point");
+            vec![fault.expecting("a direction that can be laid into the target's plane")]
+        })?;
+        Ok(Self {
+            surface,
+            within: target.within,
+            frame,
+            area,
+        })
+    }
+}
+
+impl Frame {
+    /// The frame at an aim point; `None` when `along` has no part in the plane.
+    pub fn new(aim: Point3<f64>, normal: Vector3<f64>, along: Option<Vector3<f64>>) -> Option<Self> {
+        let laid = |direction: Vector3<f64>| {
+            let flat = direction - normal * direction.dot(&normal);
+            flat.try_normalize(1e-6 * direction.norm())
+        };
+        let along = match along {
+            Some(direction) => laid(direction)?,
+            // Without a wish: along z, or along x where the target faces along z.
+            None if normal.z.abs() < 0.9 => laid(Vector3::z())?,
+            None => laid(Vector3::x())?,
+        };
+        Some(Self {
+            aim,
+            normal,
+            along,
+            across: along.cross(&normal),
+        })
+    }
+}
+
+fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
+    let millimetres = aim.coords * 1e3;
+    let place = format!(
+        "[{:.3}, {:.3}, {:.3}] mm",
+        millimetres.x, millimetres.y, millimetres.z
+    );
+    match target.aim {
+        Some(_) => Fault::at_key("target.aim", format!("the aim point {place} is not on the target"))
+            .expecting(format!("a point on `{}`, inside `within` if that is given", target.surface)),
+        None => Fault::at_key(
+            "target",
+            format!("the centre of the target, {place}, does not lie on it"),
+        )
+        .expecting("`aim: [x, y, z]` with a point on the target"),
+    }
+}
+
+/// The box round a surface, in words.
+fn extent(scene: &Scene, surface: u32) -> String {
+    let corners = || scene.surface_triangles(surface).flatten();
+    let low = corners().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(&p.coords)) * 1e3;
+    let high = corners().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| high.sup(&p.coords)) * 1e3;
+    format!(
+        "x {:.3} to {:.3}, y {:.3} to {:.3}, z {:.3} to {:.3} mm",
+        low.x, high.x, low.y, high.y, low.z, high.z
+    )
+}
+
+fn inside(p: &Point3<f64>, (low, high): &(Point3<f64>, Point3<f64>)) -> bool {
+    (0..3).all(|i| low[i] <= p[i] && p[i] <= high[i])
+}
+
+/// A triangle cut to a box, as a convex polygon.
+fn clip(corners: &[Point3<f64>; 3], (low, high): &(Point3<f64>, Point3<f64>)) -> Vec<Point3<f64>> {
+    let mut polygon = corners.to_vec();
+    for axis in 0..3 {
+        for (limit, sign) in [(low[axis], 1.0), (high[axis], -1.0)] {
+            let depth = |p: &Point3<f64>| (p[axis] - limit) * sign;
+            let mut kept = Vec::with_capacity(polygon.len() + 1);
+            for (i, p) in polygon.iter().enumerate() {
+                let q = &polygon[(i + 1) % polygon.len()];
+                let (here, there) = (depth(p), depth(q));
+                if here >= 0.0 {
+                    kept.push(*p);
+                }
+                if (here < 0.0) != (there < 0.0) {
+                    kept.push(p + (q - p) * (here / (here - there)));
+                }
+            }
+            polygon = kept;
+        }
+    }
+    polygon
+}
+
+fn area_and_centre(polygons: impl Iterator<Item = Vec<Point3<f64>>>) -> (f64, Point3<f64>) {
+    let (mut area, mut moment) = (0.0, Vector3::zeros());
+    for polygon in polygons {
+        for pair in polygon.windows(2).skip(1) {
+            let (a, b, c) = (polygon[0], pair[0], pair[1]);
+            let piece = (b - a).cross(&(c - a)).norm() / 2.0;
+            area += piece;
+            moment += (a.coords + b.coords + c.coords) * (piece / 3.0);
+        }
+    }
+    (area, Point3::from(moment / area))
+}

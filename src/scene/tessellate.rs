@@ -1,0 +1,127 @@
+//! Meshes of parametric shapes: for clearance, the target patch, pictures and comparison.
+
+use nalgebra::{Point2, Point3};
+
+use super::mesh::{Mesh, Triangle};
+use super::profile::Profile;
+use crate::problem::part::{Ends, Place};
+
+/// A prism as triangles; arcs become chords that turn by at most `chord_angle` rad each.
+///
+/// The corner points lie on the true surface, so facets lie inside an arc by up to
+/// radius (1 - cos(chord_angle / 2)) and their normals are off by up to half the angle.
+pub fn prism(profile: &Profile, length: f64, ends: Ends, chord_angle: f64) -> Mesh {
+    let mut mesh = Mesh {
+        surfaces: profile.surfaces.clone(),
+        ..Mesh::default()
+    };
+    let chains = profile.chords(chord_angle);
+    for (piece, chain) in profile.pieces.iter().zip(&chains) {
+        for pair in chain.windows(2) {
+            let quad = wall(&mut mesh, pair[0], pair[1], length);
+            add_quad(&mut mesh, quad, piece.surface);
+        }
+    }
+    let outline: Vec<Point2<f64>> = chains
+        .iter()
+        .flat_map(|chain| chain[..chain.len() - 1].iter().copied())
+        .collect();
+    if ends.near_closed {
+        add_cap(&mut mesh, &outline, 0.0, true, "near");
+    }
+    if ends.far_closed {
+        add_cap(&mut mesh, &outline, length, false, "far");
+    }
+    mesh
+}
+
+/// A block as triangles, fronts outwards; surfaces `x_min`, `x_max`, `y_min`, ...
+pub fn block(min: Point3<f64>, max: Point3<f64>) -> Mesh {
+    let mut mesh = Mesh::default();
+    let corner = |i: usize| {
+        let pick = |bit: usize, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
+        Point3::new(
+            pick(0, min.x, max.x),
+            pick(1, min.y, max.y),
+            pick(2, min.z, max.z),
+        )
+    };
+    mesh.vertices = (0..8).map(corner).collect();
+    for (name, quad) in [
+        ("x_min", [0, 4, 6, 2]),
+        ("x_max", [1, 3, 7, 5]),
+        ("y_min", [0, 1, 5, 4]),
+        ("y_max", [2, 6, 7, 3]),
+        ("z_min", [0, 2, 3, 1]),
+        ("z_max", [4, 5, 7, 6]),
+    ] {
+        let surface = mesh.surface_index(name);
+        add_quad(&mut mesh, quad, surface);
+    }
+    mesh
+}
+
+/// Moves a mesh to its place.
+pub fn placed(mut mesh: Mesh, place: &Place) -> Mesh {
+    for vertex in &mut mesh.vertices {
+        *vertex = place.rotation * *vertex + place.shift;
+    }
+    mesh
+}
+
+/// Corner indices of the wall above one chord, counter-clockwise from the chord's left.
+fn wall(mesh: &mut Mesh, from: Point2<f64>, to: Point2<f64>, length: f64) -> [u32; 4] {
+    [
+        vertex(mesh, from, 0.0),
+        vertex(mesh, from, length),
+        vertex(mesh, to, length),
+        vertex(mesh, to, 0.0),
+    ]
+}
+
+/// Index of a corner point, shared with the chord before or with the very first chord.
+fn vertex(mesh: &mut Mesh, point: Point2<f64>, z: f64) -> u32 {
+    let found = Point3::new(point.x, point.y, z);
+    let same = |other: &Point3<f64>| (other - found).norm() <= 1e-12 * point.coords.norm();
+    let count = mesh.vertices.len();
+    let recent = count.saturating_sub(4)..count;
+    let first = 0..count.min(4);
+    let known = recent.chain(first).find(|&i| same(&mesh.vertices[i]));
+    known.unwrap_or_else(|| {
+        mesh.vertices.push(found);
+        count
+    }) as u32
+}
+
+fn add_quad(mesh: &mut Mesh, [a, b, c, d]: [u32; 4], surface: u32) {
+    mesh.triangles.extend([[a, b, c], [a, c, d]].map(|corners| Triangle { corners, surface }));
+}
+
+fn add_cap(mesh: &mut Mesh, outline: &[Point2<f64>], z: f64, front_up: bool, name: &str) {
+    let surface = mesh.surface_index(name);
+    let corners: Vec<u32> = outline
+        .iter()
+        .map(|point| {
+            let wanted = Point3::new(point.x, point.y, z);
+            let known = mesh.vertices.iter().position(|vertex| {
+                vertex.z == z && (vertex - wanted).norm() <= 1e-12 * point.coords.norm()
+            });
+            known.unwrap_or_else(|| {
+                mesh.vertices.push(wanted);
+                mesh.vertices.len() - 1
+            }) as u32
+        })
+        .collect();
+    let mut triangles: Vec<usize> = Vec::new();
+    let points = outline.iter().map(|p| [p.x, p.y]);
+    earcut::Earcut::new().earcut(points, &[], &mut triangles);
+    for triple in triangles.chunks_exact(3) {
+        let [a, b, c] = [triple[0], triple[1], triple[2]];
+        let up = (outline[b] - outline[a]).perp(&(outline[c] - outline[a])) > 0.0;
+        let ordered = if up == front_up { [a, b, c] } else { [a, c, b] };
+        mesh.triangles.push(Triangle {
+            corners: ordered.map(|i| corners[i]),
+            surface,
+        });
+    }
+}

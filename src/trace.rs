@@ -1,0 +1,148 @@
+//! Shots through the scene: from the exit, through every impact, to where the path ends.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::impact::{Contact, Regime, rebound};
+use crate::jet::{Aim, Deviate};
+use crate::problem::setting::Choice;
+use crate::scene::ray::{Ray, Spot};
+use crate::setup::Setup;
+
+/// Traces the shots of one choice of settings.
+pub struct Tracer<'a> {
+    setup: &'a Setup,
+    aim: Aim,
+    contact: Contact,
+    speed: f64,
+}
+
+/// One impact of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathImpact {
+    /// 1 for the first hit; hits on deflectors are not numbered and not reported.
+    pub number: usize,
+    /// Index of the surface.
+    pub surface: u32,
+    /// Whether it is on the target patch.
+    pub on_target: bool,
+    /// N*, N s.
+    pub normal_impulse: f64,
+    /// f*, N s.
+    pub tangential_impulse: f64,
+    /// Stick or slip.
+    pub regime: Regime,
+    /// The place, m.
+    pub point: Point3<f64>,
+    /// Velocity of the centre afterwards, m/s.
+    pub velocity: Vector3<f64>,
+    /// R w afterwards, m/s, R being the shot's radius.
+    pub rolling: Vector3<f64>,
+}
+
+/// Why a path ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum End {
+    /// It left the scene.
+    Left,
+    /// It stays on a surface (E = 0).
+    Stays,
+    /// Its energy fell below the least share.
+    Spent,
+    /// It had as many impacts as are followed.
+    Limit,
+}
+
+/// Hits on deflectors that one flight may have before it counts as caught between them.
+const MOST_DEFLECTIONS: usize = 100;
+
+impl<'a> Tracer<'a> {
+    /// A tracer of shots that leave the exit at `speed` (m/s) times their own factor.
+    pub fn new(setup: &'a Setup, choice: &Choice, speed: f64) -> Self {
+        let contact = setup.problem.contacts[choice.contact].at(choice.static_friction);
+        Self {
+            setup,
+            aim: Aim::new(choice),
+            contact,
+            speed,
+        }
+    }
+
+    /// Follows one shot; reports each impact. Returns why the path ended and how many rays it took.
+    #[inline]
+    pub fn follow(
+        &self,
+        deviate: &Deviate,
+        mut report: impl FnMut(&PathImpact),
+    ) -> (End, usize) {
+        let setup = self.setup;
+        let limits = setup.problem.paths;
+        let mass = setup.problem.shot.mass() * deviate.mass;
+        let mut ray = self.aim.shot(&setup.target.frame, deviate);
+        let mut velocity = ray.direction * (self.speed * deviate.speed);
+        let mut rolling = Vector3::zeros();
+        let mut leaving: Option<Spot> = None;
+        let least_energy = limits.least_energy * energy(&velocity, &rolling);
+        let (mut number, mut deflections, mut rays) = (0, 0, 0);
+        loop {
+            rays += 1;
+            let Some(hit) = setup.scene.first_hit(&ray, leaving) else {
+                return (End::Left, rays);
+            };
+            let surface = &setup.surfaces[hit.surface as usize];
+            let contact = surface.contact.unwrap_or(self.contact);
+            let contact = perturbed(contact, deviate);
+            let Some(after) = rebound(&contact, &velocity, &rolling, &hit.normal) else {
+                return (End::Left, rays);
+            };
+            (velocity, rolling) = (after.velocity, after.rolling);
+            if surface.deflector {
+                deflections += 1;
+            } else {
+                number += 1;
+                report(&PathImpact {
+                    number,
+                    surface: hit.surface,
+                    on_target: setup.target.holds(&hit),
+                    normal_impulse: mass * after.normal,
+                    tangential_impulse: mass * after.tangential,
+                    regime: after.regime,
+                    point: hit.point,
+                    velocity,
+                    rolling,
+                });
+            }
+            if velocity.dot(&hit.normal) <= 0.0 {
+                return (End::Stays, rays);
+            }
+            if energy(&velocity, &rolling) < least_energy {
+                return (End::Spent, rays);
+            }
+            if number == limits.impacts || deflections == MOST_DEFLECTIONS {
+                return (End::Limit, rays);
+            }
+            ray = Ray {
+                origin: hit.point,
+                direction: velocity.normalize(),
+            };
+            leaving = Some(hit.spot);
+        }
+    }
+}
+
+/// Kinetic energy per unit mass of a solid sphere, translation and rotation, J/kg.
+fn energy(velocity: &Vector3<f64>, rolling: &Vector3<f64>) -> f64 {
+    0.5 * velocity.norm_squared() + 0.2 * rolling.norm_squared()
+}
+
+/// The contact that a shot meets when restitution and friction are not exactly known.
+fn perturbed(contact: Contact, deviate: &Deviate) -> Contact {
+    if deviate.restitution == 0.0 && deviate.friction == 1.0 {
+        return contact;
+    }
+    Contact {
+        static_friction: contact.static_friction * deviate.friction,
+        dynamic_friction: contact.dynamic_friction * deviate.friction,
+        restitution: contact.restitution.shifted(deviate.restitution),
+        ..contact
+    }
+}
