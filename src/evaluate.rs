@@ -255,7 +255,11 @@ fn target_receipt(goals: &Goals, speed: f64, replicates: &[Replicate]) -> Target
     let tangential: Vec<f64> = impulses().map(|hit| hit.tangential * speed).collect();
     let goal = goals.normal_impulse;
     let off = |n: &&f64| (**n / goal.target - 1.0).abs() > goal.tolerance;
-    let over = |f: &&f64| goals.tangential_impulse.is_some_and(|goal| **f > goal.limit);
+    let over = |f: &&f64| {
+        goals
+            .tangential_impulse
+            .is_some_and(|goal| **f > goal.limit)
+    };
     TargetReceipt {
         hits: normal.len(),
         off_target: normal.iter().filter(off).count(),

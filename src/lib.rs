@@ -3,11 +3,11 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod evaluate;
 pub mod impact;
+pub mod jet;
+pub mod objective;
 pub mod problem;
 pub mod scene;
-pub mod jet;
 pub mod setup;
 pub mod trace;
-pub mod evaluate;
-pub mod objective;

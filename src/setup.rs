@@ -89,7 +89,11 @@ fn surface_limits(problem: &Problem, scene: &Scene) -> Result<Vec<SurfaceLimits>
             }),
         }
     }
-    if faults.is_empty() { Ok(limits) } else { Err(faults) }
+    if faults.is_empty() {
+        Ok(limits)
+    } else {
+        Err(faults)
+    }
 }
 
 /// Share of the shots that may exceed a surface's own limit when no general one is given.

@@ -67,17 +67,27 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Follows one shot; reports each impact. Returns why the path ended and how many rays it took.
+    /// Follows one shot of the jet; reports each impact. Returns why the path ended and how many
+    /// rays it took.
     #[inline]
-    pub fn follow(
+    pub fn follow(&self, deviate: &Deviate, report: impl FnMut(&PathImpact)) -> (End, usize) {
+        let ray = self.aim.shot(&self.setup.target.frame, deviate);
+        self.follow_from(ray, deviate, report)
+    }
+
+    /// Follows a shot that starts anywhere in the scene, with the mass, speed and contact that
+    /// `deviate` gives it.
+    #[inline]
+    pub fn follow_from(
         &self,
+        start: Ray,
         deviate: &Deviate,
         mut report: impl FnMut(&PathImpact),
     ) -> (End, usize) {
         let setup = self.setup;
         let limits = setup.problem.paths;
         let mass = setup.problem.shot.mass() * deviate.mass;
-        let mut ray = self.aim.shot(&setup.target.frame, deviate);
+        let mut ray = start;
         let mut velocity = ray.direction * (self.speed * deviate.speed);
         let mut rolling = Vector3::zeros();
         let mut leaving: Option<Spot> = None;
@@ -111,7 +121,7 @@ impl<'a> Tracer<'a> {
                     rolling,
                 });
             }
-            if velocity.dot(&hit.normal) <= 0.0 {
+            if after.departure == 0.0 {
                 return (End::Stays, rays);
             }
             if energy(&velocity, &rolling) < least_energy {

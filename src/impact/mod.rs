@@ -116,6 +116,8 @@ pub struct Rebound {
     pub tangential: f64,
     /// Whether the contact point came to rest.
     pub regime: Regime,
+    /// Speed at which the sphere leaves the surface, E |v_n|, m/s; exactly 0 when it stays.
+    pub departure: f64,
     /// Velocity of the centre afterwards, m/s.
     pub velocity: Vector3<f64>,
     /// R w afterwards, m/s.
@@ -140,7 +142,8 @@ pub fn rebound(
     let slip = velocity - normal * normal_speed + normal.cross(rolling);
     let slip_speed = slip.norm();
     // Eq. 10.
-    let normal_impulse = -(1.0 + contact.restitution.at(-normal_speed)) * normal_speed;
+    let restitution = contact.restitution.at(-normal_speed);
+    let normal_impulse = -(1.0 + restitution) * normal_speed;
     let friction = contact.law.friction(contact, normal_impulse, slip_speed);
     let tangential = slip * friction.per_slip;
     // Eqs. 8, 17 and 14; the sphere's moment of inertia makes the factor R^2 m/I = 5/2.
@@ -154,6 +157,7 @@ pub fn rebound(
         normal: normal_impulse,
         tangential: friction.per_slip * slip_speed,
         regime: friction.regime,
+        departure: -restitution * normal_speed,
         velocity: velocity_after,
         rolling: rolling_after,
     })

@@ -3,6 +3,6 @@
 mod pose;
 mod sample;
 
-pub use pose::Pose;
 pub(crate) use pose::Aim;
+pub use pose::Pose;
 pub use sample::{Deviate, Samples, Stream};

@@ -100,8 +100,5 @@ impl Aim {
 /// Sine and cosine of the sum of two angles given by theirs.
 #[inline]
 fn add_angle([sin_a, cos_a]: [f64; 2], [sin_b, cos_b]: [f64; 2]) -> [f64; 2] {
-    [
-        sin_a * cos_b + cos_a * sin_b,
-        cos_a * cos_b - sin_a * sin_b,
-    ]
+    [sin_a * cos_b + cos_a * sin_b, cos_a * cos_b - sin_a * sin_b]
 }

@@ -31,6 +31,22 @@ pub struct Deviate {
     pub friction: f64,
 }
 
+impl Deviate {
+    /// The mean shot, on the axis.
+    pub const NONE: Self = Self {
+        exit: [0.0; 2],
+        cone: [0.0, 0.0, 1.0],
+        speed: 1.0,
+        mass: 1.0,
+        incidence: [0.0, 1.0],
+        azimuth: [0.0, 1.0],
+        standoff: 0.0,
+        aim: [0.0; 2],
+        restitution: 0.0,
+        friction: 1.0,
+    };
+}
+
 /// The shots of a jet, without its pose.
 #[derive(Clone, Debug)]
 pub struct Samples {
@@ -101,7 +117,11 @@ impl Point {
 
     /// Uniform in 0 to 1.
     fn at(&self, dimension: Dimension) -> f64 {
-        f64::from(sobol_burley::sample(self.index, dimension as u32, self.seed))
+        f64::from(sobol_burley::sample(
+            self.index,
+            dimension as u32,
+            self.seed,
+        ))
     }
 
     /// Uniform within +- `half_width`.

@@ -25,7 +25,9 @@ pub struct Triangle {
 impl Mesh {
     /// The corner points of a triangle.
     pub fn corners(&self, triangle: &Triangle) -> [Point3<f64>; 3] {
-        triangle.corners.map(|corner| self.vertices[corner as usize])
+        triangle
+            .corners
+            .map(|corner| self.vertices[corner as usize])
     }
 
     /// Twice the area times the unit normal on the front.

@@ -155,7 +155,9 @@ impl Scene {
             };
             for part in &self.parts {
                 let bound = nearest.map_or(limit, |(gap, _)| gap) + radius;
-                if let Some((distance, triangle)) = part.facets.distance_to_segment(exit, &end, bound) {
+                if let Some((distance, triangle)) =
+                    part.facets.distance_to_segment(exit, &end, bound)
+                {
                     nearest = Some((distance - radius, part.facets.surface(triangle)));
                 }
             }
@@ -202,6 +204,10 @@ impl Scene {
 }
 
 fn farthest_coordinate(geometries: &[Geometry]) -> f64 {
-    let vertices = geometries.iter().flat_map(|geometry| &geometry.mesh.vertices);
-    vertices.fold(0.0, |largest: f64, vertex| largest.max(vertex.coords.amax()))
+    let vertices = geometries
+        .iter()
+        .flat_map(|geometry| &geometry.mesh.vertices);
+    vertices.fold(0.0, |largest: f64, vertex| {
+        largest.max(vertex.coords.amax())
+    })
 }

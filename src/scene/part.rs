@@ -2,13 +2,13 @@
 
 use nalgebra::Vector3;
 
+use super::Walls;
 use super::facets::Facets;
 use super::mesh::Mesh;
 use super::prism::Prism;
 use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
 use super::tessellate;
-use super::Walls;
 use crate::problem::fault::Fault;
 use crate::problem::part::{Ends, Part, Shape};
 

@@ -46,9 +46,12 @@ impl Patch {
     /// An unknown surface, an empty patch, an aim point off the patch, or `along` perpendicular
     /// to it.
     pub fn find(scene: &Scene, target: &Target) -> Result<Self, Vec<Fault>> {
-        let surface = scene
-            .surface_named(&target.surface)
-            .map_err(|fault| vec![Fault { key: "target.surface".into(), ..fault }])?;
+        let surface = scene.surface_named(&target.surface).map_err(|fault| {
+            vec![Fault {
+                key: "target.surface".into(),
+                ..fault
+            }]
+        })?;
         let pieces = scene.surface_triangles(surface);
         let clipped = pieces.map(|corners| match target.within {
             Some(limits) => clip(&corners, &limits),
@@ -58,12 +61,14 @@ impl Patch {
         if area <= 0.0 {
             let fault = Fault::at_key(
                 "target.within",
-                format!("no part of `{}` lies in this box: the target is empty", target.surface),
+                format!(
+                    "no part of `{}` lies in this box: the target is empty",
+                    target.surface
+                ),
             );
-            return Err(vec![fault.expecting(format!(
-                "a box that meets {}",
-                extent(scene, surface)
-            ))]);
+            return Err(vec![
+                fault.expecting(format!("a box that meets {}", extent(scene, surface))),
+            ]);
         }
         let aim = target.aim.unwrap_or(centre);
         let reach = area.sqrt();
@@ -76,8 +81,8 @@ impl Patch {
         };
         // A mesh's facets lie a little inside the true surface that a drawing's numbers mean.
         let near_enough = 1e-5_f64.max(1e-3 * reach);
-        let Some((_, front)) = nearest
-            .filter(|(foot, _)| (foot - aim).norm() <= near_enough && on_patch(&aim))
+        let Some((_, front)) =
+            nearest.filter(|(foot, _)| (foot - aim).norm() <= near_enough && on_patch(&aim))
         else {
             return Err(vec![aim_fault(target, &aim)]);
         };
@@ -86,7 +91,10 @@ impl Patch {
             _ => front,
         };
         let frame = Frame::new(aim, normal, target.along).ok_or_else(|| {
-            let fault = Fault::at_key("target.along", "is perpendicular to the target at the aim point");
+            let fault = Fault::at_key(
+                "target.along",
+                "is perpendicular to the target at the aim point",
+            );
             vec![fault.expecting("a direction that can be laid into the target's plane")]
         })?;
         Ok(Self {
@@ -100,7 +108,11 @@ impl Patch {
 
 impl Frame {
     /// The frame at an aim point; `None` when `along` has no part in the plane.
-    pub fn new(aim: Point3<f64>, normal: Vector3<f64>, along: Option<Vector3<f64>>) -> Option<Self> {
+    pub fn new(
+        aim: Point3<f64>,
+        normal: Vector3<f64>,
+        along: Option<Vector3<f64>>,
+    ) -> Option<Self> {
         let laid = |direction: Vector3<f64>| {
             let flat = direction - normal * direction.dot(&normal);
             flat.try_normalize(1e-6 * direction.norm())
@@ -127,8 +139,14 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
         millimetres.x, millimetres.y, millimetres.z
     );
     match target.aim {
-        Some(_) => Fault::at_key("target.aim", format!("the aim point {place} is not on the target"))
-            .expecting(format!("a point on `{}`, inside `within` if that is given", target.surface)),
+        Some(_) => Fault::at_key(
+            "target.aim",
+            format!("the aim point {place} is not on the target"),
+        )
+        .expecting(format!(
+            "a point on `{}`, inside `within` if that is given",
+            target.surface
+        )),
         None => Fault::at_key(
             "target",
             format!("the centre of the target, {place}, does not lie on it"),
@@ -141,7 +159,9 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
 fn extent(scene: &Scene, surface: u32) -> String {
     let corners = || scene.surface_triangles(surface).flatten();
     let low = corners().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(&p.coords)) * 1e3;
-    let high = corners().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| high.sup(&p.coords)) * 1e3;
+    let high = corners().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| {
+        high.sup(&p.coords)
+    }) * 1e3;
     format!(
         "x {:.3} to {:.3}, y {:.3} to {:.3}, z {:.3} to {:.3} mm",
         low.x, high.x, low.y, high.y, low.z, high.z

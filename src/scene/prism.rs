@@ -71,7 +71,10 @@ impl Prism {
             .collect();
         let mut next_surface = surface_base + profile.surfaces.len() as u32;
         let mut caps = Vec::new();
-        for (closed, z, facing) in [(ends.near_closed, 0.0, 1.0), (ends.far_closed, length, -1.0)] {
+        for (closed, z, facing) in [
+            (ends.near_closed, 0.0, 1.0),
+            (ends.far_closed, length, -1.0),
+        ] {
             if closed {
                 caps.push(Cap {
                     z,
@@ -255,7 +258,10 @@ impl Form {
             Self::Plane { .. } if on_it => [f64::NAN; 2],
             Self::Plane { from, tangent, .. } => {
                 let front = perpendicular(tangent);
-                [(from - origin).dot(&front) / direction.dot(&front), f64::NAN]
+                [
+                    (from - origin).dot(&front) / direction.dot(&front),
+                    f64::NAN,
+                ]
             }
             Self::Cylinder { centre, radius, .. } => {
                 let offset = origin - centre;

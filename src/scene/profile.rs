@@ -63,7 +63,11 @@ impl Curve {
         let turn = std::f64::consts::TAU;
         let forward = (direction(to) - start).rem_euclid(turn);
         // The three points run counter-clockwise exactly when the arc does.
-        let sweep = if twice_area > 0.0 { forward } else { forward - turn };
+        let sweep = if twice_area > 0.0 {
+            forward
+        } else {
+            forward - turn
+        };
         Some(Self::Arc {
             centre,
             radius: offset.norm(),
@@ -190,10 +194,7 @@ impl Profile {
             sweep: std::f64::consts::FRAC_PI_2,
         };
         let mut profile = Self::empty();
-        profile.push(
-            line(half - root, floor, -(half - root), floor),
-            "floor",
-        );
+        profile.push(line(half - root, floor, -(half - root), floor), "floor");
         if root > 0.0 {
             profile.push(
                 fillet(-(half - root), std::f64::consts::FRAC_PI_2),

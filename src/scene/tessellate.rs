@@ -94,7 +94,8 @@ fn vertex(mesh: &mut Mesh, point: Point2<f64>, z: f64) -> u32 {
 }
 
 fn add_quad(mesh: &mut Mesh, [a, b, c, d]: [u32; 4], surface: u32) {
-    mesh.triangles.extend([[a, b, c], [a, c, d]].map(|corners| Triangle { corners, surface }));
+    mesh.triangles
+        .extend([[a, b, c], [a, c, d]].map(|corners| Triangle { corners, surface }));
 }
 
 fn add_cap(mesh: &mut Mesh, outline: &[Point2<f64>], z: f64, front_up: bool, name: &str) {
