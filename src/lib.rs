@@ -10,4 +10,6 @@ pub mod objective;
 pub mod problem;
 pub mod scene;
 pub mod setup;
+pub mod solve;
 pub mod trace;
+pub mod verdict;

@@ -31,6 +31,10 @@ impl Terms {
 pub struct Tally {
     /// Number of shots.
     pub shots: usize,
+    /// What those shots stand for together.
+    pub weight: f64,
+    /// What those whose first hit is not on the target stand for.
+    pub missed: f64,
     /// Impulses of the first hits on target, N s per m/s.
     pub hits: Vec<Impulses>,
     /// Sum over shots and impacts on secondary surfaces of weight (N*/N_allow)^2, per (m/s)^2.
@@ -46,6 +50,8 @@ pub struct Impulses {
     pub normal: f64,
     /// Tangential.
     pub tangential: f64,
+    /// What the shot stands for.
+    pub weight: f64,
 }
 
 /// Shots whose sums are added up first, so that sums do not depend on how work is shared out.
@@ -57,8 +63,9 @@ impl Tally {
         let tracer = Tracer::new(setup, choice, speed);
         let mut tallier = Tallier::new(setup, speed, shots.len());
         for deviate in shots {
-            let (_, rays) = tracer.follow(deviate, |impact| tallier.add_impact(impact));
-            tallier.end_shot(rays);
+            let (_, rays) =
+                tracer.follow(deviate, |impact| tallier.add_impact(impact, deviate.weight));
+            tallier.end_shot(rays, deviate.weight);
         }
         tallier.finish()
     }
@@ -75,8 +82,8 @@ impl Tally {
             .tangential_impulse
             .map_or(f64::INFINITY, |goal| goal.limit);
         let mut total = Sums {
-            shots: self.shots,
-            hits: self.hits.len(),
+            weight: self.weight,
+            missed: self.missed,
             normal: 0.0,
             tangential: 0.0,
             rebound: self.rebound * speed * speed,
@@ -84,8 +91,8 @@ impl Tally {
         for chunk in self.hits.chunks(CHUNK) {
             let (mut normal, mut tangential) = (0.0, 0.0);
             for hit in chunk {
-                normal += (hit.normal * speed / target - 1.0).powi(2);
-                tangential += (hit.tangential * speed / limit - 1.0).max(0.0).powi(2);
+                normal += hit.weight * (hit.normal * speed / target - 1.0).powi(2);
+                tangential += hit.weight * (hit.tangential * speed / limit - 1.0).max(0.0).powi(2);
             }
             total.normal += normal;
             total.tangential += tangential;
@@ -137,21 +144,27 @@ impl Tally {
             let (mut chunk_slope, mut chunk_curvature) = (0.0, 0.0);
             for hit in chunk {
                 let gain = hit.normal / target;
-                chunk_slope += goals.normal_impulse.weight * (gain * speed - 1.0) * gain;
-                chunk_curvature += goals.normal_impulse.weight * gain * gain;
+                let weight = hit.weight * goals.normal_impulse.weight;
+                chunk_slope += weight * (gain * speed - 1.0) * gain;
+                chunk_curvature += weight * gain * gain;
                 if let Some(goal) = tangential {
                     let gain = hit.tangential / goal.limit;
                     if gain * speed > 1.0 {
-                        chunk_slope += goal.weight * (gain * speed - 1.0) * gain;
-                        chunk_curvature += goal.weight * gain * gain;
+                        let weight = hit.weight * goal.weight;
+                        chunk_slope += weight * (gain * speed - 1.0) * gain;
+                        chunk_curvature += weight * gain * gain;
                     }
                 }
             }
             slope += chunk_slope;
             curvature += chunk_curvature;
         }
-        let hits = self.hits.len().max(1) as f64;
-        let rebound = self.rebound / self.shots as f64;
+        let hits = if self.hits.is_empty() {
+            1.0
+        } else {
+            self.weight - self.missed
+        };
+        let rebound = self.rebound / self.weight;
         (
             2.0 * (slope / hits + rebound * speed),
             2.0 * (curvature / hits + rebound),
@@ -166,6 +179,9 @@ pub struct Tallier<'a> {
     setup: &'a Setup,
     speed: f64,
     tally: Tally,
+    hit_target: bool,
+    chunk_weight: f64,
+    chunk_missed: f64,
     chunk_rebound: f64,
 }
 
@@ -180,40 +196,51 @@ impl<'a> Tallier<'a> {
             setup,
             speed,
             tally,
+            hit_target: false,
+            chunk_weight: 0.0,
+            chunk_missed: 0.0,
             chunk_rebound: 0.0,
         }
     }
 
     /// Adds one impact of the current shot.
     #[inline]
-    pub fn add_impact(&mut self, impact: &PathImpact) {
+    pub fn add_impact(&mut self, impact: &PathImpact, weight: f64) {
+        self.hit_target |= impact.on_target && impact.number == 1;
         if !impact.on_target {
             let limits = &self.setup.surfaces[impact.surface as usize];
             if let Some(allow) = limits.allow {
-                self.chunk_rebound += limits.weight * (impact.normal_impulse / allow).powi(2);
+                self.chunk_rebound +=
+                    weight * limits.weight * (impact.normal_impulse / allow).powi(2);
             }
         } else if impact.number == 1 {
             self.tally.hits.push(Impulses {
                 normal: impact.normal_impulse / self.speed,
                 tangential: impact.tangential_impulse / self.speed,
+                weight,
             });
         }
     }
 
     /// Ends the current shot, which took this many rays.
     #[inline]
-    pub fn end_shot(&mut self, rays: usize) {
+    pub fn end_shot(&mut self, rays: usize, weight: f64) {
         self.tally.shots += 1;
+        self.chunk_weight += weight;
+        if !self.hit_target {
+            self.chunk_missed += weight;
+        }
+        self.hit_target = false;
         self.tally.rays += rays;
         if self.tally.shots.is_multiple_of(CHUNK) {
             self.close_chunk();
         }
     }
 
-    /// Adds a whole shot.
+    /// Adds a whole shot that stands for itself.
     pub fn add_shot(&mut self, path: &[PathImpact], rays: usize) {
-        path.iter().for_each(|impact| self.add_impact(impact));
-        self.end_shot(rays);
+        path.iter().for_each(|impact| self.add_impact(impact, 1.0));
+        self.end_shot(rays, 1.0);
     }
 
     /// The tally of all shots.
@@ -224,15 +251,17 @@ impl<'a> Tallier<'a> {
 
     fn close_chunk(&mut self) {
         self.tally.rebound += self.chunk_rebound / (self.speed * self.speed);
-        self.chunk_rebound = 0.0;
+        self.tally.weight += self.chunk_weight;
+        self.tally.missed += self.chunk_missed;
+        (self.chunk_rebound, self.chunk_weight, self.chunk_missed) = (0.0, 0.0, 0.0);
     }
 }
 
 /// Sums over shots from which the terms follow; those of several sets of shots add up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sums {
-    shots: usize,
-    hits: usize,
+    weight: f64,
+    missed: f64,
     normal: f64,
     tangential: f64,
     rebound: f64,
@@ -243,8 +272,8 @@ impl Sums {
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         Self {
-            shots: self.shots + other.shots,
-            hits: self.hits + other.hits,
+            weight: self.weight + other.weight,
+            missed: self.missed + other.missed,
             normal: self.normal + other.normal,
             tangential: self.tangential + other.tangential,
             rebound: self.rebound + other.rebound,
@@ -254,13 +283,15 @@ impl Sums {
     /// The terms, averaged as the objective says.
     pub fn terms(&self, goals: &Goals) -> Terms {
         let tangential_weight = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
-        let hits = self.hits.max(1) as f64;
-        let shots = self.shots.max(1) as f64;
+        let share_of_hits = |sum: f64| {
+            let hits = self.weight - self.missed;
+            if hits > 0.0 { sum / hits } else { 0.0 }
+        };
         Terms {
-            normal_impulse: goals.normal_impulse.weight * self.normal / hits,
-            tangential_impulse: tangential_weight * self.tangential / hits,
-            rebound: self.rebound / shots,
-            miss: goals.miss.weight * (self.shots - self.hits) as f64 / shots,
+            normal_impulse: goals.normal_impulse.weight * share_of_hits(self.normal),
+            tangential_impulse: tangential_weight * share_of_hits(self.tangential),
+            rebound: self.rebound / self.weight,
+            miss: goals.miss.weight * self.missed / self.weight,
         }
     }
 }

@@ -29,6 +29,8 @@ pub struct Deviate {
     pub restitution: f64,
     /// Factor on the friction coefficients.
     pub friction: f64,
+    /// What the shot stands for: 1, or less for one of the shots on the rim.
+    pub weight: f64,
 }
 
 impl Deviate {
@@ -44,6 +46,7 @@ impl Deviate {
         aim: [0.0; 2],
         restitution: 0.0,
         friction: 1.0,
+        weight: 1.0,
     };
 }
 
@@ -86,12 +89,30 @@ enum Dimension {
 const POINTS_PER_SEED: u32 = 1 << 16;
 
 impl Samples {
-    /// The first `count` shots of a stream.
+    /// The first `count` shots of a stream, each standing for itself.
     pub fn new(problem: &Problem, stream: Stream, count: usize) -> Self {
-        let deviates = (0..count as u32)
-            .map(|index| deviate(problem, &Point::new(problem.seed, stream, index)))
-            .collect();
-        Self { deviates }
+        let shot = |index| deviate(problem, &mut Point::new(problem.seed, stream, index, false));
+        Self {
+            deviates: (0..count as u32).map(shot).collect(),
+        }
+    }
+
+    /// Shots for a search: every second one is drawn towards the rim of the exit disc, of the cone
+    /// and of the tolerance box, where rare harm comes from, and stands for accordingly less.
+    ///
+    /// Averages weighted with [`Deviate::weight`] estimate the same as those over [`Samples::new`].
+    pub fn with_rim(problem: &Problem, stream: Stream, count: usize) -> Self {
+        let shot = |index| {
+            let mut point = Point::new(problem.seed, stream, index / 2, index % 2 == 1);
+            let deviate = deviate(problem, &mut point);
+            Deviate {
+                weight: point.weight(),
+                ..deviate
+            }
+        };
+        Self {
+            deviates: (0..count as u32).map(shot).collect(),
+        }
     }
 }
 
@@ -99,24 +120,36 @@ impl Samples {
 struct Point {
     index: u32,
     seed: u32,
+    on_rim: bool,
+    /// Density of the rim's distribution over that of the jet, so far.
+    rim_density: f64,
 }
 
+/// How strongly rim shots crowd there: a distance from the rim that is uniform in the jet is
+/// uniform to the power of this for a rim shot.
+const RIM_CROWDING: i32 = 3;
+
+/// Keeps the density finite on the rim itself.
+const LEAST_DEPTH: f64 = 1e-18;
+
 impl Point {
-    fn new(seed: u64, stream: Stream, index: u32) -> Self {
+    fn new(seed: u64, stream: Stream, index: u32, on_rim: bool) -> Self {
         let stream = match stream {
             Stream::Search => 0,
             Stream::Fresh(number) => 1 + u64::from(number),
         };
         let block = u64::from(index / POINTS_PER_SEED);
-        let mixed = mix(mix(mix(seed) ^ stream) ^ block);
+        let mixed = mix(mix(mix(mix(seed) ^ stream) ^ block) ^ u64::from(on_rim));
         Self {
             index: index % POINTS_PER_SEED,
             seed: (mixed >> 32) as u32,
+            on_rim,
+            rim_density: 1.0,
         }
     }
 
     /// Uniform in 0 to 1.
-    fn at(&self, dimension: Dimension) -> f64 {
+    fn uniform(&self, dimension: Dimension) -> f64 {
         f64::from(sobol_burley::sample(
             self.index,
             dimension as u32,
@@ -124,12 +157,38 @@ impl Point {
         ))
     }
 
-    /// Uniform within +- `half_width`.
-    fn within(&self, half_width: f64, dimension: Dimension) -> f64 {
+    /// In 0 to 1, with the rim at 1.
+    fn inwards(&mut self, dimension: Dimension) -> f64 {
+        let depth = 1.0 - self.uniform(dimension);
+        1.0 - self.towards_rim(depth)
+    }
+
+    /// Within +- `half_width`, with the rim at both ends.
+    fn within(&mut self, half_width: f64, dimension: Dimension) -> f64 {
         if half_width == 0.0 {
             return 0.0;
         }
-        half_width * (2.0 * self.at(dimension) - 1.0)
+        let signed = 2.0 * self.uniform(dimension) - 1.0;
+        let depth = self.towards_rim(1.0 - signed.abs());
+        half_width * (1.0 - depth).copysign(signed)
+    }
+
+    /// The distance from the rim of this point, when that of the jet's own points is uniform in
+    /// 0 to 1; keeps account of the density.
+    fn towards_rim(&mut self, depth: f64) -> f64 {
+        let depth = if self.on_rim {
+            depth.powi(RIM_CROWDING)
+        } else {
+            depth
+        };
+        let crowding = f64::from(RIM_CROWDING);
+        self.rim_density *= depth.max(LEAST_DEPTH).powf(1.0 / crowding - 1.0) / crowding;
+        depth
+    }
+
+    /// What a shot stands for when every second one is a rim shot.
+    fn weight(&self) -> f64 {
+        2.0 / (1.0 + self.rim_density)
     }
 
     /// 1 plus a normal deviate with standard deviation `spread`, cut at two of them.
@@ -139,13 +198,12 @@ impl Point {
         }
         let normal = Normal::standard();
         let (low, high) = (normal.cdf(-2.0), normal.cdf(2.0));
-        1.0 + spread * normal.inverse_cdf(low + (high - low) * self.at(dimension))
+        1.0 + spread * normal.inverse_cdf(low + (high - low) * self.uniform(dimension))
     }
 }
 
-fn deviate(problem: &Problem, point: &Point) -> Deviate {
+fn deviate(problem: &Problem, point: &mut Point) -> Deviate {
     let (jet, tolerance) = (&problem.jet, &problem.tolerance);
-    let angle = |half_width, dimension| point.within(half_width, dimension).sin_cos().into();
     Deviate {
         exit: exit_offset(jet.exit_diameter / 2.0, point),
         cone: cone_direction(jet.divergence, jet.spread, point),
@@ -154,8 +212,14 @@ fn deviate(problem: &Problem, point: &Point) -> Deviate {
         mass: point
             .scatter(problem.shot.size_spread, Dimension::Size)
             .powi(3),
-        incidence: angle(tolerance.incidence, Dimension::Incidence),
-        azimuth: angle(tolerance.azimuth, Dimension::Azimuth),
+        incidence: point
+            .within(tolerance.incidence, Dimension::Incidence)
+            .sin_cos()
+            .into(),
+        azimuth: point
+            .within(tolerance.azimuth, Dimension::Azimuth)
+            .sin_cos()
+            .into(),
         standoff: point.within(tolerance.standoff, Dimension::Standoff),
         aim: [
             point.within(tolerance.aim_along, Dimension::AimAlong),
@@ -163,25 +227,26 @@ fn deviate(problem: &Problem, point: &Point) -> Deviate {
         ],
         restitution: point.within(tolerance.restitution, Dimension::Restitution),
         friction: 1.0 + point.within(tolerance.friction, Dimension::Friction),
+        weight: 1.0,
     }
 }
 
 /// Uniform in a disc.
-fn exit_offset(radius: f64, point: &Point) -> [f64; 2] {
+fn exit_offset(radius: f64, point: &mut Point) -> [f64; 2] {
     if radius == 0.0 {
         return [0.0; 2];
     }
-    let distance = radius * point.at(Dimension::ExitRadius).sqrt();
-    let (sin, cos) = (std::f64::consts::TAU * point.at(Dimension::ExitTurn)).sin_cos();
+    let distance = radius * point.inwards(Dimension::ExitRadius).sqrt();
+    let (sin, cos) = (std::f64::consts::TAU * point.uniform(Dimension::ExitTurn)).sin_cos();
     [distance * cos, distance * sin]
 }
 
 /// A direction in the cone.
-fn cone_direction(half_angle: f64, spread: Spread, point: &Point) -> [f64; 3] {
+fn cone_direction(half_angle: f64, spread: Spread, point: &mut Point) -> [f64; 3] {
     if half_angle == 0.0 {
         return [0.0, 0.0, 1.0];
     }
-    let share = point.at(Dimension::ConeAngle);
+    let share = point.inwards(Dimension::ConeAngle);
     let versine = match spread {
         // Uniform in solid angle: 1 - cos is uniform. sin^2 of the half avoids cancellation.
         Spread::Uniform => 2.0 * (half_angle / 2.0).sin().powi(2) * share,
@@ -193,7 +258,7 @@ fn cone_direction(half_angle: f64, spread: Spread, point: &Point) -> [f64; 3] {
         }
     };
     let sine = (versine * (2.0 - versine)).sqrt();
-    let (sin, cos) = (std::f64::consts::TAU * point.at(Dimension::ConeTurn)).sin_cos();
+    let (sin, cos) = (std::f64::consts::TAU * point.uniform(Dimension::ConeTurn)).sin_cos();
     [sine * cos, sine * sin, 1.0 - versine]
 }
 

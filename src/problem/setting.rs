@@ -80,6 +80,94 @@ pub struct Choice {
     pub static_friction: f64,
 }
 
+/// One of the settings that are numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Setting {
+    /// See [`Choice::incidence`].
+    Incidence,
+    /// See [`Choice::azimuth`].
+    Azimuth,
+    /// See [`Choice::standoff`].
+    Standoff,
+    /// See [`Choice::speed`].
+    Speed,
+    /// See [`Choice::aim_along`].
+    AimAlong,
+    /// See [`Choice::aim_across`].
+    AimAcross,
+    /// See [`Choice::static_friction`].
+    StaticFriction,
+}
+
+impl Setting {
+    /// Those that say how the nozzle stands and shoots, in the order of the problem file.
+    pub const OF_THE_NOZZLE: [Self; 6] = [
+        Self::Incidence,
+        Self::Azimuth,
+        Self::Standoff,
+        Self::Speed,
+        Self::AimAlong,
+        Self::AimAcross,
+    ];
+
+    /// Its key in problem files and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Incidence => "incidence",
+            Self::Azimuth => "azimuth",
+            Self::Standoff => "standoff",
+            Self::Speed => "speed",
+            Self::AimAlong => "aim_along",
+            Self::AimAcross => "aim_across",
+            Self::StaticFriction => "mu_s",
+        }
+    }
+
+    /// Its value in a choice, SI.
+    pub const fn of(self, choice: &Choice) -> f64 {
+        match self {
+            Self::Incidence => choice.incidence,
+            Self::Azimuth => choice.azimuth,
+            Self::Standoff => choice.standoff,
+            Self::Speed => choice.speed,
+            Self::AimAlong => choice.aim_along,
+            Self::AimAcross => choice.aim_across,
+            Self::StaticFriction => choice.static_friction,
+        }
+    }
+
+    /// The choice with this setting at another value, SI.
+    #[must_use]
+    pub const fn with(self, choice: &Choice, value: f64) -> Choice {
+        let mut changed = *choice;
+        match self {
+            Self::Incidence => changed.incidence = value,
+            Self::Azimuth => changed.azimuth = value,
+            Self::Standoff => changed.standoff = value,
+            Self::Speed => changed.speed = value,
+            Self::AimAlong => changed.aim_along = value,
+            Self::AimAcross => changed.aim_across = value,
+            Self::StaticFriction => changed.static_friction = value,
+        }
+        changed
+    }
+}
+
+impl Settings {
+    /// The range of a setting of the nozzle; `None` for friction, which belongs to the contact.
+    pub const fn range(&self, setting: Setting) -> Option<Range> {
+        match setting {
+            Setting::Incidence => Some(self.incidence),
+            Setting::Azimuth => Some(self.azimuth),
+            Setting::Standoff => Some(self.standoff),
+            Setting::Speed => Some(self.speed),
+            Setting::AimAlong => Some(self.aim_along),
+            Setting::AimAcross => Some(self.aim_across),
+            Setting::StaticFriction => None,
+        }
+    }
+}
+
 /// Half-widths of the box in which a shop really hits the settings asked for; 0 means exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {

@@ -1,0 +1,86 @@
+//! The settings that are searched, as points of the unit cube.
+
+use crate::problem::Problem;
+use crate::problem::setting::{Choice, Range, Setting};
+
+/// The searched settings of one contact.
+#[derive(Clone, Debug)]
+pub struct Space {
+    axes: Vec<Axis>,
+    base: Choice,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    setting: Setting,
+    range: Range,
+    /// A full turn of azimuth: both ends are the same direction.
+    periodic: bool,
+}
+
+impl Space {
+    /// The space of a contact. The speed has an axis only where it cannot be taken out.
+    pub fn new(problem: &Problem, contact: usize, search_speed: bool) -> Self {
+        let settings = &problem.settings;
+        let friction = problem.contacts[contact].static_friction;
+        let base = Choice {
+            incidence: settings.incidence.min,
+            azimuth: settings.azimuth.min,
+            standoff: settings.standoff.min,
+            speed: settings.speed.min,
+            aim_along: settings.aim_along.min,
+            aim_across: settings.aim_across.min,
+            contact,
+            static_friction: friction.min,
+        };
+        let of_the_nozzle = Setting::OF_THE_NOZZLE
+            .into_iter()
+            .filter(|&setting| setting != Setting::Speed || search_speed)
+            .filter_map(|setting| Some((setting, settings.range(setting)?)));
+        let axes = of_the_nozzle
+            .chain([(Setting::StaticFriction, friction)])
+            .filter(|(_, range)| !range.is_held())
+            .map(|(setting, range)| Axis {
+                setting,
+                range,
+                periodic: setting == Setting::Azimuth
+                    && range.width() >= std::f64::consts::TAU * (1.0 - 1e-12),
+            })
+            .collect();
+        Self { axes, base }
+    }
+
+    /// Number of searched settings.
+    pub fn dimensions(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// The choice at a point; coordinates outside 0 to 1 go round on a periodic axis and stop at
+    /// the bound on any other.
+    pub fn choice(&self, point: &[f64]) -> Choice {
+        let mut choice = self.base;
+        for (axis, &coordinate) in self.axes.iter().zip(point) {
+            let fraction = if axis.periodic {
+                coordinate.rem_euclid(1.0)
+            } else {
+                coordinate.clamp(0.0, 1.0)
+            };
+            choice = axis.setting.with(&choice, axis.range.at(fraction));
+        }
+        choice
+    }
+
+    /// Distance between two points: the largest difference along any axis.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let along = self.axes.iter().zip(a.iter().zip(b)).map(|(axis, (a, b))| {
+            let straight = (a - b).abs();
+            if axis.periodic {
+                let wrapped = straight.rem_euclid(1.0);
+                wrapped.min(1.0 - wrapped)
+            } else {
+                straight
+            }
+        });
+        along.fold(0.0, f64::max)
+    }
+}

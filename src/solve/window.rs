@@ -1,0 +1,136 @@
+//! How far each setting may drift alone before a verdict turns.
+
+use rayon::prelude::*;
+
+use super::judge::clearance_violation;
+use crate::evaluate::evaluate;
+use crate::problem::setting::{Choice, Range, Setting};
+use crate::setup::Setup;
+use crate::verdict::{Subject, Verdict};
+
+/// The window of one setting round a choice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Window {
+    /// The setting.
+    pub setting: Setting,
+    /// Downwards.
+    pub down: Drift,
+    /// Upwards.
+    pub up: Drift,
+}
+
+/// How far a setting may drift one way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drift {
+    /// The last value at which no verdict has turned, SI.
+    pub to: f64,
+    /// Width of the interval in which the turn lies, SI; 0 when none turned.
+    pub within: f64,
+    /// What turns beyond.
+    pub turns: Option<Turn>,
+}
+
+/// What ends a window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Turn {
+    /// A verdict that passed fails.
+    Verdict(Subject),
+    /// The nozzle comes too near to the part.
+    Clearance,
+}
+
+/// Halvings of the interval in which a verdict turns.
+const HALVINGS: usize = 6;
+/// Steps of doubling length from the choice outwards.
+const DOUBLINGS: i32 = 5;
+
+/// The windows of all settings that have a range or a tolerance, each as far as its range goes.
+pub fn windows(setup: &Setup, choice: &Choice, passing: &[Subject], shots: usize) -> Vec<Window> {
+    let settings = Setting::OF_THE_NOZZLE.into_iter().filter_map(|setting| {
+        let range = setup.problem.settings.range(setting)?;
+        (!range.is_held()).then_some((setting, range))
+    });
+    let sides: Vec<(Setting, f64)> = settings
+        .flat_map(|(setting, Range { min, max })| [(setting, min), (setting, max)])
+        .collect();
+    let drifts: Vec<Drift> = sides
+        .par_iter()
+        .map(|&(setting, end)| drift(setup, choice, setting, end, passing, shots))
+        .collect();
+    sides
+        .chunks_exact(2)
+        .zip(drifts.chunks_exact(2))
+        .map(|(side, drift)| Window {
+            setting: side[0].0,
+            down: drift[0],
+            up: drift[1],
+        })
+        .collect()
+}
+
+fn drift(
+    setup: &Setup,
+    choice: &Choice,
+    setting: Setting,
+    end: f64,
+    passing: &[Subject],
+    shots: usize,
+) -> Drift {
+    let start = setting.of(choice);
+    let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
+    let turn = |fraction: f64| turned(setup, &setting.with(choice, at(fraction)), passing, shots);
+    if start == end {
+        return Drift {
+            to: end,
+            within: 0.0,
+            turns: None,
+        };
+    }
+    let mut good = 0.0;
+    let mut bad = None;
+    for step in (0..=DOUBLINGS).rev() {
+        let fraction = 0.5_f64.powi(step);
+        match turn(fraction) {
+            Some(turn) => {
+                bad = Some((fraction, turn));
+                break;
+            }
+            None => good = fraction,
+        }
+    }
+    let Some((mut beyond, mut turns)) = bad else {
+        return Drift {
+            to: end,
+            within: 0.0,
+            turns: None,
+        };
+    };
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (good + beyond);
+        match turn(middle) {
+            Some(turn) => (beyond, turns) = (middle, turn),
+            None => good = middle,
+        }
+    }
+    Drift {
+        to: at(good),
+        within: (at(beyond) - at(good)).abs(),
+        turns: Some(turns),
+    }
+}
+
+/// What turns at a choice among the verdicts that passed: the one that is exceeded most.
+fn turned(setup: &Setup, choice: &Choice, passing: &[Subject], shots: usize) -> Option<Turn> {
+    if clearance_violation(setup, choice).is_some() {
+        return Some(Turn::Clearance);
+    }
+    let evaluation = evaluate(setup, choice, shots, WINDOW_STREAM);
+    Verdict::all(setup, &evaluation)
+        .into_iter()
+        .filter(|verdict| !verdict.passes() && passing.contains(&verdict.subject))
+        .max_by(|a, b| a.load().total_cmp(&b.load()))
+        .map(|verdict| Turn::Verdict(verdict.subject))
+}
+
+/// Windows have shots of their own.
+const WINDOW_STREAM: u32 = 1 << 16;

@@ -1,0 +1,125 @@
+//! Whether a choice of settings passes: one verdict for each goal and each secondary surface.
+
+use crate::evaluate::Evaluation;
+use crate::setup::Setup;
+
+/// What a verdict is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Subject {
+    /// N* of first hits on target.
+    NormalImpulse,
+    /// f* of first hits on target.
+    TangentialImpulse,
+    /// First hits off the target.
+    Miss,
+    /// Impacts on one surface of the scene.
+    Surface(u32),
+}
+
+/// The share of shots that break a goal, against what is allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// What it is about.
+    pub subject: Subject,
+    /// Shots that break the goal.
+    pub broken: usize,
+    /// Shots that were counted.
+    pub counted: usize,
+    /// Share that may break it.
+    pub allowed: f64,
+}
+
+impl Verdict {
+    /// All verdicts on an evaluation: the goals, then every surface that has a limit.
+    pub fn all(setup: &Setup, evaluation: &Evaluation) -> Vec<Self> {
+        let goals = &setup.problem.goals;
+        let target = &evaluation.target;
+        let mut verdicts = vec![
+            Self {
+                subject: Subject::Miss,
+                broken: evaluation.shots - target.hits,
+                counted: evaluation.shots,
+                allowed: goals.miss.share,
+            },
+            Self {
+                subject: Subject::NormalImpulse,
+                broken: target.off_target,
+                counted: target.hits,
+                allowed: goals.normal_impulse.share,
+            },
+        ];
+        if let Some(goal) = goals.tangential_impulse {
+            verdicts.push(Self {
+                subject: Subject::TangentialImpulse,
+                broken: target.over_limit,
+                counted: target.hits,
+                allowed: goal.share,
+            });
+        }
+        for (index, (limits, receipt)) in
+            setup.surfaces.iter().zip(&evaluation.surfaces).enumerate()
+        {
+            if limits.allow.is_some() && !limits.deflector {
+                verdicts.push(Self {
+                    subject: Subject::Surface(index as u32),
+                    broken: receipt.over,
+                    counted: evaluation.shots,
+                    allowed: limits.share,
+                });
+            }
+        }
+        verdicts
+    }
+
+    /// Share of the counted shots that break the goal; 0 when none was counted.
+    pub fn share(&self) -> f64 {
+        self.broken as f64 / self.counted.max(1) as f64
+    }
+
+    /// Whether the share is allowed. With nothing to count a goal of the target is not met.
+    pub fn passes(&self) -> bool {
+        self.counted > 0 && self.share() <= self.allowed
+    }
+
+    /// What is left of the allowed share; negative when it is exceeded.
+    pub fn margin(&self) -> f64 {
+        self.allowed - self.share()
+    }
+
+    /// 95 % interval of the share: Wilson's, or 0 to 3/n where no shot broke the goal.
+    pub fn interval(&self) -> [f64; 2] {
+        let n = self.counted as f64;
+        if self.counted == 0 {
+            return [0.0, 1.0];
+        }
+        if self.broken == 0 {
+            return [0.0, (3.0 / n).min(1.0)];
+        }
+        const NORMAL_QUANTILE: f64 = 1.959_963_985;
+        let z2 = NORMAL_QUANTILE * NORMAL_QUANTILE / n;
+        let share = self.share();
+        let centre = share + z2 / 2.0;
+        let half = (z2 * (share * (1.0 - share) + z2 / 4.0)).sqrt();
+        [
+            ((centre - half) / (1.0 + z2)).max(0.0),
+            ((centre + half) / (1.0 + z2)).min(1.0),
+        ]
+    }
+
+    /// Whether the interval lies on one side of what is allowed.
+    pub fn is_certain(&self) -> bool {
+        let [low, high] = self.interval();
+        high <= self.allowed || low > self.allowed
+    }
+
+    /// How much of the allowed share is used up: 1 is the limit.
+    pub fn load(&self) -> f64 {
+        if self.allowed > 0.0 {
+            self.share() / self.allowed
+        } else if self.broken > 0 {
+            f64::INFINITY
+        } else {
+            0.0
+        }
+    }
+}
