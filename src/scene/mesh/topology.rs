@@ -70,8 +70,7 @@ impl EdgeFinding {
 struct DirectedEdge(u64);
 
 impl DirectedEdge {
-    /// Vertex numbers stay below 2^31, because a vertex takes at least eight bytes of a file that
-    /// may not exceed 2^30.
+    /// Vertex numbers must stay below 2^31; a mesh of that many vertices would take over 50 GB.
     fn new(from: u32, to: u32) -> Self {
         let (low, high) = (from.min(to), from.max(to));
         Self(u64::from(low) << 32 | u64::from(high) << 1 | u64::from(from > to))

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Point3;
 
-use super::fault::Defect;
+use super::defect::Defect;
 use super::polygon::Polygon;
 use super::vertex_index::VertexIndex;
 use super::{LARGEST_COORDINATE, MOST_CORNERS, MOST_TRIANGLES};

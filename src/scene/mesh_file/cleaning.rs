@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::fault::Defect;
+use super::defect::Defect;
 use super::warning::MeshWarning;
 use crate::scene::mesh::{EdgeFinding, Mesh, Triangle, duplicates, examine};
 
@@ -35,6 +35,8 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
         return Err(Defect::AllDegenerate { triangles: read });
     }
     drop_unused(mesh);
+    mesh.triangles.shrink_to_fit();
+    mesh.vertices.shrink_to_fit();
 
     let [open, non_manifold, inconsistent] = edges;
     let mut warnings = Vec::new();

@@ -2,10 +2,14 @@
 
 use std::io::{BufRead, Read};
 
-use super::fault::{Defect, MeshFault, Place};
+use super::defect::Defect;
+use super::fault::{MeshFault, Place};
 
 /// Bytes of the longest line that is read; a face of four thousand corners fits.
 pub(super) const LONGEST_LINE: usize = 1 << 18;
+
+/// What some editors put before the first line.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Reads a file line by line through one buffer.
 pub(super) struct Lines<R> {
@@ -41,12 +45,12 @@ impl<R: BufRead> Lines<R> {
         }))
     }
 
-    /// As [`Lines::next`]; a line that ends in `\` goes on in the next one.
+    /// As [`Lines::next`]; a line that ends in `\` goes on in the next one, unless it is a comment.
     pub fn next_continued(&mut self) -> Result<Option<Line<'_>>, MeshFault> {
         self.buffer.clear();
         let more = self.append()?;
         let number = self.number;
-        while self.buffer.last() == Some(&b'\\') {
+        while self.buffer.last() == Some(&b'\\') && self.buffer[0] != b'#' {
             self.buffer.pop();
             self.buffer.push(b' ');
             self.append()?;
@@ -102,6 +106,9 @@ impl<R: BufRead> Lines<R> {
             if self.buffer.last() == Some(&end) {
                 self.buffer.pop();
             }
+        }
+        if self.number == 1 && self.buffer.starts_with(BYTE_ORDER_MARK) {
+            self.buffer.drain(..BYTE_ORDER_MARK.len());
         }
         Ok(true)
     }

@@ -7,11 +7,13 @@
 
 mod assembly;
 mod cleaning;
+mod defect;
 mod fault;
 mod lines;
 mod obj;
 mod ply;
 mod ply_header;
+mod ply_numbers;
 mod polygon;
 mod region;
 mod stl;
@@ -19,7 +21,8 @@ mod stl_text;
 mod vertex_index;
 mod warning;
 
-pub use fault::{Defect, MeshFault, Place};
+pub use defect::Defect;
+pub use fault::{MeshFault, Place};
 pub use warning::MeshWarning;
 
 use std::fs::File;
@@ -83,7 +86,7 @@ fn parse(path: &Path, metres_per_unit: f64) -> Result<Mesh, MeshFault> {
     match format {
         Format::Stl => stl::read(source, bytes, &mut assembly),
         Format::Obj => obj::read(source, &mut assembly),
-        Format::Ply => ply::read(source, bytes, &mut assembly),
+        Format::Ply => ply::read(source, &mut assembly),
     }?;
     assembly.finish().map_err(whole)
 }

@@ -4,7 +4,8 @@
 use std::io::BufRead;
 
 use super::assembly::{ALL, Assembly};
-use super::fault::{Defect, MeshFault};
+use super::defect::Defect;
+use super::fault::MeshFault;
 use super::lines::{Line, Lines, coordinates, words};
 
 /// Reads an OBJ file into the assembly.

@@ -2,18 +2,16 @@
 
 use std::io::BufRead;
 
+use super::MOST_CORNERS;
 use super::assembly::{ALL, Assembly};
-use super::fault::{Defect, MeshFault, Place};
-use super::lines::{Lines, number, words};
+use super::defect::Defect;
+use super::fault::{MeshFault, Place};
+use super::lines::Lines;
 use super::ply_header::{self, Element, Encoding, Scalar};
-use super::{MOST_CORNERS, MOST_TRIANGLES};
+use super::ply_numbers::{Binary, Numbers, Text};
 
-/// Reads a PLY file of so many bytes into the assembly.
-pub(super) fn read(
-    source: impl BufRead,
-    bytes: u64,
-    assembly: &mut Assembly,
-) -> Result<(), MeshFault> {
+/// Reads a PLY file into the assembly.
+pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), MeshFault> {
     let mut lines = Lines::new(source);
     let header = ply_header::read(&mut lines)?;
     let here = Place::Line(lines.number());
@@ -30,11 +28,6 @@ pub(super) fn read(
         return Err(missing("element `vertex` before the element `face`"));
     }
     let plan = Plan::new(&header.elements[vertices], &header.elements[faces]).map_err(missing)?;
-    for element in &header.elements[vertices..=faces] {
-        if element.count > bytes || element.count > 3 * MOST_TRIANGLES as u64 {
-            return Err(Defect::TooManyTriangles.at(here));
-        }
-    }
     let mut reader = Reader {
         assembly,
         vertices: Vec::new(),
@@ -44,13 +37,10 @@ pub(super) fn read(
     let elements = &header.elements[..=faces];
     match header.encoding {
         Encoding::Text => reader.elements(elements, &mut Text::new(lines)),
-        encoding => reader.elements(
-            elements,
-            &mut Binary {
-                source: lines.into_source(),
-                little_endian: encoding == Encoding::LittleEndian,
-            },
-        ),
+        encoding => {
+            let little_endian = encoding == Encoding::LittleEndian;
+            reader.elements(elements, &mut Binary::new(lines, little_endian))
+        }
     }
 }
 
@@ -84,16 +74,6 @@ impl Plan {
             corners: corners.ok_or("list of integers `vertex_indices` of the faces")?,
         })
     }
-}
-
-/// A stream of numbers behind a header.
-trait Numbers {
-    /// Goes to the next element; false if the file ends there.
-    fn next_element(&mut self) -> Result<bool, MeshFault>;
-    /// The next number of the element; every integer type fits into f64.
-    fn next(&mut self, scalar: Scalar) -> Result<f64, Defect>;
-    /// Where the element of this number (from 0) stands.
-    fn place(&self, kind: &str, number: u64) -> Place;
 }
 
 struct Reader<'a> {
@@ -130,6 +110,7 @@ impl Reader<'_> {
                     "face" => self.face(element, numbers, surface),
                     _ => pass_over(element, numbers),
                 }
+                .and_then(|()| numbers.end_element())
                 .map_err(|defect| defect.at(numbers.place(&element.name, count)))?;
             }
         }
@@ -229,102 +210,4 @@ fn pass_over(element: &Element, numbers: &mut impl Numbers) -> Result<(), Defect
         }
     }
     Ok(())
-}
-
-/// One element a line.
-struct Text<R> {
-    lines: Lines<R>,
-    line: Vec<u8>,
-    read: usize,
-}
-
-impl<R: BufRead> Text<R> {
-    fn new(lines: Lines<R>) -> Self {
-        Self {
-            lines,
-            line: Vec::new(),
-            read: 0,
-        }
-    }
-}
-
-impl<R: BufRead> Numbers for Text<R> {
-    fn next_element(&mut self) -> Result<bool, MeshFault> {
-        self.line.clear();
-        self.read = 0;
-        let line = self.lines.next()?;
-        self.line
-            .extend_from_slice(line.map_or(&[], |line| line.text));
-        Ok(line.is_some())
-    }
-
-    fn next(&mut self, scalar: Scalar) -> Result<f64, Defect> {
-        let rest = &self.line[self.read..];
-        let word = words(rest).next().unwrap_or_default();
-        let start = rest.len() - rest.trim_ascii_start().len();
-        self.read = (self.read + start + word.len()).min(self.line.len());
-        let value = number(word).ok_or_else(|| Defect::unexpected("another number", word))?;
-        match scalar {
-            Scalar::F32 | Scalar::F64 => Ok(value),
-            _ if value.fract() == 0.0 => Ok(value),
-            _ => Err(Defect::unexpected("a whole number", word)),
-        }
-    }
-
-    fn place(&self, _kind: &str, _number: u64) -> Place {
-        Place::Line(self.lines.number())
-    }
-}
-
-/// Elements side by side, without a break.
-struct Binary<R> {
-    source: R,
-    little_endian: bool,
-}
-
-impl<R: BufRead> Binary<R> {
-    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Defect> {
-        let mut bytes = [0; N];
-        self.source
-            .read_exact(&mut bytes)
-            .map_err(|error| match error.kind() {
-                std::io::ErrorKind::UnexpectedEof => Defect::EndsEarly {
-                    expected: "another number",
-                },
-                _ => error.into(),
-            })?;
-        if !self.little_endian {
-            bytes.reverse();
-        }
-        Ok(bytes)
-    }
-}
-
-impl<R: BufRead> Numbers for Binary<R> {
-    fn next_element(&mut self) -> Result<bool, MeshFault> {
-        let ahead = self.source.fill_buf();
-        let ahead = ahead.map_err(|error| Defect::from(error).at(Place::File))?;
-        Ok(!ahead.is_empty())
-    }
-
-    fn next(&mut self, scalar: Scalar) -> Result<f64, Defect> {
-        Ok(match scalar {
-            Scalar::I8 => i8::from_le_bytes(self.bytes()?).into(),
-            Scalar::U8 => u8::from_le_bytes(self.bytes()?).into(),
-            Scalar::I16 => i16::from_le_bytes(self.bytes()?).into(),
-            Scalar::U16 => u16::from_le_bytes(self.bytes()?).into(),
-            Scalar::I32 => i32::from_le_bytes(self.bytes()?).into(),
-            Scalar::U32 => u32::from_le_bytes(self.bytes()?).into(),
-            Scalar::F32 => f32::from_le_bytes(self.bytes()?).into(),
-            Scalar::F64 => f64::from_le_bytes(self.bytes()?),
-        })
-    }
-
-    fn place(&self, kind: &str, number: u64) -> Place {
-        match kind {
-            "vertex" => Place::Vertex(number),
-            "face" => Place::Face(number),
-            _ => Place::File,
-        }
-    }
 }

@@ -2,7 +2,8 @@
 
 use std::io::BufRead;
 
-use super::fault::{Defect, MeshFault, Place};
+use super::defect::Defect;
+use super::fault::{MeshFault, Place};
 use super::lines::{Line, Lines};
 
 /// How the numbers behind the header are written.

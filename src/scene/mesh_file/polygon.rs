@@ -30,7 +30,7 @@ impl Polygon {
             self.triangles
                 .push([corners[before], corners[tip], corners[after]]);
             self.left.remove(ear);
-            start = ear % self.left.len();
+            start = (ear + 1) % self.left.len(); // every other corner: no fan of slivers
         }
         if let [a, b, c] = self.left[..] {
             self.triangles.push([corners[a], corners[b], corners[c]]);

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, distance};
 
 use super::cleaning::drop_unused;
-use super::fault::Defect;
+use super::defect::Defect;
 use crate::problem::part::Region;
 use crate::scene::mesh::Mesh;
 

@@ -3,7 +3,8 @@
 use std::io::{BufRead, Read};
 
 use super::assembly::{ALL, Assembly};
-use super::fault::{Defect, MeshFault, Place};
+use super::defect::Defect;
+use super::fault::{MeshFault, Place};
 use super::{MOST_TRIANGLES, stl_text};
 
 /// Bytes before the first triangle: 80 of comment and the number of triangles.

@@ -3,7 +3,8 @@
 use std::io::BufRead;
 
 use super::assembly::Assembly;
-use super::fault::{Defect, MeshFault, Place};
+use super::defect::Defect;
+use super::fault::{MeshFault, Place};
 use super::lines::{Line, Lines, coordinates, words};
 
 /// Reads a text STL file into the assembly.
