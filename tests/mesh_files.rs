@@ -318,17 +318,17 @@ fn faults_of_text_files_name_their_line() {
         (
             "obj",
             format!("{triangle}f 1 2 4\n"),
-            ", line 4: the face uses vertex 4, but only 3 vertices stand before it; the file is damaged or cut short",
+            ", line 4: the face uses vertex 4, counted from 1, but only 3 vertices stand before it; the file is damaged or cut short",
         ),
         (
             "obj",
             format!("{triangle}f 1 2 0\n"),
-            ", line 4: the face uses vertex 0, but only 3 vertices stand before it; the file is damaged or cut short",
+            ", line 4: the face uses vertex 0, counted from 1, but only 3 vertices stand before it; the file is damaged or cut short",
         ),
         (
             "obj",
             format!("{triangle}f 1 2 -4\n"),
-            ", line 4: the face uses vertex -4, but only 3 vertices stand before it; the file is damaged or cut short",
+            ", line 4: the face uses vertex -4, counted from 1, but only 3 vertices stand before it; the file is damaged or cut short",
         ),
         (
             "obj",
@@ -490,7 +490,7 @@ fn faults_of_ply_files_say_what_is_missing() {
         (
             "3 0 2 3",
             "3 0 2 8",
-            ", line 18: the face uses vertex 8, but only 8 vertices stand before it; the file is damaged or cut short",
+            ", line 18: the face uses vertex 8, counted from 0, but only 8 vertices stand before it; the file is damaged or cut short",
         ),
         (
             "3 0 2 3",

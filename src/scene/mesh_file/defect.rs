@@ -64,6 +64,8 @@ pub enum Defect {
         index: i64,
         /// How many vertices stand before the face.
         vertices: usize,
+        /// What the format calls the first vertex: 0 in PLY, 1 in OBJ.
+        first: u8,
     },
     /// A binary STL file that does not hold what its header promises.
     WrongCount {
@@ -213,9 +215,13 @@ impl fmt::Display for Defect {
                  or the file is damaged",
                 super::LARGEST_COORDINATE / 1000.0
             ),
-            Self::NoSuchVertex { index, vertices } => write!(
+            Self::NoSuchVertex {
+                index,
+                vertices,
+                first,
+            } => write!(
                 f,
-                "the face uses vertex {index}, but only {vertices} vertices stand before it; the \
+                "the face uses vertex {index}, counted from {first}, but only {vertices} vertices stand before it; the \
                  file is damaged or cut short"
             ),
             Self::WrongCount { promised, held } => {

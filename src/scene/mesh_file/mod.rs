@@ -58,6 +58,10 @@ enum Format {
 /// Every vertex of the mesh belongs to a triangle, every triangle has an area, no two triangles have
 /// the same corners, and every surface has a triangle.
 ///
+/// Warnings about edges refer to the mesh before triangles of zero area are dropped: where such a
+/// triangle fills the gap between neighbours, no ray can pass, although [`Mesh::topology`] of what is
+/// left finds open edges there.
+///
 /// # Errors
 ///
 /// If the file cannot be read, does not follow its format, holds no usable triangle or numbers that

@@ -121,6 +121,7 @@ impl Reader<'_> {
             .ok_or(Defect::NoSuchVertex {
                 index,
                 vertices: self.vertices.len(),
+                first: 1,
             })
     }
 }

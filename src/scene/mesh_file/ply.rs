@@ -158,6 +158,7 @@ impl Reader<'_> {
                     .ok_or(Defect::NoSuchVertex {
                         index,
                         vertices: self.vertices.len(),
+                        first: 0,
                     })?;
                 self.corners.push(*corner);
                 if self.corners.len() > MOST_CORNERS {
