@@ -28,7 +28,7 @@ pub struct Facets {
 impl Facets {
     /// Prepares a mesh whose surfaces have the indices `surface_base` onwards. `slack` is the
     /// distance within which two points count as one, m.
-    pub fn new(mesh: &Mesh, surface_base: u32, slack: f64) -> Self {
+    pub fn new(mesh: Mesh, surface_base: u32, slack: f64) -> Self {
         let boxes: Vec<Aabb> = mesh
             .triangles
             .iter()
@@ -47,19 +47,14 @@ impl Facets {
                 .iter()
                 .map(|t| surface_base + t.surface)
                 .collect(),
-            vertices: mesh.vertices.clone(),
+            vertices: mesh.vertices,
             slack,
         }
     }
 
     /// Number of triangles.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.corners.len()
-    }
-
-    /// Whether there is no triangle.
-    pub fn is_empty(&self) -> bool {
-        self.corners.is_empty()
     }
 
     /// parry's tree over the triangles, for other walks than rays.

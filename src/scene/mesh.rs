@@ -1,39 +1,76 @@
 //! Triangles with named surfaces.
 
+mod topology;
+
+pub use topology::Topology;
+pub(super) use topology::{EdgeFinding, duplicates, examine};
+
 use nalgebra::{Point3, Vector3};
 
 /// Triangles with named surfaces, in m.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Corner points.
+    /// Corners of the triangles; no two are equal in a mesh that was read from a file.
     pub vertices: Vec<Point3<f64>>,
-    /// Triangles, each on one surface.
+    /// The triangles, in the order of the file.
     pub triangles: Vec<Triangle>,
-    /// Names of the surfaces.
+    /// Names of the surfaces; every one of them has at least one triangle.
     pub surfaces: Vec<String>,
 }
 
-/// One triangle; its front is the side from which its corners run counter-clockwise.
+/// One triangle of a [`Mesh`]; its front is the side from which the corners run anticlockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Triangle {
-    /// Indices of the corner points.
+    /// Indices into [`Mesh::vertices`].
     pub corners: [u32; 3],
-    /// Index of the surface.
+    /// Index into [`Mesh::surfaces`].
     pub surface: u32,
 }
 
 impl Mesh {
-    /// The corner points of a triangle.
+    /// The three corners of a triangle, m.
+    ///
+    /// # Panics
+    ///
+    /// If the triangle belongs to another mesh and names a vertex that is not here.
     pub fn corners(&self, triangle: &Triangle) -> [Point3<f64>; 3] {
         triangle
             .corners
             .map(|corner| self.vertices[corner as usize])
     }
 
-    /// Twice the area times the unit normal on the front.
-    pub fn area_normal(&self, triangle: &Triangle) -> Vector3<f64> {
+    /// The centre (mean of the corners) of a triangle, m.
+    pub fn centre(&self, triangle: &Triangle) -> Point3<f64> {
+        let [a, b, c] = self.corners(triangle);
+        Point3::from((a.coords + b.coords + c.coords) / 3.0)
+    }
+
+    /// Twice the area of a triangle times its unit normal, m2.
+    pub fn doubled_area(&self, triangle: &Triangle) -> Vector3<f64> {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(&(c - a))
+    }
+
+    /// Smallest and largest coordinates, m; `None` without vertices.
+    pub fn bounds(&self) -> Option<(Point3<f64>, Point3<f64>)> {
+        let first = *self.vertices.first()?;
+        Some(
+            self.vertices
+                .iter()
+                .fold((first, first), |(low, high), point| {
+                    (low.inf(point), high.sup(point))
+                }),
+        )
+    }
+
+    /// How the triangles hang together.
+    pub fn topology(&self) -> Topology {
+        examine(self).topology
+    }
+
+    /// Whether every edge joins exactly two triangles; see [`Topology::is_closed`].
+    pub fn is_closed(&self) -> bool {
+        self.topology().is_closed()
     }
 
     /// Index of the surface called `name`, which is added when it is new.

@@ -6,6 +6,7 @@
 mod clearance;
 mod facets;
 pub mod mesh;
+pub mod mesh_file;
 mod part;
 pub mod patch;
 mod prism;
@@ -29,6 +30,7 @@ const SLACK: f64 = 1e-12;
 pub struct Scene {
     parts: Vec<BuiltPart>,
     surfaces: Vec<String>,
+    warnings: Vec<String>,
     size: f64,
 }
 
@@ -65,14 +67,16 @@ impl Scene {
         let mut scene = Self {
             parts: Vec::new(),
             surfaces: Vec::new(),
+            warnings: Vec::new(),
             size,
         };
-        for (part, geometry) in parts.iter().zip(&geometries) {
+        for (part, mut geometry) in parts.iter().zip(geometries) {
             let base = scene.surfaces.len() as u32;
-            scene.parts.push(geometry.build(part, base, SLACK * size));
             let names = geometry.mesh.surfaces.iter();
             let full = names.map(|name| format!("{}.{name}", part.name));
             scene.surfaces.extend(full);
+            scene.warnings.append(&mut geometry.warnings);
+            scene.parts.push(geometry.build(part, base, SLACK * size));
         }
         Ok(scene)
     }
@@ -96,6 +100,11 @@ impl Scene {
         })
     }
 
+    /// What was noticed while the mesh files were read.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
     /// Largest coordinate of any corner, m: the scale of rounding errors.
     pub fn size(&self) -> f64 {
         self.size
@@ -103,7 +112,7 @@ impl Scene {
 
     /// Number of triangles of all parts.
     pub fn triangles(&self) -> usize {
-        self.parts.iter().map(|part| part.facets.len()).sum()
+        self.parts.iter().map(|part| part.facets.count()).sum()
     }
 
     /// What a ray meets first. `leaving` is the spot that it starts from, if any: it is not hit
@@ -168,7 +177,7 @@ impl Scene {
     /// Corner points of all triangles of a surface.
     pub fn surface_triangles(&self, surface: u32) -> impl Iterator<Item = [Point3<f64>; 3]> + '_ {
         self.parts.iter().flat_map(move |part| {
-            let indices = 0..part.facets.len() as u32;
+            let indices = 0..part.facets.count() as u32;
             let of_surface = indices.filter(move |&index| part.facets.surface(index) == surface);
             of_surface.map(|index| part.facets.corners(index))
         })

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::Walls;
 use super::facets::Facets;
 use super::mesh::Mesh;
+use super::mesh_file;
 use super::prism::Prism;
 use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
@@ -23,43 +24,77 @@ pub(super) struct BuiltPart {
 /// The geometry of a part before its surfaces are numbered.
 pub(super) struct Geometry {
     pub mesh: Mesh,
+    /// What the reader of a mesh file noticed.
+    pub warnings: Vec<String>,
     prism: Option<(Profile, f64, Ends)>,
 }
 
 /// Chords that stand in for arcs where distances are measured turn by at most this angle.
-pub(super) const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
+const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
 impl Geometry {
     /// The geometry of a part in its place.
     pub fn of(part: &Part, walls: Walls) -> Result<Self, Fault> {
-        let chord_angle = match walls {
-            Walls::Exact => CHORD_ANGLE,
-            Walls::Facets { chord_angle } => chord_angle,
-        };
-        let prism = Profile::of(&part.shape);
-        let mesh = match (&part.shape, &prism) {
-            (_, Some((profile, length, ends))) => {
-                tessellate::prism(profile, *length, *ends, chord_angle)
+        let (mesh, warnings, prism) = match &part.shape {
+            Shape::Keyway(keyway) => prismatic(
+                Profile::keyway(keyway),
+                keyway.length,
+                Ends::default(),
+                walls,
+            ),
+            Shape::Bore {
+                diameter,
+                length,
+                ends,
+            } => prismatic(Profile::circle(*diameter), *length, *ends, walls),
+            Shape::Extrude {
+                profile,
+                length,
+                ends,
+            } => prismatic(Profile::outline(profile), *length, *ends, walls),
+            Shape::Box { min, max } => (tessellate::block(*min, *max), Vec::new(), None),
+            Shape::Mesh {
+                path,
+                metres_per_unit,
+                regions,
+            } => {
+                let (mesh, warnings) =
+                    mesh_file::read(path, *metres_per_unit, regions).map_err(|fault| {
+                        Fault::at_key(format!("scene.{}.mesh", part.name), fault.to_string())
+                    })?;
+                let named = |warning| format!("part `{}`: {warning}", part.name);
+                (mesh, warnings.iter().map(named).collect(), None)
             }
-            (Shape::Box { min, max }, _) => tessellate::block(*min, *max),
-            (Shape::Mesh { path, .. }, _) => {
-                return Err(Fault::at_key("scene", format!("{}", path.display())));
-            }
-            _ => unreachable!(),
         };
         Ok(Self {
             mesh: tessellate::placed(mesh, &part.place),
-            prism: prism.filter(|_| walls == Walls::Exact),
+            warnings,
+            prism,
         })
     }
 
     /// Makes it ready for rays.
-    pub fn build(&self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
+    pub fn build(self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
         BuiltPart {
-            facets: Facets::new(&self.mesh, surface_base, slack),
-            prism: self.prism.as_ref().map(|(profile, length, ends)| {
-                Prism::new(profile, *length, *ends, &part.place, surface_base, slack)
+            facets: Facets::new(self.mesh, surface_base, slack),
+            prism: self.prism.map(|(profile, length, ends)| {
+                Prism::new(&profile, length, ends, &part.place, surface_base, slack)
             }),
+        }
+    }
+}
+
+type Built = (Mesh, Vec<String>, Option<(Profile, f64, Ends)>);
+
+fn prismatic(profile: Profile, length: f64, ends: Ends, walls: Walls) -> Built {
+    match walls {
+        Walls::Exact => {
+            let mesh = tessellate::prism(&profile, length, ends, CHORD_ANGLE);
+            (mesh, Vec::new(), Some((profile, length, ends)))
+        }
+        Walls::Facets { chord_angle } => {
+            let mesh = tessellate::prism(&profile, length, ends, chord_angle);
+            (mesh, Vec::new(), None)
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
-use crate::problem::part::{Ends, Keyway, Segment, Shape};
+use crate::problem::part::{Keyway, Segment};
 
 /// A cross-section; free space lies to the left of every piece.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,24 +111,6 @@ impl Curve {
 }
 
 impl Profile {
-    /// The cross-section of a prismatic shape, its length and its ends; `None` for other shapes.
-    pub fn of(shape: &Shape) -> Option<(Self, f64, Ends)> {
-        match shape {
-            Shape::Keyway(keyway) => Some((Self::keyway(keyway), keyway.length, Ends::default())),
-            Shape::Bore {
-                diameter,
-                length,
-                ends,
-            } => Some((Self::circle(*diameter), *length, *ends)),
-            Shape::Extrude {
-                profile,
-                length,
-                ends,
-            } => Some((Self::outline(profile), *length, *ends)),
-            Shape::Box { .. } | Shape::Mesh { .. } => None,
-        }
-    }
-
     fn empty() -> Self {
         Self {
             pieces: Vec::new(),
@@ -148,7 +130,8 @@ impl Profile {
         });
     }
 
-    fn circle(diameter: f64) -> Self {
+    /// A full circle round the origin, seen from inside; surface `wall`.
+    pub fn circle(diameter: f64) -> Self {
         let mut profile = Self::empty();
         let circle = Curve::Arc {
             centre: Point2::origin(),
@@ -160,7 +143,8 @@ impl Profile {
         profile
     }
 
-    fn outline(segments: &[Segment]) -> Self {
+    /// The outline of an extruded part.
+    pub fn outline(segments: &[Segment]) -> Self {
         let mut profile = Self::empty();
         for segment in segments {
             let line = Curve::Line {
@@ -176,8 +160,8 @@ impl Profile {
         profile
     }
 
-    /// Counter-clockwise from the foot of the wall at x > 0.
-    fn keyway(keyway: &Keyway) -> Self {
+    /// The cross-section of a keyway, counter-clockwise from the floor.
+    pub fn keyway(keyway: &Keyway) -> Self {
         let radius = keyway.bore / 2.0;
         let half = keyway.width / 2.0;
         let floor = radius + keyway.depth;
@@ -217,7 +201,8 @@ impl Profile {
         profile
     }
 
-    /// The outline as a chain of points for caps and meshes: (curve index, points without the last).
+    /// The points along each piece, both ends included, when arcs become chords that turn by at
+    /// most `chord_angle` rad.
     pub fn chords(&self, chord_angle: f64) -> Vec<Vec<Point2<f64>>> {
         self.pieces
             .iter()

@@ -1,0 +1,118 @@
+//! A mesh while its file is being read.
+
+use std::collections::HashMap;
+
+use nalgebra::Point3;
+
+use super::defect::Defect;
+use super::polygon::Polygon;
+use super::vertex_index::VertexIndex;
+use super::{LARGEST_COORDINATE, MOST_CORNERS, MOST_TRIANGLES};
+use crate::scene::mesh::{Mesh, Triangle};
+
+/// Name of the surface of triangles that belong to no group.
+pub(super) const ALL: &str = "all";
+
+/// Collects vertices and faces; equal vertices become one.
+pub(super) struct Assembly {
+    metres_per_unit: f64,
+    mesh: Mesh,
+    vertex_index: VertexIndex,
+    surface_numbers: HashMap<String, u32>,
+    polygon: Polygon,
+}
+
+impl Assembly {
+    pub fn new(metres_per_unit: f64) -> Self {
+        Self {
+            metres_per_unit,
+            mesh: Mesh::default(),
+            vertex_index: VertexIndex::new(),
+            surface_numbers: HashMap::new(),
+            polygon: Polygon::default(),
+        }
+    }
+
+    /// Makes room for a number of triangles that the file is known to hold.
+    pub fn expect_triangles(&mut self, count: usize) {
+        self.mesh.triangles.reserve_exact(count);
+        self.mesh.vertices.reserve(count / 2);
+    }
+
+    /// Number of the vertex at these coordinates (in the file's unit).
+    pub fn vertex(&mut self, coordinates: [f64; 3]) -> Result<u32, Defect> {
+        if !coordinates.iter().all(|value| value.is_finite()) {
+            return Err(Defect::NotFinite { coordinates });
+        }
+        let point = Point3::from(coordinates.map(|value| value * self.metres_per_unit));
+        if point.iter().any(|value| value.abs() > LARGEST_COORDINATE) {
+            return Err(Defect::TooFarOut { coordinates });
+        }
+        self.vertex_index
+            .find_or_add(&mut self.mesh.vertices, point)
+            .ok_or(Defect::TooManyTriangles)
+    }
+
+    /// Number of the surface of this name.
+    pub fn surface(&mut self, name: &str) -> u32 {
+        if let Some(number) = self.surface_numbers.get(name) {
+            return *number;
+        }
+        let number = self.mesh.surfaces.len() as u32; // each takes a line of the file
+        self.mesh.surfaces.push(name.to_owned());
+        self.surface_numbers.insert(name.to_owned(), number);
+        number
+    }
+
+    /// Takes every triangle so far away from its surface and gives it to [`ALL`].
+    pub fn forget_surfaces(&mut self) {
+        self.mesh.surfaces.clear();
+        self.surface_numbers.clear();
+        let all = self.surface(ALL);
+        for triangle in &mut self.mesh.triangles {
+            triangle.surface = all;
+        }
+    }
+
+    /// Gives the surfaces, in the order of their numbers, their final names.
+    pub fn rename_surfaces(&mut self, names: Vec<String>) {
+        self.surface_numbers = names.iter().cloned().zip(0..).collect();
+        self.mesh.surfaces = names;
+    }
+
+    /// Adds a triangle.
+    pub fn triangle(&mut self, corners: [u32; 3], surface: u32) -> Result<(), Defect> {
+        if self.mesh.triangles.len() >= MOST_TRIANGLES {
+            return Err(Defect::TooManyTriangles);
+        }
+        self.mesh.triangles.push(Triangle { corners, surface });
+        Ok(())
+    }
+
+    /// Adds a face of three or more corners as triangles.
+    pub fn face(&mut self, corners: &[u32], surface: u32) -> Result<(), Defect> {
+        if let [a, b, c] = *corners {
+            return self.triangle([a, b, c], surface);
+        }
+        if corners.len() > MOST_CORNERS {
+            return Err(Defect::TooManyCorners {
+                corners: corners.len(),
+            });
+        }
+        let mut polygon = std::mem::take(&mut self.polygon);
+        let added = polygon
+            .triangles(corners, &self.mesh.vertices)
+            .iter()
+            .try_for_each(|triangle| self.triangle(*triangle, surface));
+        self.polygon = polygon;
+        added
+    }
+
+    /// The mesh as read, not yet cleaned.
+    pub fn finish(self) -> Result<Mesh, Defect> {
+        if self.mesh.triangles.is_empty() {
+            return Err(Defect::NoTriangles);
+        }
+        Ok(self.mesh)
+    }
+}

@@ -1,0 +1,126 @@
+//! Reads triangle meshes from STL, OBJ and PLY files, and refuses or reports what is wrong with them.
+//!
+//! Coordinates keep all digits that the file has (f64 in text, f32 in binary STL). Vertices at
+//! exactly the same point become one, in every format. Surfaces come from the groups of an OBJ file
+//! (`g`, or `o` where the file has no `g`) or the solids of a text STL file, provided that there are
+//! several with different names; everything else belongs to the surface `all`.
+
+mod assembly;
+mod cleaning;
+mod defect;
+mod fault;
+mod lines;
+mod obj;
+mod ply;
+mod ply_header;
+mod ply_numbers;
+mod polygon;
+mod region;
+mod stl;
+mod stl_text;
+mod vertex_index;
+mod warning;
+
+pub use defect::Defect;
+pub use fault::{MeshFault, Place};
+pub use warning::MeshWarning;
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use assembly::Assembly;
+
+use super::mesh::Mesh;
+use crate::problem::fault::nearest_name;
+use crate::problem::part::Region;
+
+/// Bytes of the largest file that is read.
+pub const LARGEST_FILE: u64 = 1_000_000_000;
+/// Triangles of the largest mesh that is read.
+pub const MOST_TRIANGLES: usize = 20_000_000;
+/// Corners of the largest face that is read.
+pub const MOST_CORNERS: usize = 4096;
+/// Coordinates further out than this, in m, are taken for damage.
+pub const LARGEST_COORDINATE: f64 = 1e6;
+
+/// A format of mesh files, by the ending of their names.
+#[derive(Clone, Copy)]
+enum Format {
+    Stl,
+    Obj,
+    Ply,
+}
+
+/// Reads a mesh file; `regions` (in m, in the file's frame) then name the triangles whose centre they
+/// hold, a later region before an earlier one.
+///
+/// Every vertex of the mesh belongs to a triangle, every triangle has an area, no two triangles have
+/// the same corners, and every surface has a triangle.
+///
+/// Warnings about edges refer to the mesh before triangles of zero area are dropped: where such a
+/// triangle fills the gap between neighbours, no ray can pass, although [`Mesh::topology`] of what is
+/// left finds open edges there.
+///
+/// # Errors
+///
+/// If the file cannot be read, does not follow its format, holds no usable triangle or numbers that
+/// cannot be coordinates, is too large, or if a region gets no triangle.
+pub fn read(
+    path: &Path,
+    metres_per_unit: f64,
+    regions: &[Region],
+) -> Result<(Mesh, Vec<MeshWarning>), MeshFault> {
+    let whole = |defect: Defect| defect.at(Place::File);
+    let found = || {
+        let mut mesh = parse(path, metres_per_unit)?;
+        let warnings = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
+        region::name_triangles(&mut mesh, metres_per_unit, regions).map_err(whole)?;
+        Ok((mesh, warnings))
+    };
+    found().map_err(|fault: MeshFault| fault.in_file(path))
+}
+
+fn parse(path: &Path, metres_per_unit: f64) -> Result<Mesh, MeshFault> {
+    let whole = |defect: Defect| defect.at(Place::File);
+    let (file, bytes) = open(path).map_err(whole)?;
+    let format = Format::of(path).map_err(whole)?;
+    let source = BufReader::with_capacity(1 << 16, file);
+    let mut assembly = Assembly::new(metres_per_unit);
+    match format {
+        Format::Stl => stl::read(source, bytes, &mut assembly),
+        Format::Obj => obj::read(source, &mut assembly),
+        Format::Ply => ply::read(source, &mut assembly),
+    }?;
+    assembly.finish().map_err(whole)
+}
+
+/// Opens a file of a bearable size.
+fn open(path: &Path) -> Result<(File, u64), Defect> {
+    let about = std::fs::metadata(path)?;
+    if !about.is_file() {
+        return Err(Defect::Unreadable {
+            reason: "it is not a regular file".to_owned(),
+        });
+    }
+    match about.len() {
+        0 => Err(Defect::Empty),
+        bytes if bytes > LARGEST_FILE => Err(Defect::TooLarge { bytes }),
+        bytes => Ok((File::open(path)?, bytes)),
+    }
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self, Defect> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        match ending.to_ascii_lowercase().as_str() {
+            "stl" => Ok(Self::Stl),
+            "obj" => Ok(Self::Obj),
+            "ply" => Ok(Self::Ply),
+            unknown => Err(Defect::UnknownFormat {
+                nearest: nearest_name(unknown, ["stl", "obj", "ply"]),
+                ending: ending.into_owned(),
+            }),
+        }
+    }
+}

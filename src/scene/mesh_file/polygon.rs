@@ -1,0 +1,104 @@
+//! Cuts faces of more than three corners into triangles.
+
+use nalgebra::{Point2, Point3, Vector3};
+
+/// Height over base below which a corner counts as lying on a straight line.
+const FLAT: f64 = 1e-9;
+
+/// Work space for cutting a face by clipping its ears; keeps every corner, so that faces stay
+/// joined to their neighbours even where corners lie on a straight line.
+#[derive(Default)]
+pub(super) struct Polygon {
+    /// The corners, laid into the plane of the face so that it runs anticlockwise.
+    flat: Vec<Point2<f64>>,
+    /// Positions of the corners that are left.
+    left: Vec<usize>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Polygon {
+    /// The triangles of a face, wound as the face is.
+    pub fn triangles(&mut self, corners: &[u32], vertices: &[Point3<f64>]) -> &[[u32; 3]] {
+        self.flatten(corners, vertices);
+        self.triangles.clear();
+        self.left.clear();
+        self.left.extend(0..corners.len());
+        let mut start = 0;
+        while self.left.len() > 3 {
+            let ear = self.next_ear(start);
+            let [before, tip, after] = self.around(ear);
+            self.triangles
+                .push([corners[before], corners[tip], corners[after]]);
+            self.left.remove(ear);
+            start = (ear + 1) % self.left.len(); // every other corner: no fan of slivers
+        }
+        if let [a, b, c] = self.left[..] {
+            self.triangles.push([corners[a], corners[b], corners[c]]);
+        }
+        &self.triangles
+    }
+
+    /// Projects along the coordinate axis nearest to the normal (by Newell's sum).
+    fn flatten(&mut self, corners: &[u32], vertices: &[Point3<f64>]) {
+        let at = |position: usize| vertices[corners[position % corners.len()] as usize];
+        let origin = at(0);
+        let normal: Vector3<f64> = (0..corners.len())
+            .map(|position| (at(position) - origin).cross(&(at(position + 1) - origin)))
+            .sum();
+        let axis = normal.iamax();
+        let (u, v) = match normal[axis] >= 0.0 {
+            true => ((axis + 1) % 3, (axis + 2) % 3),
+            false => ((axis + 2) % 3, (axis + 1) % 3),
+        };
+        self.flat.clear();
+        self.flat.extend((0..corners.len()).map(|position| {
+            let corner = at(position);
+            Point2::new(corner[u], corner[v])
+        }));
+    }
+
+    /// Where the next ear is, looking from `start` on. A face that crosses itself may have none:
+    /// then the flattest corner goes.
+    fn next_ear(&self, start: usize) -> usize {
+        let count = self.left.len();
+        let ear = (0..count)
+            .map(|step| (start + step) % count)
+            .find(|ear| self.is_ear(*ear));
+        ear.unwrap_or_else(|| {
+            let flatness = |ear: &usize| self.turn(self.around(*ear)).abs();
+            (0..count)
+                .min_by(|a, b| flatness(a).total_cmp(&flatness(b)))
+                .unwrap_or(0)
+        })
+    }
+
+    fn is_ear(&self, ear: usize) -> bool {
+        let triangle = self.around(ear);
+        let [a, b, c] = triangle;
+        let base = nalgebra::distance_squared(&self.flat[a], &self.flat[c]);
+        self.turn(triangle) > FLAT * base
+            && self.left.iter().all(|&other| {
+                let point = self.flat[other];
+                triangle.iter().any(|&corner| self.flat[corner] == point)
+                    || self.turn([a, b, other]) < 0.0
+                    || self.turn([b, c, other]) < 0.0
+                    || self.turn([c, a, other]) < 0.0
+            })
+    }
+
+    /// The corner at `ear` between its two neighbours.
+    fn around(&self, ear: usize) -> [usize; 3] {
+        let count = self.left.len();
+        [
+            self.left[(ear + count - 1) % count],
+            self.left[ear],
+            self.left[(ear + 1) % count],
+        ]
+    }
+
+    /// Twice the area of three corners; positive for a left turn.
+    fn turn(&self, [a, b, c]: [usize; 3]) -> f64 {
+        let [a, b, c] = [self.flat[a], self.flat[b], self.flat[c]];
+        (b - a).perp(&(c - a))
+    }
+}
