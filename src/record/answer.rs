@@ -1,0 +1,357 @@
+//! One answer in a record: settings, pose, objective, what every surface receives, verdicts.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::evaluate::{Evaluation, Spread, SurfaceReceipt};
+use crate::impact::{Contact, Restitution};
+use crate::jet::Pose;
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use crate::solve::Answer;
+use crate::verdict::{Subject, Verdict};
+
+/// Settings for one contact and what they do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AnswerRecord {
+    /// Name of the contact.
+    pub contact: String,
+    /// Its coefficients.
+    pub contact_values: ContactRecord,
+    /// The settings.
+    pub settings: SettingsRecord,
+    /// The pose that they mean.
+    pub pose: PoseRecord,
+    /// Whether the nozzle fits.
+    pub feasible: bool,
+    /// Whether every verdict passes.
+    pub passes: bool,
+    /// Distance between nozzle and part, m; absent for a nozzle without a body.
+    pub clearance_m: Option<f64>,
+    /// The surface that it is measured to.
+    pub clearance_surface: Option<String>,
+    /// Least distance asked for, m.
+    pub clearance_wanted_m: f64,
+    /// Fresh shots behind the figures.
+    pub shots: usize,
+    /// The terms of the objective with their weights; absent when the nozzle does not fit.
+    pub objective: Option<ObjectiveRecord>,
+    /// What the target receives.
+    pub target: Option<TargetRecord>,
+    /// What each secondary surface receives.
+    pub surfaces: BTreeMap<String, ReceiptRecord>,
+    /// One verdict for each goal and each secondary surface.
+    pub verdicts: Vec<VerdictRecord>,
+}
+
+/// Coefficients of a contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ContactRecord {
+    /// Friction law.
+    pub law: String,
+    /// Static friction.
+    pub mu_s: f64,
+    /// Dynamic friction.
+    pub mu_d: f64,
+    /// Normal restitution, where it was measured if it falls with speed.
+    pub restitution: f64,
+    /// The normal speed at which it was measured, m/s; absent for a constant.
+    pub restitution_at_m_s: Option<f64>,
+    /// How steeply it falls; absent for a constant.
+    pub restitution_exponent: Option<f64>,
+    /// Tangential restitution.
+    pub tangential_restitution: f64,
+}
+
+/// Settings.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SettingsRecord {
+    /// deg; 90 is perpendicular.
+    pub incidence_deg: f64,
+    /// deg.
+    pub azimuth_deg: f64,
+    /// m.
+    pub standoff_m: f64,
+    /// m/s.
+    pub speed_m_s: f64,
+    /// m.
+    pub aim_along_m: f64,
+    /// m.
+    pub aim_across_m: f64,
+}
+
+/// A pose of the nozzle in the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PoseRecord {
+    /// Centre of the exit, m.
+    pub exit_m: [f64; 3],
+    /// Unit vector along the jet.
+    pub direction: [f64; 3],
+    /// Rotation that takes the z axis to the jet's direction.
+    pub quaternion_xyzw: [f64; 4],
+}
+
+/// The terms of the objective with their weights.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ObjectiveRecord {
+    /// J.
+    pub total: f64,
+    /// First hits on target: squared relative error of N*.
+    pub normal_impulse: f64,
+    /// First hits on target: squared excess of f*.
+    pub tangential_impulse: f64,
+    /// Impacts on secondary surfaces.
+    pub rebound: f64,
+    /// First hits off the target.
+    pub miss: f64,
+    /// Standard error of the total.
+    pub standard_error: f64,
+    /// Standard errors of the four terms, in their order.
+    pub term_standard_errors: [f64; 4],
+}
+
+/// What the target receives by first hits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TargetRecord {
+    /// Its surface.
+    pub surface: String,
+    /// Share of all shots that hit it first.
+    pub share_on_target: f64,
+    /// N*.
+    #[serde(rename = "normal_impulse_N_s")]
+    pub normal_impulse: SpreadRecord,
+    /// f*.
+    #[serde(rename = "tangential_impulse_N_s")]
+    pub tangential_impulse: SpreadRecord,
+    /// Share of those hits that stick.
+    pub share_sticking: f64,
+}
+
+/// What a secondary surface receives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReceiptRecord {
+    /// Share of all shots that hit it.
+    pub share_of_shots: f64,
+    /// Share of all shots with an impact over what it may take.
+    pub share_over: f64,
+    /// What it may take; absent when there is no limit.
+    #[serde(rename = "allow_N_s")]
+    pub allow: Option<f64>,
+    /// N* of the impacts on it; absent when there is none.
+    #[serde(rename = "normal_impulse_N_s")]
+    pub normal_impulse: Option<SpreadRecord>,
+    /// Impacts per shot by their number in the path: direct hits first.
+    pub impacts_per_shot_by_number: Vec<f64>,
+    /// The same for impacts over what it may take.
+    pub over_per_shot_by_number: Vec<f64>,
+}
+
+/// Mean and range.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpreadRecord {
+    /// Mean.
+    pub mean: f64,
+    /// 5 % are below.
+    pub low_5: f64,
+    /// 95 % are below.
+    pub high_95: f64,
+    /// Largest.
+    pub largest: f64,
+}
+
+/// A verdict.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VerdictRecord {
+    /// The goal, or the full name of the surface.
+    pub subject: String,
+    /// Share of shots that break it.
+    pub share: f64,
+    /// 95 % interval of that share.
+    pub interval_95: [f64; 2],
+    /// Share that may break it.
+    pub allowed: f64,
+    /// Shots counted.
+    pub counted: usize,
+    /// Whether the share is allowed.
+    pub passes: bool,
+    /// Whether the interval lies on one side of what is allowed.
+    pub certain: bool,
+}
+
+impl AnswerRecord {
+    /// The record of an answer.
+    pub fn new(setup: &Setup, answer: &Answer) -> Self {
+        let choice = &answer.choice;
+        let contact = &setup.problem.contacts[choice.contact];
+        let pose = Pose::new(&setup.target.frame, choice);
+        let nozzle = &setup.problem.nozzle;
+        let clearance =
+            setup
+                .scene
+                .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY);
+        let surface_name = |index: u32| setup.scene.surfaces()[index as usize].clone();
+        let evaluation = answer.evaluation.as_ref();
+        Self {
+            contact: contact.name.clone(),
+            contact_values: ContactRecord::new(&contact.at(choice.static_friction)),
+            settings: SettingsRecord::new(choice),
+            pose: PoseRecord::new(&pose),
+            feasible: answer.violation <= 0.0,
+            passes: answer.passes(),
+            clearance_m: clearance.map(|(gap, _)| gap),
+            clearance_surface: clearance.map(|(_, surface)| surface_name(surface)),
+            clearance_wanted_m: nozzle.clearance,
+            shots: evaluation.map_or(0, |evaluation| evaluation.shots),
+            objective: evaluation.map(ObjectiveRecord::new),
+            target: evaluation.map(|evaluation| TargetRecord::new(setup, evaluation)),
+            surfaces: evaluation.map_or_else(BTreeMap::new, |evaluation| receipts(setup, evaluation)),
+            verdicts: answer
+                .verdicts
+                .iter()
+                .map(|verdict| VerdictRecord::new(setup, verdict))
+                .collect(),
+        }
+    }
+}
+
+/// Every secondary surface that was hit or has a limit; deflectors belong to the flight.
+fn receipts(setup: &Setup, evaluation: &Evaluation) -> BTreeMap<String, ReceiptRecord> {
+    let names = setup.scene.surfaces().iter();
+    let surfaces = names.zip(&setup.surfaces).zip(&evaluation.surfaces);
+    surfaces
+        .filter(|((_, limits), _)| !limits.deflector)
+        .map(|((name, limits), receipt)| {
+            let record = ReceiptRecord::new(receipt, limits.allow, evaluation.shots);
+            (name.clone(), record)
+        })
+        .collect()
+}
+
+impl ContactRecord {
+    fn new(contact: &Contact) -> Self {
+        let (restitution, at, exponent) = match contact.restitution {
+            Restitution::Constant(value) => (value, None, None),
+            Restitution::Falling {
+                reference,
+                speed,
+                exponent,
+            } => (reference, Some(speed), Some(exponent)),
+        };
+        Self {
+            law: contact.law.name().into(),
+            mu_s: contact.static_friction,
+            mu_d: contact.dynamic_friction,
+            restitution,
+            restitution_at_m_s: at,
+            restitution_exponent: exponent,
+            tangential_restitution: contact.tangential_restitution,
+        }
+    }
+}
+
+impl SettingsRecord {
+    fn new(choice: &Choice) -> Self {
+        Self {
+            incidence_deg: choice.incidence.to_degrees(),
+            azimuth_deg: choice.azimuth.to_degrees(),
+            standoff_m: choice.standoff,
+            speed_m_s: choice.speed,
+            aim_along_m: choice.aim_along,
+            aim_across_m: choice.aim_across,
+        }
+    }
+}
+
+impl PoseRecord {
+    fn new(pose: &Pose) -> Self {
+        Self {
+            exit_m: pose.exit.coords.into(),
+            direction: pose.direction.into(),
+            quaternion_xyzw: pose.rotation().coords.into(),
+        }
+    }
+}
+
+impl ObjectiveRecord {
+    fn new(evaluation: &Evaluation) -> Self {
+        let (terms, errors) = (&evaluation.terms, &evaluation.term_errors);
+        Self {
+            total: terms.total(),
+            normal_impulse: terms.normal_impulse,
+            tangential_impulse: terms.tangential_impulse,
+            rebound: terms.rebound,
+            miss: terms.miss,
+            standard_error: evaluation.standard_error,
+            term_standard_errors: [
+                errors.normal_impulse,
+                errors.tangential_impulse,
+                errors.rebound,
+                errors.miss,
+            ],
+        }
+    }
+}
+
+impl TargetRecord {
+    fn new(setup: &Setup, evaluation: &Evaluation) -> Self {
+        let target = &evaluation.target;
+        Self {
+            surface: setup.scene.surfaces()[setup.target.surface as usize].clone(),
+            share_on_target: target.hits as f64 / evaluation.shots as f64,
+            normal_impulse: target.normal_impulse.into(),
+            tangential_impulse: target.tangential_impulse.into(),
+            share_sticking: target.sticking as f64 / target.hits.max(1) as f64,
+        }
+    }
+}
+
+impl ReceiptRecord {
+    fn new(receipt: &SurfaceReceipt, allow: Option<f64>, shots: usize) -> Self {
+        let per_shot = |count: usize| count as f64 / shots as f64;
+        let all = |counts: &[usize]| counts.iter().copied().map(per_shot).collect();
+        Self {
+            share_of_shots: per_shot(receipt.shots),
+            share_over: per_shot(receipt.over),
+            allow,
+            normal_impulse: (receipt.shots > 0).then(|| receipt.normal_impulse.into()),
+            impacts_per_shot_by_number: all(&receipt.impacts_by_number),
+            over_per_shot_by_number: all(&receipt.over_by_number),
+        }
+    }
+}
+
+impl From<Spread> for SpreadRecord {
+    fn from(spread: Spread) -> Self {
+        Self {
+            mean: spread.mean,
+            low_5: spread.low,
+            high_95: spread.high,
+            largest: spread.largest,
+        }
+    }
+}
+
+impl VerdictRecord {
+    fn new(setup: &Setup, verdict: &Verdict) -> Self {
+        Self {
+            subject: subject_name(setup, verdict.subject),
+            share: verdict.share(),
+            interval_95: verdict.interval(),
+            allowed: verdict.allowed,
+            counted: verdict.counted,
+            passes: verdict.passes(),
+            certain: verdict.is_certain(),
+        }
+    }
+}
+
+/// The goal's key in the problem file, or the full name of the surface.
+pub(super) fn subject_name(setup: &Setup, subject: Subject) -> String {
+    match subject {
+        Subject::NormalImpulse => "normal_impulse".into(),
+        Subject::TangentialImpulse => "tangential_impulse".into(),
+        Subject::Miss => "miss".into(),
+        Subject::Surface(index) => setup.scene.surfaces()[index as usize].clone(),
+    }
+}

@@ -1,0 +1,174 @@
+//! The complete result of a run, as `result.json` holds it: all reports are made from it alone.
+//!
+//! Angles are in degrees, everything else is SI, and every key ends with its unit.
+
+mod answer;
+mod question;
+mod window;
+
+pub use answer::{
+    AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
+    SpreadRecord, TargetRecord, VerdictRecord,
+};
+pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use window::{DriftRecord, WindowRecord};
+
+use serde::{Deserialize, Serialize};
+
+use crate::problem::Source;
+use crate::setup::Setup;
+use crate::solve::{Solution, Status, Window};
+use crate::validity::Note;
+
+/// The result of a search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// How the search ended.
+    pub status: StatusRecord,
+    /// What was asked.
+    pub problem: QuestionRecord,
+    /// The recommended settings.
+    pub best: AnswerRecord,
+    /// How far each setting may drift alone before a verdict turns.
+    pub windows: Vec<WindowRecord>,
+    /// The best settings of each contact, best first.
+    pub choices: Vec<AnswerRecord>,
+    /// What was left out.
+    pub notes: Vec<NoteRecord>,
+    /// Work done.
+    pub work: WorkRecord,
+    /// Checksum of the problem file.
+    pub problem_sha256: String,
+    /// Version of the program.
+    pub version: String,
+    /// The command that gives the same answer again.
+    pub command: String,
+}
+
+/// See [`Status`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StatusRecord {
+    /// The accuracy asked for was reached.
+    Converged,
+    /// The budget was spent before.
+    BudgetSpent,
+    /// The nozzle collides with the part everywhere.
+    NoFeasiblePose,
+    /// The search was told to stop.
+    Interrupted,
+    /// Given settings were evaluated; nothing was searched.
+    Evaluated,
+}
+
+/// Work done.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorkRecord {
+    /// Poses tried.
+    pub poses: usize,
+    /// Shots at each pose in the last stage of the search.
+    pub shots_per_pose: usize,
+    /// Rays cast.
+    pub rays: usize,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+/// See [`Note`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NoteRecord {
+    /// A short fixed name.
+    pub name: String,
+    /// The number behind it.
+    pub value: f64,
+    /// For people.
+    pub text: String,
+}
+
+impl From<Note> for NoteRecord {
+    fn from(note: Note) -> Self {
+        Self {
+            name: note.name.into(),
+            value: note.value,
+            text: note.text,
+        }
+    }
+}
+
+impl From<Status> for StatusRecord {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Converged => Self::Converged,
+            Status::BudgetSpent => Self::BudgetSpent,
+            Status::NoFeasiblePose => Self::NoFeasiblePose,
+            Status::Interrupted => Self::Interrupted,
+        }
+    }
+}
+
+/// What a record says besides the answers.
+pub struct Circumstances<'a> {
+    /// The problem file.
+    pub source: &'a Source,
+    /// How the run ended.
+    pub status: StatusRecord,
+    /// The command that gives the same answer again.
+    pub command: String,
+    /// Work done.
+    pub work: WorkRecord,
+}
+
+impl Record {
+    /// The record of a search.
+    ///
+    /// `None` when there is no answer at all, which a search never returns.
+    pub fn new(
+        setup: &Setup,
+        solution: &Solution,
+        windows: &[Window],
+        notes: Vec<Note>,
+        circumstances: Circumstances,
+    ) -> Option<Self> {
+        let choices: Vec<AnswerRecord> = solution
+            .answers
+            .iter()
+            .map(|answer| AnswerRecord::new(setup, answer))
+            .collect();
+        Some(Self {
+            status: circumstances.status,
+            problem: QuestionRecord::new(&setup.problem, circumstances.source),
+            best: choices.first()?.clone(),
+            windows: windows
+                .iter()
+                .map(|window| WindowRecord::new(setup, window))
+                .collect(),
+            choices,
+            notes: notes.into_iter().map(NoteRecord::from).collect(),
+            work: circumstances.work,
+            problem_sha256: circumstances.source.sha256.clone(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            command: circumstances.command,
+        })
+    }
+
+    /// The record as JSON text.
+    ///
+    /// # Errors
+    /// None is expected: every number in a record is finite.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string_pretty(self).map(|text| text + "\n")
+    }
+
+    /// Reads a record back.
+    ///
+    /// # Errors
+    /// When the text is not a record.
+    pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
+        serde_json::from_str(text)
+    }
+
+    /// Whether every verdict on the best settings passes.
+    pub fn passes(&self) -> bool {
+        self.best.passes
+    }
+}

@@ -1,0 +1,155 @@
+//! What was asked, as far as reports need it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::problem::equipment::Spread;
+use crate::problem::setting::Range;
+use crate::problem::{Problem, Source};
+
+/// The problem behind a result.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct QuestionRecord {
+    /// Its title.
+    pub title: String,
+    /// The problem file as it was given on the command line.
+    pub file: String,
+    /// Radius of the shot, m.
+    pub shot_radius_m: f64,
+    /// Its density, kg/m3.
+    pub shot_density_kg_m3: f64,
+    /// Its mass, kg.
+    pub shot_mass_kg: f64,
+    /// Standard deviation of the radius relative to it.
+    pub size_spread: f64,
+    /// Diameter of the exit, m.
+    pub exit_diameter_m: f64,
+    /// Half-angle of the cone, deg.
+    pub divergence_deg: f64,
+    /// `uniform` or `gaussian`.
+    pub spread: String,
+    /// Standard deviation of the speed relative to it.
+    pub speed_spread: f64,
+    /// The ranges of the settings.
+    pub ranges: Vec<RangeRecord>,
+    /// The goals.
+    pub goals: GoalsRecord,
+    /// How exactly a shop can set it.
+    pub tolerance: ToleranceRecord,
+    /// Impacts after which a path is followed no further.
+    pub impacts: usize,
+    /// Share of its first energy below which a shot is followed no further.
+    pub least_energy: f64,
+    /// Accuracy asked for, relative to J.
+    pub accuracy: f64,
+    /// Seed of all samples.
+    pub seed: u64,
+}
+
+/// The range of a setting; deg for angles, else SI.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RangeRecord {
+    /// Key of the setting, with its unit.
+    pub setting: String,
+    /// Lower end.
+    pub min: f64,
+    /// Upper end.
+    pub max: f64,
+}
+
+/// The goals, N s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GoalsRecord {
+    /// Wanted N*.
+    #[serde(rename = "normal_impulse_N_s")]
+    pub normal_impulse: f64,
+    /// Relative deviation from which a shot breaks that goal.
+    pub normal_impulse_tolerance: f64,
+    /// Limit of f*; absent when there is none.
+    #[serde(rename = "tangential_impulse_N_s")]
+    pub tangential_impulse: Option<f64>,
+    /// What secondary surfaces may take unless they have limits of their own.
+    #[serde(rename = "rebound_N_s")]
+    pub rebound: Option<f64>,
+}
+
+/// Half-widths of the setup tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ToleranceRecord {
+    /// deg.
+    pub incidence_deg: f64,
+    /// deg.
+    pub azimuth_deg: f64,
+    /// m.
+    pub standoff_m: f64,
+    /// m.
+    pub aim_along_m: f64,
+    /// m.
+    pub aim_across_m: f64,
+    /// Relative.
+    pub speed: f64,
+    /// Absolute.
+    pub restitution: f64,
+    /// Relative.
+    pub friction: f64,
+}
+
+impl QuestionRecord {
+    /// The record of a problem.
+    pub fn new(problem: &Problem, source: &Source) -> Self {
+        let (goals, tolerance) = (&problem.goals, &problem.tolerance);
+        Self {
+            title: problem.title.clone(),
+            file: source.path.display().to_string(),
+            shot_radius_m: problem.shot.radius,
+            shot_density_kg_m3: problem.shot.density,
+            shot_mass_kg: problem.shot.mass(),
+            size_spread: problem.shot.size_spread,
+            exit_diameter_m: problem.jet.exit_diameter,
+            divergence_deg: problem.jet.divergence.to_degrees(),
+            spread: match problem.jet.spread {
+                Spread::Uniform => "uniform".into(),
+                Spread::Gaussian => "gaussian".into(),
+            },
+            speed_spread: problem.jet.speed_spread,
+            ranges: ranges(problem),
+            goals: GoalsRecord {
+                normal_impulse: goals.normal_impulse.target,
+                normal_impulse_tolerance: goals.normal_impulse.tolerance,
+                tangential_impulse: goals.tangential_impulse.map(|goal| goal.limit),
+                rebound: goals.rebound.map(|goal| goal.allow),
+            },
+            tolerance: ToleranceRecord {
+                incidence_deg: tolerance.incidence.to_degrees(),
+                azimuth_deg: tolerance.azimuth.to_degrees(),
+                standoff_m: tolerance.standoff,
+                aim_along_m: tolerance.aim_along,
+                aim_across_m: tolerance.aim_across,
+                speed: tolerance.speed,
+                restitution: tolerance.restitution,
+                friction: tolerance.friction,
+            },
+            impacts: problem.paths.impacts,
+            least_energy: problem.paths.least_energy,
+            accuracy: problem.accuracy,
+            seed: problem.seed,
+        }
+    }
+}
+
+fn ranges(problem: &Problem) -> Vec<RangeRecord> {
+    let settings = &problem.settings;
+    let range = |setting: &str, Range { min, max }: Range, scale: f64| RangeRecord {
+        setting: setting.into(),
+        min: min * scale,
+        max: max * scale,
+    };
+    let degrees = 1_f64.to_degrees();
+    vec![
+        range("incidence_deg", settings.incidence, degrees),
+        range("azimuth_deg", settings.azimuth, degrees),
+        range("standoff_m", settings.standoff, 1.0),
+        range("speed_m_s", settings.speed, 1.0),
+        range("aim_along_m", settings.aim_along, 1.0),
+        range("aim_across_m", settings.aim_across, 1.0),
+    ]
+}
