@@ -5,3 +5,4 @@
 
 pub mod impact;
 pub mod problem;
+pub mod units;
