@@ -287,7 +287,7 @@ fn plain_spelling(unit: &str) -> String {
 }
 
 /// What was written, short enough for a message.
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 40;
     let mut short: String = text
         .chars()
