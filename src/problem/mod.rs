@@ -1,10 +1,43 @@
 //! What the user asked: a problem file, checked and turned into SI.
+//!
+//! The text becomes a tree of nodes with their places (`yaml`), the tree a plain mirror of the
+//! file (`reader`, `file`), and the mirror a checked [`Problem`] (`check`). Faults are collected on
+//! the way, so that one run shows all of them.
+//!
+//! ```
+//! use std::path::Path;
+//! use peenpose::problem;
+//!
+//! let reading = problem::read_text("format: 1\nshot: { radius: 0.5 }", Path::new("keyway.yaml"))?;
+//! assert!(reading.problem.is_none());
+//! let radius = reading.faults.iter().find(|fault| fault.key == "shot.radius").unwrap();
+//! assert_eq!(
+//!     problem::one_line(&reading.source, radius),
+//!     "keyway.yaml:2:17: shot.radius: `0.5` has no unit; expected a length such as `0.5 mm`; \
+//!      did you mean `0.5 mm`?"
+//! );
+//! # Ok::<(), peenpose::problem::fault::Fault>(())
+//! ```
 
 pub mod equipment;
 pub mod fault;
 pub mod goal;
 pub mod part;
 pub mod setting;
+
+mod check;
+mod faults;
+mod field;
+mod file;
+mod reader;
+mod reading;
+mod render;
+mod source;
+mod yaml;
+
+pub use reading::{Reading, read, read_text};
+pub use render::{one_line, render};
+pub use source::Source;
 
 use equipment::{ContactChoice, Jet, Nozzle, PathLimits, Shot, SurfaceRule};
 use goal::Goals;

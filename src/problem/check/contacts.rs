@@ -1,0 +1,217 @@
+//! `contacts`: the friction choices.
+
+use super::limit::Limit;
+use super::scope::Scope;
+use crate::impact::{Contact, Law, Restitution};
+use crate::problem::equipment::ContactChoice;
+use crate::problem::field::Field;
+use crate::problem::file::Named;
+use crate::problem::file::equipment::{ContactEntry, LawEntry, RestitutionEntry};
+use crate::problem::setting::Range;
+
+/// The contacts of the file by name; `None` for a faulty one.
+pub(super) struct Contacts {
+    choices: Vec<(String, Option<ContactChoice>)>,
+    /// Whether the names are all known.
+    pub complete: bool,
+}
+
+impl Contacts {
+    /// All contacts, if all of them are sound.
+    pub fn sound(&self) -> Option<Vec<ContactChoice>> {
+        let choices = self.choices.iter().map(|(_, choice)| choice.clone());
+        choices
+            .collect::<Option<Vec<_>>>()
+            .filter(|_| self.complete)
+    }
+
+    /// Names, in the order of the file.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.choices.iter().map(|(name, _)| name.as_str())
+    }
+}
+
+pub(super) fn check(root: &Scope<'_>, field: &Field<Named<ContactEntry>>) -> Contacts {
+    let expected = "at least one contact, such as \
+                    `dry: { mu_s: 0.30, mu_d: 0.27, restitution: 0.25 }`";
+    let Some(Named(entries)) = root.required("contacts", field, expected) else {
+        return Contacts {
+            choices: Vec::new(),
+            complete: false,
+        };
+    };
+    if entries.is_empty() {
+        root.report(
+            root.fault("contacts", "has no contacts")
+                .expecting(expected),
+        );
+    }
+    let scope = root.of("contacts");
+    let choices: Vec<_> = entries
+        .iter()
+        .map(|(name, entry)| {
+            let valid = scope.valid_name(name);
+            let choice = scope
+                .required(name, entry, "mu_s, mu_d and restitution")
+                .and_then(|entry| choice(&scope.of(name), name, entry))
+                .filter(|_| valid);
+            (name.clone(), choice)
+        })
+        .collect();
+    Contacts {
+        complete: !choices.is_empty(),
+        choices,
+    }
+}
+
+fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<ContactChoice> {
+    let law = entry.law.or(LawEntry::StickSlip).map(law);
+    let restitution = scope
+        .required("restitution", &entry.restitution, "a number such as 0.25")
+        .and_then(|entry| restitution(scope, entry));
+    let tangential_restitution = scope.optional(
+        "tangential_restitution",
+        &entry.tangential_restitution,
+        Limit::SIGNED_FRACTION,
+        0.0,
+    );
+    let static_friction = scope
+        .required("mu_s", &entry.mu_s, Limit::FRICTION.expected)
+        .and_then(|mu_s| scope.range("mu_s", mu_s, Limit::FRICTION));
+    let dynamic = dynamic_friction(scope, entry, static_friction);
+
+    let (static_friction, dynamic) = (static_friction?, dynamic?);
+    let contact = Contact {
+        law: law?,
+        static_friction: static_friction.min,
+        dynamic_friction: dynamic.of(static_friction.min),
+        restitution: restitution?,
+        tangential_restitution: tangential_restitution?,
+    };
+    if let Err(fault) = contact.validate() {
+        // Every limit has been checked by its key; this is the last word of the model itself.
+        scope.report(scope.own_fault(fault.to_string()));
+        return None;
+    }
+    Some(ContactChoice {
+        name: name.to_owned(),
+        contact,
+        static_friction,
+        dynamic_ratio: match dynamic {
+            Dynamic::Ratio(ratio) if !static_friction.is_held() => Some(ratio),
+            _ => None,
+        },
+    })
+}
+
+/// The contact of a single surface, which cannot be tuned.
+pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<Contact> {
+    let choice = choice(scope, "", entry)?;
+    if !choice.static_friction.is_held() {
+        scope.report(
+            scope
+                .fault("mu_s", "the contact of a surface is not searched")
+                .expecting("a single number"),
+        );
+        return None;
+    }
+    Some(choice.contact)
+}
+
+/// How dynamic friction is given.
+#[derive(Clone, Copy)]
+enum Dynamic {
+    Value(f64),
+    Ratio(f64),
+}
+
+impl Dynamic {
+    fn of(self, static_friction: f64) -> f64 {
+        match self {
+            Self::Value(value) => value,
+            Self::Ratio(ratio) => ratio * static_friction,
+        }
+    }
+}
+
+fn dynamic_friction(
+    scope: &Scope<'_>,
+    entry: &ContactEntry,
+    static_friction: Option<Range>,
+) -> Option<Dynamic> {
+    let searched = static_friction.is_some_and(|range| !range.is_held());
+    if entry.mu_d_ratio.is_given() {
+        if entry.mu_d.is_given() {
+            scope.report_name(
+                scope
+                    .fault("mu_d_ratio", "mu_d is given as well")
+                    .expecting("either mu_d or mu_d_ratio"),
+            );
+            return None;
+        }
+        let ratio = entry.mu_d_ratio.value()?;
+        return scope
+            .within("mu_d_ratio", *ratio, Limit::FRACTION)
+            .map(Dynamic::Ratio);
+    }
+    if searched {
+        let expected = "a number from 0 to 1, as mu_s is a range";
+        if entry.mu_d.is_given() {
+            scope.report_name(
+                scope
+                    .fault("mu_d", "cannot be held while mu_s is searched")
+                    .expecting("mu_d_ratio, a number from 0 to 1"),
+            );
+        } else {
+            scope.required("mu_d_ratio", &entry.mu_d_ratio, expected);
+        }
+        return None;
+    }
+    let value = scope.required("mu_d", &entry.mu_d, Limit::FRICTION.expected)?;
+    let value = scope.within("mu_d", *value, Limit::FRICTION)?;
+    if let Some(range) = static_friction
+        && value > range.min
+    {
+        scope.report(
+            scope
+                .fault(
+                    "mu_d",
+                    format!(
+                        "dynamic friction {value} exceeds static friction {}",
+                        range.min
+                    ),
+                )
+                .expecting("mu_d at most mu_s"),
+        );
+        return None;
+    }
+    Some(Dynamic::Value(value))
+}
+
+fn restitution(scope: &Scope<'_>, entry: &RestitutionEntry) -> Option<Restitution> {
+    match entry {
+        RestitutionEntry::Constant(value) => scope
+            .within("restitution", *value, Limit::FRACTION)
+            .map(Restitution::Constant),
+        RestitutionEntry::Falling(entry) => {
+            let scope = scope.of("restitution");
+            let reference = scope.needed("value", &entry.value, Limit::FRACTION);
+            let speed = scope.needed("at", &entry.at, Limit::SPEED);
+            let exponent = scope.needed("exponent", &entry.exponent, Limit::FRACTION);
+            Some(Restitution::Falling {
+                reference: reference?,
+                speed: speed?,
+                exponent: exponent?,
+            })
+        }
+    }
+}
+
+fn law(entry: LawEntry) -> Law {
+    match entry {
+        LawEntry::StickSlip => Law::StickSlip,
+        LawEntry::Kinetic => Law::Kinetic,
+        LawEntry::Irrotational => Law::Irrotational,
+        LawEntry::AlwaysSlip => Law::AlwaysSlip,
+    }
+}

@@ -1,0 +1,138 @@
+//! Bare coordinates: lists of numbers in `lengths_in`, and directions.
+
+use std::cell::Cell;
+
+use nalgebra::{Point2, Point3, Vector3};
+
+use super::limit::Limit;
+use super::metres_per;
+use super::scope::Scope;
+use crate::problem::field::Field;
+use crate::problem::file::scene::BoxEntry;
+use crate::problem::file::{LengthUnit, Pair, Triple};
+
+/// How bare coordinates become metres.
+pub(super) struct Coordinates<'a> {
+    root: Scope<'a>,
+    /// Metres per unit.
+    scale: Option<f64>,
+    /// Whether a missing unit is still to be reported, at its first use.
+    unreported: Cell<bool>,
+}
+
+impl<'a> Coordinates<'a> {
+    pub fn new(root: &Scope<'a>, unit: &Field<LengthUnit>) -> Self {
+        Self {
+            root: root.clone(),
+            scale: unit.value().copied().map(metres_per),
+            unreported: Cell::new(!unit.is_given()),
+        }
+    }
+
+    /// Metres per unit of coordinate lists and mesh files.
+    pub fn scale(&self) -> Option<f64> {
+        if self.unreported.replace(false) {
+            self.root.required(
+                "lengths_in",
+                &Field::<LengthUnit>::Missing,
+                "um, mm, cm, m or in, as the file has coordinates or a mesh",
+            );
+        }
+        self.scale
+    }
+
+    /// A point of the scene in m.
+    pub fn point(&self, scope: &Scope<'_>, triple: &Triple) -> Option<Point3<f64>> {
+        self.scaled_point(scope, triple, self.scale())
+    }
+
+    /// A point in a cross-section in m.
+    pub fn flat_point(&self, scope: &Scope<'_>, pair: &Pair) -> Option<Point2<f64>> {
+        scaled(scope, pair, self.scale()).map(|[x, y]| Point2::new(x, y))
+    }
+
+    /// A point in m, where the unit may differ from that of the file.
+    pub fn scaled_point(
+        &self,
+        scope: &Scope<'_>,
+        triple: &Triple,
+        scale: Option<f64>,
+    ) -> Option<Point3<f64>> {
+        scaled(scope, triple, scale).map(Point3::from)
+    }
+
+    /// Two opposite corners in m, the smaller one first.
+    pub fn corners(
+        &self,
+        scope: &Scope<'_>,
+        entry: &BoxEntry,
+        scale: Option<f64>,
+    ) -> Option<(Point3<f64>, Point3<f64>)> {
+        let corner = |name: &str, field: &Field<Triple>| {
+            let triple = scope.required(name, field, "a corner `[x, y, z]`")?;
+            self.scaled_point(&scope.of(name), triple, scale)
+        };
+        let (min, max) = (corner("min", &entry.min), corner("max", &entry.max));
+        let (min, max) = (min?, max?);
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+            if min[axis] >= max[axis] {
+                scope.report(
+                    scope
+                        .fault("max", format!("the box has no extent along {name}"))
+                        .expecting(format!("a larger {name} than in `min`")),
+                );
+                return None;
+            }
+        }
+        Some((min, max))
+    }
+}
+
+/// A direction of any length but 0, made a unit vector.
+pub(super) fn direction(scope: &Scope<'_>, triple: &Triple) -> Option<Vector3<f64>> {
+    let vector = Vector3::from(numbers(scope, triple)?);
+    let unit = vector
+        .try_normalize(f64::MIN_POSITIVE)
+        .filter(|unit| unit.iter().all(|c| c.is_finite()) && unit.norm() > 0.5);
+    if unit.is_none() {
+        scope.report(
+            scope
+                .own_fault("is not a direction")
+                .expecting("a list such as `[0, 0, 1]`"),
+        );
+    }
+    unit
+}
+
+/// The numbers of a list, all of which must be there.
+fn numbers<const N: usize>(scope: &Scope<'_>, list: &[Field<f64>; N]) -> Option<[f64; N]> {
+    let mut values = [0.0; N];
+    let mut sound = true;
+    for (index, field) in list.iter().enumerate() {
+        match field {
+            Field::Present(value) => values[index] = *value,
+            Field::Faulty => sound = false,
+            Field::Missing => {
+                let item = scope.item(index);
+                item.report(item.own_fault("is missing").expecting("a number"));
+                sound = false;
+            }
+        }
+    }
+    sound.then_some(values)
+}
+
+fn scaled<const N: usize>(
+    scope: &Scope<'_>,
+    list: &[Field<f64>; N],
+    scale: Option<f64>,
+) -> Option<[f64; N]> {
+    let values = numbers(scope, list)?;
+    let scale = scale?;
+    let metres = values.map(|value| value * scale);
+    let mut sound = true;
+    for (index, value) in metres.iter().enumerate() {
+        sound &= scope.item(index).within_own(*value, Limit::SHIFT).is_some();
+    }
+    sound.then_some(metres)
+}

@@ -1,0 +1,83 @@
+//! What a number may be, and how that is said.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// An interval of allowed values in SI.
+///
+/// The outermost ends are far beyond any workshop; they keep masses and squares computable.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limit {
+    min: f64,
+    max: f64,
+    /// Whether `max` itself is too large.
+    below: bool,
+    /// What is expected, in messages.
+    pub expected: &'static str,
+}
+
+const fn to(min: f64, max: f64, expected: &'static str) -> Limit {
+    Limit {
+        min,
+        max,
+        below: false,
+        expected,
+    }
+}
+
+const fn below(min: f64, max: f64, expected: &'static str) -> Limit {
+    Limit {
+        min,
+        max,
+        below: true,
+        expected,
+    }
+}
+
+/// Angles at the ends of their range may be off by a rounding error.
+const ROUNDING: f64 = 1e-12;
+
+impl Limit {
+    pub const LENGTH: Self = to(1e-9, 1e3, "a length from 1 nm to 1 km");
+    pub const LENGTH_OR_ZERO: Self = to(0.0, 1e3, "a length from 0 mm to 1 km");
+    pub const SHIFT: Self = to(-1e3, 1e3, "a length from -1 km to 1 km");
+    pub const DENSITY: Self = to(1.0, 1e5, "a density from 1 kg/m3 to 100000 kg/m3");
+    pub const SPEED: Self = to(1e-6, 1e4, "a speed from 1 um/s to 10000 m/s");
+    pub const IMPULSE: Self = to(1e-18, 1e6, "an impulse above 0 N.s");
+    pub const INCIDENCE: Self = to(
+        1e-6,
+        FRAC_PI_2 + ROUNDING,
+        "an angle above 0 deg, up to 90 deg",
+    );
+    pub const DIVERGENCE: Self = below(0.0, FRAC_PI_2, "a half-angle from 0 deg to below 90 deg");
+    pub const TURN: Self = to(
+        -TAU - ROUNDING,
+        TAU + ROUNDING,
+        "an angle from -360 deg to 360 deg",
+    );
+    pub const ANGLE_OR_ZERO: Self = to(0.0, TAU + ROUNDING, "an angle from 0 deg to 360 deg");
+    /// A standard deviation that is cut at two: the smallest value must stay above 0.
+    pub const SPREAD: Self = below(0.0, 0.5, "a percentage from 0 % to below 50 %");
+    pub const SHARE: Self = to(0.0, 1.0, "a percentage from 0 % to 100 %");
+    pub const BELOW_ALL: Self = below(0.0, 1.0, "a percentage from 0 % to below 100 %");
+    pub const ACCURACY: Self = to(1e-9, 1.0, "a percentage above 0 %, up to 100 %");
+    pub const DEVIATION: Self = to(0.0, 10.0, "a percentage from 0 % to 1000 %");
+    pub const WEIGHT: Self = to(0.0, 1e9, "a number from 0 to 1e9");
+    pub const FRICTION: Self = to(0.0, 10.0, "a number from 0 to 10");
+    pub const FRACTION: Self = to(0.0, 1.0, "a number from 0 to 1");
+    pub const SIGNED_FRACTION: Self = to(-1.0, 1.0, "a number from -1 to 1");
+
+    /// What is wrong with `value`, if anything.
+    pub fn complaint(&self, value: f64) -> Option<&'static str> {
+        if value >= self.min && (value < self.max || (value == self.max && !self.below)) {
+            None
+        } else if self.min > 0.0 && value <= 0.0 {
+            Some("must be more than 0")
+        } else if self.min == 0.0 && value < 0.0 {
+            Some("must not be negative")
+        } else if value < self.min {
+            Some("is too small")
+        } else {
+            Some("is too large")
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! `nozzle`: the body that carries the jet.
+
+use super::coordinates::direction;
+use super::limit::Limit;
+use super::scope::Scope;
+use crate::problem::equipment::{Body, Nozzle};
+use crate::problem::field::Field;
+use crate::problem::file::equipment::{BallEntry, BodyEntry, CapsuleEntry, NozzleEntry};
+
+pub(super) fn check(scope: &Scope<'_>, entry: &NozzleEntry) -> Option<Nozzle> {
+    let clearance = scope.optional("clearance", &entry.clearance, Limit::LENGTH_OR_ZERO, 0.0);
+    let pieces = entry.body.or(Vec::new()).and_then(|pieces| {
+        let list = scope.of("body");
+        let pieces: Vec<Option<Body>> = pieces
+            .iter()
+            .enumerate()
+            .map(|(index, piece)| self::piece(&list.item(index), piece))
+            .collect();
+        pieces.into_iter().collect::<Option<Vec<Body>>>()
+    });
+    Some(Nozzle {
+        body: pieces?,
+        clearance: clearance?,
+    })
+}
+
+fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
+    const EXPECTED: &str = "exactly one of ball, capsule";
+    let entry = match field {
+        Field::Present(entry) => entry,
+        Field::Faulty => return None,
+        Field::Missing => {
+            scope.report(scope.own_fault("is missing").expecting(EXPECTED));
+            return None;
+        }
+    };
+    match (entry.ball.is_given(), entry.capsule.is_given()) {
+        (true, false) => ball(&scope.of("ball"), entry.ball.value()?),
+        (false, true) => capsule(&scope.of("capsule"), entry.capsule.value()?),
+        (true, true) => {
+            scope.report_name(
+                scope
+                    .fault("capsule", "is a second shape")
+                    .expecting(EXPECTED),
+            );
+            None
+        }
+        (false, false) => {
+            if !scope.is_misspelt("ball") && !scope.is_misspelt("capsule") {
+                scope.report(scope.own_fault("has no shape").expecting(EXPECTED));
+            }
+            None
+        }
+    }
+}
+
+fn ball(scope: &Scope<'_>, entry: &BallEntry) -> Option<Body> {
+    let radius = scope.needed("radius", &entry.radius, Limit::LENGTH)?;
+    Some(Body::Ball { radius })
+}
+
+fn capsule(scope: &Scope<'_>, entry: &CapsuleEntry) -> Option<Body> {
+    let length = scope.needed("length", &entry.length, Limit::LENGTH);
+    let radius = scope.needed("radius", &entry.radius, Limit::LENGTH);
+    let direction = match &entry.direction {
+        Field::Missing => Some(None),
+        Field::Faulty => None,
+        Field::Present(fixed) => direction(&scope.of("direction"), fixed).map(Some),
+    };
+    Some(Body::Capsule {
+        length: length?,
+        radius: radius?,
+        direction: direction?,
+    })
+}

@@ -1,0 +1,303 @@
+//! `scene`: the named parts, what each looks like and where it stands.
+
+use std::path::{Component, Path, PathBuf};
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::coordinates::Coordinates;
+use super::limit::Limit;
+use super::scope::Scope;
+use super::{metres_per, shape};
+use crate::problem::fault::Fault;
+use crate::problem::field::Field;
+use crate::problem::file::Named;
+use crate::problem::file::scene::{PartEntry, PlaceEntry};
+use crate::problem::part::{Part, Place, Region, Shape};
+
+/// The parts of the file by name; `None` for a faulty one.
+pub(super) struct Scene {
+    /// Each with what could be made of it.
+    parts: Vec<(String, Option<Part>)>,
+    /// Whether the whole block could be read.
+    sound: bool,
+}
+
+impl Scene {
+    /// All parts, if all of them are sound.
+    pub fn sound(&self) -> Option<Vec<Part>> {
+        let parts: Option<Vec<Part>> = self.parts.iter().map(|(_, part)| part.clone()).collect();
+        parts.filter(|_| self.sound)
+    }
+
+    /// What is wrong with `name` as the name of a surface, as far as the file alone can tell: the
+    /// groups of a mesh file are not known here.
+    pub fn surface_fault(&self, key: Fault, name: &str) -> Option<Fault> {
+        if !self.sound {
+            return None;
+        }
+        let shown = crate::units::shortened(name);
+        let (part_name, surface) = name.split_once('.').unwrap_or((name, ""));
+        let Some((_, part)) = self.parts.iter().find(|(known, _)| known == part_name) else {
+            let names: Vec<&str> = self.parts.iter().map(|(name, _)| name.as_str()).collect();
+            let corrected = crate::problem::fault::nearest_name(part_name, names.iter().copied())
+                .map(|near| format!("{near}.{surface}"));
+            let mut fault = Fault {
+                message: if surface.is_empty() {
+                    format!("`{shown}` is not a surface")
+                } else {
+                    format!("there is no part `{}`", crate::units::shortened(part_name))
+                },
+                ..key
+            }
+            .expecting(format!(
+                "`part.surface` with a part out of {}",
+                names.join(", ")
+            ));
+            fault.suggestion = corrected.filter(|_| !surface.is_empty());
+            return Some(fault);
+        };
+        let shape = &part.as_ref()?.shape;
+        let full: Vec<String> = shape
+            .surface_names()
+            .into_iter()
+            .map(|surface| format!("{part_name}.{surface}"))
+            .collect();
+        let is_mesh = matches!(shape, Shape::Mesh { .. });
+        if full.iter().any(|known| known == name) || (is_mesh && !surface.is_empty()) {
+            return None;
+        }
+        let message = if surface.is_empty() {
+            format!("`{shown}` is a part, not a surface")
+        } else {
+            format!("there is no surface `{shown}`")
+        };
+        let expected = match (is_mesh, full.is_empty()) {
+            (true, true) => format!("{part_name}.all, or a group of its mesh file"),
+            (true, false) => format!("one of {}, or a group of its mesh file", full.join(", ")),
+            _ => format!("one of {}", full.join(", ")),
+        };
+        let fault = Fault { message, ..key }.expecting(expected);
+        Some(fault.nearest(name, full.iter().map(String::as_str)))
+    }
+}
+
+/// Checks every part; mesh files lie in `folder` or below.
+pub(super) fn check(
+    root: &Scope<'_>,
+    field: &Field<Named<PartEntry>>,
+    coordinates: &Coordinates<'_>,
+    folder: &Path,
+) -> Scene {
+    let expected = "at least one part, such as `hub: { keyway: { .. } }`";
+    let Some(Named(entries)) = root.required("scene", field, expected) else {
+        return Scene {
+            parts: Vec::new(),
+            sound: false,
+        };
+    };
+    if entries.is_empty() {
+        root.report(root.fault("scene", "has no parts").expecting(expected));
+    }
+    let scope = root.of("scene");
+    let parts: Vec<_> = entries
+        .iter()
+        .map(|(name, entry)| {
+            let valid = scope.valid_name(name);
+            let part = scope
+                .required(name, entry, "a shape, such as `{ keyway: { .. } }`")
+                .and_then(|entry| part(&scope.of(name), name, entry, coordinates, folder))
+                .filter(|_| valid);
+            (name.clone(), part)
+        })
+        .collect();
+    Scene {
+        sound: !parts.is_empty(),
+        parts,
+    }
+}
+
+const SHAPES: &str = "exactly one of keyway, bore, box, extrude, mesh";
+
+fn part(
+    scope: &Scope<'_>,
+    name: &str,
+    entry: &PartEntry,
+    coordinates: &Coordinates<'_>,
+    folder: &Path,
+) -> Option<Part> {
+    let place = match &entry.place {
+        Field::Missing => Some(Place::default()),
+        Field::Faulty => None,
+        Field::Present(place) => self::place(&scope.of("place"), place, coordinates),
+    };
+    let given: Vec<&str> = [
+        ("keyway", entry.keyway.is_given()),
+        ("bore", entry.bore.is_given()),
+        ("box", entry.block.is_given()),
+        ("extrude", entry.extrude.is_given()),
+        ("mesh", entry.mesh.is_given()),
+    ]
+    .into_iter()
+    .filter_map(|(name, given)| given.then_some(name))
+    .collect();
+    match given.as_slice() {
+        [_] => {}
+        [] => {
+            let missing = "has no shape";
+            if !["keyway", "bore", "box", "extrude", "mesh"]
+                .iter()
+                .any(|shape| scope.is_misspelt(shape))
+            {
+                scope.report_name(scope.own_fault(missing).expecting(SHAPES));
+            }
+        }
+        [_, second, ..] => {
+            scope.report_name(scope.fault(second, "is a second shape").expecting(SHAPES));
+        }
+    }
+    if !entry.mesh.is_given() && given.len() == 1 {
+        for (key, stray) in [
+            ("regions", entry.regions.is_given()),
+            ("lengths_in", entry.lengths_in.is_given()),
+        ] {
+            if stray {
+                scope.report_name(
+                    scope
+                        .fault(key, "has no effect on this shape")
+                        .expecting("it beside `mesh` only"),
+                );
+            }
+        }
+    }
+    let keyway = entry
+        .keyway
+        .value()
+        .and_then(|keyway| shape::keyway(&scope.of("keyway"), keyway));
+    let bore = entry
+        .bore
+        .value()
+        .and_then(|bore| shape::bore(&scope.of("bore"), bore));
+    let block = entry.block.value().and_then(|block| {
+        let (min, max) = coordinates.corners(&scope.of("box"), block, coordinates.scale())?;
+        Some(Shape::Box { min, max })
+    });
+    let extrude = entry
+        .extrude
+        .value()
+        .and_then(|extrude| shape::extrude(&scope.of("extrude"), extrude, coordinates));
+    let mesh = entry
+        .mesh
+        .value()
+        .and_then(|file| mesh(scope, file, entry, coordinates, folder));
+    let shape = keyway.or(bore).or(block).or(extrude).or(mesh)?;
+    if given.len() != 1 {
+        return None;
+    }
+    Some(Part {
+        name: name.to_owned(),
+        shape,
+        place: place?,
+    })
+}
+
+fn place(scope: &Scope<'_>, entry: &PlaceEntry, coordinates: &Coordinates<'_>) -> Option<Place> {
+    let shift = match &entry.at {
+        Field::Missing => Some(Vector3::zeros()),
+        Field::Faulty => None,
+        Field::Present(at) => coordinates.point(&scope.of("at"), at).map(|p| p.coords),
+    };
+    let rotation = match &entry.rotate {
+        Field::Missing => Some(UnitQuaternion::identity()),
+        Field::Faulty => None,
+        Field::Present(angles) => {
+            let list = scope.of("rotate");
+            let angle = |index: usize| {
+                let item = list.item(index);
+                if !angles[index].is_given() {
+                    item.report(item.own_fault("is missing").expecting(Limit::TURN.expected));
+                }
+                item.within_own(angles[index].value()?.0, Limit::TURN)
+            };
+            let (x, y, z) = (angle(0), angle(1), angle(2));
+            // nalgebra turns about fixed x, then y, then z.
+            (|| Some(UnitQuaternion::from_euler_angles(x?, y?, z?)))()
+        }
+    };
+    Some(Place {
+        rotation: rotation?,
+        shift: shift?,
+    })
+}
+
+fn mesh(
+    scope: &Scope<'_>,
+    file: &str,
+    entry: &PartEntry,
+    coordinates: &Coordinates<'_>,
+    folder: &Path,
+) -> Option<Shape> {
+    let path = mesh_path(scope, file, folder);
+    let scale = match &entry.lengths_in {
+        Field::Missing => coordinates.scale(),
+        Field::Faulty => None,
+        Field::Present(unit) => Some(metres_per(*unit)),
+    };
+    let regions = match &entry.regions {
+        Field::Missing => Some(Vec::new()),
+        Field::Faulty => None,
+        Field::Present(Named(entries)) => {
+            let list = scope.of("regions");
+            let regions: Vec<Option<Region>> = entries
+                .iter()
+                .map(|(name, field)| {
+                    let valid = list.valid_name(name);
+                    let entry = list.required(name, field, "`{ min: [..], max: [..] }`")?;
+                    let (min, max) = coordinates.corners(&list.of(name), entry, scale)?;
+                    valid.then(|| Region {
+                        name: name.clone(),
+                        min,
+                        max,
+                    })
+                })
+                .collect();
+            regions.into_iter().collect()
+        }
+    };
+    Some(Shape::Mesh {
+        path: path?,
+        metres_per_unit: scale?,
+        regions: regions?,
+    })
+}
+
+/// The mesh file within the folder of the problem file. Whether it exists shows when it is read.
+fn mesh_path(scope: &Scope<'_>, file: &str, folder: &Path) -> Option<PathBuf> {
+    let complaint = if file.trim().is_empty() {
+        Some("has no value")
+    } else if file.contains('\\') || file.contains('\0') {
+        Some("is not a portable path")
+    } else {
+        let mut depth = 0_i32;
+        Path::new(file)
+            .components()
+            .any(|component| {
+                match component {
+                    Component::Normal(_) => depth += 1,
+                    Component::ParentDir => depth -= 1,
+                    Component::CurDir => {}
+                    Component::RootDir | Component::Prefix(_) => depth = i32::MIN / 2,
+                }
+                depth < 0
+            })
+            .then_some("leaves the folder of the problem file")
+    };
+    match complaint {
+        None => Some(folder.join(file)),
+        Some(complaint) => {
+            scope.report(scope.fault("mesh", complaint).expecting(
+                "a path relative to the problem file, in its folder, with `/` between names",
+            ));
+            None
+        }
+    }
+}

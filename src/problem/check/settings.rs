@@ -1,0 +1,132 @@
+//! `settings`: what is searched and what is held.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use super::contacts::Contacts;
+use super::limit::Limit;
+use super::scope::Scope;
+use crate::problem::field::Field;
+use crate::problem::file::Length;
+use crate::problem::file::Quantity;
+use crate::problem::file::settings::{OneOrMany, OneOrRange, SettingsEntry};
+use crate::problem::setting::{Range, Settings};
+
+pub(super) fn check(
+    scope: &Scope<'_>,
+    entry: &SettingsEntry,
+    contacts: &Contacts,
+) -> Option<Settings> {
+    let incidence = needed(scope, "incidence", &entry.incidence, Limit::INCIDENCE).map(|range| {
+        // 90 deg may come out of the conversion a rounding error too large.
+        Range {
+            min: range.min.min(FRAC_PI_2),
+            max: range.max.min(FRAC_PI_2),
+        }
+    });
+    let azimuth = needed(scope, "azimuth", &entry.azimuth, Limit::TURN).filter(|range| {
+        let sound = range.width() <= TAU * (1.0 + 1e-12);
+        if !sound {
+            scope.report(
+                scope
+                    .fault("azimuth", "the range is wider than a full turn")
+                    .expecting("at most 360 deg from end to end"),
+            );
+        }
+        sound
+    });
+    let standoff = needed(scope, "standoff", &entry.standoff, Limit::LENGTH);
+    let speed = needed(scope, "speed", &entry.speed, Limit::SPEED);
+    let aim_along = shift(scope, "aim_along", &entry.aim_along);
+    let aim_across = shift(scope, "aim_across", &entry.aim_across);
+    let contact = chosen(scope, &entry.contact, contacts);
+    Some(Settings {
+        incidence: incidence?,
+        azimuth: azimuth?,
+        standoff: standoff?,
+        speed: speed?,
+        aim_along: aim_along?,
+        aim_across: aim_across?,
+        contact: contact?,
+    })
+}
+
+fn needed<Q: Quantity>(
+    scope: &Scope<'_>,
+    name: &str,
+    field: &Field<OneOrRange<Q>>,
+    limit: Limit,
+) -> Option<Range> {
+    let expected = format!("{}, or a range `[min, max]`", limit.expected);
+    let value = scope.required(name, field, &expected)?;
+    scope.range(name, value, limit)
+}
+
+fn shift(scope: &Scope<'_>, name: &str, field: &Field<OneOrRange<Length>>) -> Option<Range> {
+    match field {
+        Field::Missing => Some(Range::held(0.0)),
+        Field::Faulty => None,
+        Field::Present(value) => scope.range(name, value, Limit::SHIFT),
+    }
+}
+
+/// Indices of the contacts that may be chosen, in the order of the file.
+fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> Option<Vec<usize>> {
+    let known: Vec<&str> = contacts.names().collect();
+    let named: Vec<(Scope<'_>, &str)> = match field {
+        Field::Missing => return Some((0..known.len()).collect()),
+        Field::Faulty => return None,
+        Field::Present(OneOrMany::One(name)) => vec![(scope.of("contact"), name)],
+        Field::Present(OneOrMany::Many(names)) => {
+            let list = scope.of("contact");
+            let mut given = Vec::new();
+            for (index, name) in names.iter().enumerate() {
+                let item = list.item(index);
+                match name {
+                    Field::Present(name) => given.push((item, name.as_str())),
+                    Field::Faulty => return None,
+                    Field::Missing => {
+                        item.report(item.own_fault("is missing").expecting("a contact"));
+                        return None;
+                    }
+                }
+            }
+            if given.is_empty() {
+                list.report(
+                    list.own_fault("names no contact")
+                        .expecting(known.join(", ")),
+                );
+                return None;
+            }
+            given
+        }
+    };
+    let mut indices = Vec::new();
+    let mut sound = true;
+    for (item, name) in named {
+        match known.iter().position(|known| *known == name) {
+            Some(index) if indices.contains(&index) => {
+                item.report(
+                    item.own_fault(format!("`{name}` is named twice"))
+                        .expecting("every contact once"),
+                );
+                sound = false;
+            }
+            Some(index) => indices.push(index),
+            // Without any contact there is a fault already.
+            None if contacts.complete => {
+                item.report(
+                    item.own_fault(format!(
+                        "there is no contact `{}`",
+                        crate::units::shortened(name)
+                    ))
+                    .expecting(format!("one of {}", known.join(", ")))
+                    .nearest(name, known.iter().copied()),
+                );
+                sound = false;
+            }
+            None => sound = false,
+        }
+    }
+    indices.sort_unstable();
+    sound.then_some(indices)
+}

@@ -1,0 +1,86 @@
+//! `tolerance`: how exactly a shop sets what is asked for.
+
+use super::limit::Limit;
+use super::scope::Scope;
+use crate::problem::file::settings::ToleranceEntry;
+use crate::problem::setting::{Range, Settings, Tolerance};
+
+/// Checks the half-widths; against the settings where those are sound.
+pub(super) fn check(
+    scope: &Scope<'_>,
+    entry: &ToleranceEntry,
+    settings: Option<&Settings>,
+) -> Option<Tolerance> {
+    let incidence = scope.optional("incidence", &entry.incidence, Limit::ANGLE_OR_ZERO, 0.0);
+    let azimuth = scope.optional("azimuth", &entry.azimuth, Limit::ANGLE_OR_ZERO, 0.0);
+    let standoff = scope.optional("standoff", &entry.standoff, Limit::LENGTH_OR_ZERO, 0.0);
+    let speed = scope.optional("speed", &entry.speed, Limit::BELOW_ALL, 0.0);
+    let aim_along = scope.optional("aim_along", &entry.aim_along, Limit::LENGTH_OR_ZERO, 0.0);
+    let aim_across = scope.optional("aim_across", &entry.aim_across, Limit::LENGTH_OR_ZERO, 0.0);
+    let restitution = scope.optional("restitution", &entry.restitution, Limit::FRACTION, 0.0);
+    let friction = scope.optional("friction", &entry.friction, Limit::BELOW_ALL, 0.0);
+    let tolerance = Tolerance {
+        incidence: incidence?,
+        azimuth: azimuth?,
+        standoff: standoff?,
+        aim_along: aim_along?,
+        aim_across: aim_across?,
+        speed: speed?,
+        restitution: restitution?,
+        friction: friction?,
+    };
+    settings
+        .is_none_or(|settings| fits(scope, &tolerance, settings))
+        .then_some(tolerance)
+}
+
+/// Whether the tolerance leaves something to search, and never reaches beyond what can be set.
+fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
+    let absolute = [
+        ("incidence", tolerance.incidence, settings.incidence),
+        ("azimuth", tolerance.azimuth, settings.azimuth),
+        ("standoff", tolerance.standoff, settings.standoff),
+        ("aim_along", tolerance.aim_along, settings.aim_along),
+        ("aim_across", tolerance.aim_across, settings.aim_across),
+        (
+            "speed",
+            tolerance.speed * settings.speed.max,
+            settings.speed,
+        ),
+    ];
+    let mut sound = true;
+    for (name, half_width, range) in absolute {
+        if !leaves_a_choice(half_width, range) {
+            scope.report(
+                scope
+                    .fault(name, "is wider than the range that is searched")
+                    .expecting(format!("less than half the range of settings.{name}")),
+            );
+            sound = false;
+        }
+    }
+    for (name, half_width, range, reached) in [
+        (
+            "incidence",
+            tolerance.incidence,
+            settings.incidence,
+            "0 deg",
+        ),
+        ("standoff", tolerance.standoff, settings.standoff, "0 mm"),
+    ] {
+        if leaves_a_choice(half_width, range) && half_width >= range.min {
+            scope.report(
+                scope
+                    .fault(name, format!("lets the {name} fall to {reached}"))
+                    .expecting(format!("less than the smallest settings.{name}")),
+            );
+            sound = false;
+        }
+    }
+    sound
+}
+
+/// A held setting leaves none to begin with, and takes any tolerance.
+fn leaves_a_choice(half_width: f64, range: Range) -> bool {
+    range.is_held() || 2.0 * half_width <= range.width()
+}

@@ -1,0 +1,324 @@
+//! The tree of the file to typed values, without stopping at the first fault.
+//!
+//! A serde deserializer over [`Node`]. Every error is recorded once, at the innermost value that
+//! it concerns, before it is returned; [`Field`](super::field::Field) then swallows it. Three
+//! conventions carry meaning through serde's derived code:
+//!
+//! - a newtype struct whose serde name is that of a dimension (`length`, `speed`, ...) is a
+//!   quantity with a unit and arrives in SI;
+//! - an enum with variants called `scalar`, `list` or `map` is chosen by the form of the value,
+//!   and its serde name says in messages what is expected;
+//! - any other enum is a name out of a list.
+
+mod access;
+mod error;
+
+use serde::Deserializer;
+use serde::de::{IntoDeserializer, Visitor};
+use serde::forward_to_deserialize_any;
+
+use access::{Entries, Form, Items};
+use error::ReadError;
+
+use super::fault::Fault;
+use super::faults::Faults;
+use super::source::child_key;
+use super::yaml::{Entry, Node, Value};
+use crate::units::{self, Dimension, shortened};
+
+/// What is said of a key that nobody asked for.
+pub(super) const UNKNOWN_KEY: &str = "unknown key";
+
+/// One node on its way to a typed value.
+pub(super) struct Reader<'a> {
+    node: &'a Node,
+    key: String,
+    faults: &'a Faults<'a>,
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(node: &'a Node, faults: &'a Faults<'a>) -> Self {
+        Self {
+            node,
+            key: String::new(),
+            faults,
+        }
+    }
+
+    /// Records a fault of this very node.
+    fn refuse(&self, message: impl Into<String>, expected: impl Into<String>) -> ReadError {
+        self.push(Fault::at_key(&self.key, message).expecting(expected))
+    }
+
+    fn push(&self, fault: Fault) -> ReadError {
+        self.faults.push(fault);
+        ReadError::Recorded
+    }
+
+    /// Records an error that a visitor has raised over this node.
+    fn record<T>(&self, result: Result<T, ReadError>) -> Result<T, ReadError> {
+        result.map_err(|error| match error {
+            ReadError::Recorded => ReadError::Recorded,
+            ReadError::Fresh { message, expected } => {
+                let mut fault = Fault::at_key(&self.key, message);
+                fault.expected = expected;
+                self.push(fault)
+            }
+        })
+    }
+
+    /// Refuses the kind of value that stands here.
+    fn unexpected(&self, expected: &str) -> ReadError {
+        let found = match &self.node.value {
+            Value::Null => "has no value".to_owned(),
+            Value::Number(text) => format!("`{text}` is a number"),
+            Value::Text(text) => format!("`{}` is text", shortened(text)),
+            Value::List(_) => "is a list".to_owned(),
+            Value::Map(_) => "is a group of keys".to_owned(),
+        };
+        self.refuse(found, expected)
+    }
+
+    /// A bare number.
+    fn number(&self) -> Result<f64, ReadError> {
+        const EXPECTED: &str = "a plain number such as 0.25";
+        let Value::Number(text) = &self.node.value else {
+            return Err(self.unexpected(EXPECTED));
+        };
+        match units::parse_number(text) {
+            Some(value) if value.is_finite() => Ok(value),
+            Some(_) => Err(self.refuse(format!("`{text}` is too large a number"), EXPECTED)),
+            None => Err(self.refuse(format!("`{text}` is not a plain number"), EXPECTED)),
+        }
+    }
+
+    fn whole_number(&self) -> Result<u64, ReadError> {
+        const EXPECTED: &str = "a whole number, 0 or more";
+        let Value::Number(text) = &self.node.value else {
+            return Err(self.unexpected(EXPECTED));
+        };
+        text.parse()
+            .map_err(|_| self.refuse(format!("`{text}` is not a whole number"), EXPECTED))
+    }
+
+    fn quantity(&self, dimension: Dimension) -> Result<f64, ReadError> {
+        let (Value::Text(text) | Value::Number(text)) = &self.node.value else {
+            return Err(self.unexpected(dimension.described()));
+        };
+        units::parse(dimension, text).map_err(|unit_fault| {
+            let mut fault =
+                Fault::at_key(&self.key, unit_fault.message()).expecting(unit_fault.expected());
+            fault.suggestion = unit_fault.suggestion();
+            self.push(fault)
+        })
+    }
+
+    fn text(&self) -> Result<&'a str, ReadError> {
+        match &self.node.value {
+            Value::Text(text) | Value::Number(text) => Ok(text),
+            _ => Err(self.unexpected("text")),
+        }
+    }
+
+    fn items(&self, expected: &str) -> Result<Items<'a>, ReadError> {
+        match &self.node.value {
+            Value::List(items) => Ok(Items {
+                rest: items.iter().enumerate(),
+                key: self.key.clone(),
+                faults: self.faults,
+            }),
+            _ => Err(self.unexpected(expected)),
+        }
+    }
+
+    fn entries(&self) -> Result<&'a [Entry], ReadError> {
+        match &self.node.value {
+            Value::Map(entries) => Ok(entries),
+            _ => Err(self.unexpected("a group of keys")),
+        }
+    }
+
+    fn access(&self, entries: Vec<&'a Entry>) -> Entries<'a> {
+        Entries {
+            rest: entries.into_iter(),
+            current: None,
+            key: self.key.clone(),
+            faults: self.faults,
+        }
+    }
+
+    fn form(&self) -> &'static str {
+        match self.node.value {
+            Value::Null | Value::Number(_) | Value::Text(_) => "scalar",
+            Value::List(_) => "list",
+            Value::Map(_) => "map",
+        }
+    }
+}
+
+macro_rules! whole_numbers {
+    ($($method:ident)*) => {$(
+        fn $method<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+            let value = self.whole_number()?;
+            self.record(visitor.visit_u64(value))
+        }
+    )*};
+}
+
+impl<'a> Deserializer<'a> for Reader<'a> {
+    type Error = ReadError;
+
+    fn deserialize_any<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        match &self.node.value {
+            Value::Null => self.record(visitor.visit_unit()),
+            Value::Number(_) => self.deserialize_f64(visitor),
+            Value::Text(text) => self.record(visitor.visit_str(text)),
+            Value::List(_) => self.deserialize_seq(visitor),
+            Value::Map(_) => self.deserialize_map(visitor),
+        }
+    }
+
+    fn deserialize_option<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        match self.node.value {
+            Value::Null => visitor.visit_none(),
+            _ => visitor.visit_some(self),
+        }
+    }
+
+    fn deserialize_f64<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        let value = self.number()?;
+        self.record(visitor.visit_f64(value))
+    }
+
+    fn deserialize_f32<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        self.deserialize_f64(visitor)
+    }
+
+    whole_numbers! {
+        deserialize_u8 deserialize_u16 deserialize_u32 deserialize_u64
+        deserialize_i8 deserialize_i16 deserialize_i32 deserialize_i64
+    }
+
+    fn deserialize_str<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        let text = self.text()?;
+        self.record(visitor.visit_str(text))
+    }
+
+    fn deserialize_string<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'a>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, ReadError> {
+        let dimension = Dimension::ALL
+            .into_iter()
+            .find(|dimension| dimension.name() == name);
+        match dimension {
+            Some(dimension) => {
+                let si = self.quantity(dimension)?;
+                self.record(visitor.visit_newtype_struct(si.into_deserializer()))
+            }
+            None => visitor.visit_newtype_struct(self),
+        }
+    }
+
+    fn deserialize_seq<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        let items = self.items("a list")?;
+        self.record(visitor.visit_seq(items))
+    }
+
+    fn deserialize_tuple<V: Visitor<'a>>(
+        self,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, ReadError> {
+        let expected = match length {
+            2 => "a list of 2, `[.., ..]`",
+            _ => "a list of 3, `[x, y, z]`",
+        };
+        let items = self.items(expected)?;
+        let found = items.rest.len();
+        if found != length {
+            return Err(self.refuse(format!("is a list of {found}"), expected));
+        }
+        self.record(visitor.visit_seq(items))
+    }
+
+    fn deserialize_map<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        let entries = self.entries()?.iter().collect();
+        self.record(visitor.visit_map(self.access(entries)))
+    }
+
+    fn deserialize_struct<V: Visitor<'a>>(
+        self,
+        _: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, ReadError> {
+        let (known, unknown): (Vec<&Entry>, Vec<&Entry>) = self
+            .entries()?
+            .iter()
+            .partition(|entry| fields.contains(&entry.key.as_str()));
+        for entry in unknown {
+            let mut fault = Fault::at_key(child_key(&self.key, &entry.key), UNKNOWN_KEY)
+                .expecting(one_of(fields))
+                .nearest(&entry.key, fields.iter().copied());
+            fault.at = Some(entry.key_span);
+            self.faults.push(fault);
+        }
+        self.record(visitor.visit_map(self.access(known)))
+    }
+
+    fn deserialize_enum<V: Visitor<'a>>(
+        self,
+        name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, ReadError> {
+        let by_form = ["scalar", "list", "map"]
+            .iter()
+            .any(|form| variants.contains(form));
+        if by_form {
+            let form = self.form();
+            return if variants.contains(&form) {
+                visitor.visit_enum(Form { form, reader: self })
+            } else {
+                Err(self.unexpected(name))
+            };
+        }
+        let text = match &self.node.value {
+            Value::Text(text) | Value::Number(text) => text,
+            _ => return Err(self.unexpected(&one_of(variants))),
+        };
+        match variants.iter().find(|variant| *variant == text) {
+            Some(variant) => self.record(visitor.visit_enum((*variant).into_deserializer())),
+            None => {
+                let message = format!("`{}` is not known", shortened(text));
+                Err(self.push(
+                    Fault::at_key(&self.key, message)
+                        .expecting(one_of(variants))
+                        .nearest(text, variants.iter().copied()),
+                ))
+            }
+        }
+    }
+
+    fn deserialize_ignored_any<V: Visitor<'a>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        visitor.visit_unit()
+    }
+
+    forward_to_deserialize_any! {
+        <V: Visitor<'a>>
+        bool i128 u128 char bytes byte_buf unit unit_struct tuple_struct identifier
+    }
+}
+
+fn one_of(names: &[&str]) -> String {
+    match names {
+        [single] => format!("`{single}`"),
+        several => format!("one of {}", several.join(", ")),
+    }
+}

@@ -1,0 +1,151 @@
+//! From a problem file to a checked problem, or to everything that is wrong with it.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::Problem;
+use super::check::{self, Checked};
+use super::fault::{Fault, Span};
+use super::faults::Faults;
+use super::file::ProblemFile;
+use super::part::{Part, Target};
+use super::reader::Reader;
+use super::source::Source;
+use super::yaml::{self, Value};
+
+/// No honest problem file is larger; meshes have files of their own.
+const LARGEST_FILE: u64 = 1_000_000;
+
+/// What came of a problem file.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// The file itself.
+    pub source: Source,
+    /// Everything that is wrong with it, in the order of the text.
+    pub faults: Vec<Fault>,
+    /// The parts, whenever `scene` itself is sound.
+    pub scene: Option<Vec<Part>>,
+    /// The target, whenever `target` itself is sound.
+    pub target: Option<Target>,
+    /// The problem: there exactly when nothing is wrong.
+    pub problem: Option<Problem>,
+}
+
+/// Reads a problem file.
+///
+/// # Errors
+/// A [`Fault`] when the file cannot be read at all; what is wrong inside it is in
+/// [`Reading::faults`].
+pub fn read(path: &Path) -> Result<Reading, Fault> {
+    let unreadable = |error: std::io::Error| {
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            std::io::ErrorKind::IsADirectory => "it is a folder, not a file".to_owned(),
+            _ => error.to_string(),
+        };
+        Fault::at_key("", format!("cannot read {}: {reason}", path.display()))
+    };
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
+        .map_err(unreadable)?;
+    read_bytes(&bytes, path)
+}
+
+/// Reads a problem from a text, as if it stood in the file `path`.
+///
+/// # Errors
+/// A [`Fault`] when the text is too long for a problem file.
+pub fn read_text(text: &str, path: &Path) -> Result<Reading, Fault> {
+    read_bytes(text.as_bytes(), path)
+}
+
+fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Fault> {
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(Fault::at_key(
+            "",
+            format!("{} is too large for a problem file", path.display()),
+        )
+        .expecting("at most 1 MB; meshes belong into files of their own"));
+    }
+    let content = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = String::from_utf8_lossy(content).into_owned();
+    let mut source = Source::new(path, bytes, text);
+    Ok(match std::str::from_utf8(content) {
+        Err(error) => source.refused(not_utf8(content, error.valid_up_to())),
+        Ok(text) => match yaml::parse(text) {
+            Err(fault) => source.refused(*fault),
+            Ok(root) if root.value == Value::Null => source.refused(empty()),
+            Ok(root) => {
+                source.index(&root);
+                understand(source, &root)
+            }
+        },
+    })
+}
+
+/// Reads and checks a parsed file.
+fn understand(source: Source, root: &yaml::Node) -> Reading {
+    let faults = Faults::new(&source);
+    // The reader has recorded why there is no file, if there is none.
+    let checked = match ProblemFile::deserialize(Reader::new(root, &faults)) {
+        Ok(file) => check::check(&file, &source.path, &faults),
+        Err(_) => Checked {
+            scene: None,
+            target: None,
+            problem: None,
+        },
+    };
+    let faults = faults.into_sorted();
+    let problem = checked.problem.filter(|_| faults.is_empty());
+    Reading {
+        faults,
+        scene: checked.scene,
+        target: checked.target,
+        problem,
+        source,
+    }
+}
+
+impl Source {
+    /// A reading of which nothing could be made.
+    fn refused(self, fault: Fault) -> Reading {
+        Reading {
+            source: self,
+            faults: vec![fault],
+            scene: None,
+            target: None,
+            problem: None,
+        }
+    }
+}
+
+fn empty() -> Fault {
+    let mut fault =
+        Fault::at_key("", "the file is empty").expecting("a problem that starts with `format: 1`");
+    fault.at = Some(Span {
+        line: 1,
+        column: 1,
+        start: 0,
+        end: 0,
+    });
+    fault
+}
+
+/// A fault of the first byte that is not UTF-8, placed in the text that replaces it.
+fn not_utf8(content: &[u8], valid: usize) -> Fault {
+    let before = String::from_utf8_lossy(&content[..valid]);
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    let mut fault = Fault::at_key("", "the file is not UTF-8 text")
+        .expecting("a text file saved with the encoding UTF-8");
+    fault.at = Some(Span {
+        line: before.matches('\n').count() + 1,
+        column: before[line_start..].chars().count() + 1,
+        start: valid,
+        end: valid + char::REPLACEMENT_CHARACTER.len_utf8(),
+    });
+    fault
+}
