@@ -9,6 +9,7 @@ pub mod jet;
 pub mod objective;
 pub mod problem;
 pub mod record;
+pub mod report;
 pub mod scene;
 pub mod setup;
 pub mod solve;

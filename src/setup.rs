@@ -1,9 +1,11 @@
 //! A problem together with its scene: everything that stays the same for every pose.
 
+use std::path::Path;
+
 use crate::impact::{Contact, Sphere};
-use crate::problem::Problem;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
+use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
 use crate::scene::{Scene, Walls};
 
@@ -43,6 +45,41 @@ impl Setup {
     pub fn new(problem: Problem, walls: Walls) -> Result<Self, Vec<Fault>> {
         let scene = Scene::build(&problem.parts, walls)?;
         let target = Patch::find(&scene, &problem.target)?;
+        Self::assemble(problem, scene, target)
+    }
+
+    /// Reads a problem file and builds its scene.
+    ///
+    /// # Errors
+    /// All faults of the file and of the geometry at once, in the order of the text.
+    pub fn load(path: &Path) -> Result<(Self, Source), Rejection> {
+        let reading = problem::read(path).map_err(Rejection::unread)?;
+        let Reading {
+            source, mut faults, ..
+        } = reading;
+        let mut collect = |found: Vec<Fault>| faults.extend(found);
+        let scene = reading.scene.and_then(|parts| {
+            Scene::build(&parts, Walls::Exact)
+                .map_err(&mut collect)
+                .ok()
+        });
+        let target = scene
+            .as_ref()
+            .zip(reading.target)
+            .and_then(|(scene, target)| Patch::find(scene, &target).map_err(&mut collect).ok());
+        let whole = reading.problem.zip(scene).zip(target);
+        let setup = whole.and_then(|((problem, scene), target)| {
+            Self::assemble(problem, scene, target)
+                .map_err(&mut collect)
+                .ok()
+        });
+        match setup {
+            Some(setup) => Ok((setup, source)),
+            None => Err(Rejection::new(source, faults)),
+        }
+    }
+
+    fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
         let surfaces = surface_limits(&problem, &scene)?;
         Ok(Self {
             problem,
@@ -57,6 +94,47 @@ impl Setup {
         Sphere {
             radius: self.problem.shot.radius,
             density: self.problem.shot.density,
+        }
+    }
+}
+
+/// Why there is no setup: the file and all its faults, each with its place.
+#[derive(Clone, Debug)]
+pub struct Rejection {
+    /// The file; absent when it cannot be read at all.
+    pub source: Option<Source>,
+    /// What is wrong, in the order of the text.
+    pub faults: Vec<Fault>,
+}
+
+impl Rejection {
+    fn unread(fault: Fault) -> Self {
+        Self {
+            source: None,
+            faults: vec![fault],
+        }
+    }
+
+    fn new(source: Source, mut faults: Vec<Fault>) -> Self {
+        for fault in &mut faults {
+            fault.at = fault.at.or_else(|| source.locate(&fault.key));
+        }
+        faults.sort_by_key(|fault| fault.at);
+        Self {
+            source: Some(source),
+            faults,
+        }
+    }
+
+    /// The faults for people: with the lines of the file, or a line each.
+    pub fn render(&self, color: bool) -> String {
+        match &self.source {
+            Some(source) => problem::render(source, &self.faults, color),
+            None => self
+                .faults
+                .iter()
+                .map(|fault| format!("error: {fault}\n"))
+                .collect(),
         }
     }
 }

@@ -186,10 +186,9 @@ impl AnswerRecord {
         let contact = &setup.problem.contacts[choice.contact];
         let pose = Pose::new(&setup.target.frame, choice);
         let nozzle = &setup.problem.nozzle;
-        let clearance =
-            setup
-                .scene
-                .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY);
+        let clearance = setup
+            .scene
+            .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY);
         let surface_name = |index: u32| setup.scene.surfaces()[index as usize].clone();
         let evaluation = answer.evaluation.as_ref();
         Self {
@@ -205,7 +204,8 @@ impl AnswerRecord {
             shots: evaluation.map_or(0, |evaluation| evaluation.shots),
             objective: evaluation.map(ObjectiveRecord::new),
             target: evaluation.map(|evaluation| TargetRecord::new(setup, evaluation)),
-            surfaces: evaluation.map_or_else(BTreeMap::new, |evaluation| receipts(setup, evaluation)),
+            surfaces: evaluation
+                .map_or_else(BTreeMap::new, |evaluation| receipts(setup, evaluation)),
             verdicts: answer
                 .verdicts
                 .iter()

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::problem::Source;
 use crate::setup::Setup;
-use crate::solve::{Solution, Status, Window};
+use crate::solve::{Answer, Status, Window};
 use crate::validity::Note;
 
 /// The result of a search.
@@ -119,18 +119,15 @@ pub struct Circumstances<'a> {
 }
 
 impl Record {
-    /// The record of a search.
-    ///
-    /// `None` when there is no answer at all, which a search never returns.
+    /// The record of some answers, best first; `None` when there is none.
     pub fn new(
         setup: &Setup,
-        solution: &Solution,
+        answers: &[Answer],
         windows: &[Window],
         notes: Vec<Note>,
         circumstances: Circumstances,
     ) -> Option<Self> {
-        let choices: Vec<AnswerRecord> = solution
-            .answers
+        let choices: Vec<AnswerRecord> = answers
             .iter()
             .map(|answer| AnswerRecord::new(setup, answer))
             .collect();

@@ -13,7 +13,7 @@ mod space;
 mod window;
 
 pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
-pub use window::{Drift, Turn, Window, windows};
+pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use std::sync::atomic::AtomicBool;
 
@@ -51,6 +51,19 @@ pub struct Control<'a> {
     pub stop: &'a AtomicBool,
     /// Told about progress; called from any thread.
     pub watch: &'a (dyn Fn(Progress) + Sync),
+}
+
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+impl Default for Control<'_> {
+    fn default() -> Self {
+        Self {
+            most_shots: 1 << 14,
+            fresh_shots: 1 << 16,
+            stop: &NEVER,
+            watch: &|_| (),
+        }
+    }
 }
 
 /// How far a search is.

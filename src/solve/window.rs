@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::Solution;
 use super::judge::clearance_violation;
 use crate::evaluate::evaluate;
 use crate::problem::setting::{Choice, Range, Setting};
@@ -43,6 +44,26 @@ pub enum Turn {
 const HALVINGS: usize = 6;
 /// Steps of doubling length from the choice outwards.
 const DOUBLINGS: i32 = 5;
+
+/// The windows round the best answer, for the verdicts that it passes; none without a pose that fits.
+pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
+    let Some(best) = solution.answers.first() else {
+        return Vec::new();
+    };
+    if best.evaluation.is_none() {
+        return Vec::new();
+    }
+    let passing: Vec<Subject> = best
+        .verdicts
+        .iter()
+        .filter(|verdict| verdict.passes())
+        .map(|verdict| verdict.subject)
+        .collect();
+    windows(setup, &best.choice, &passing, WINDOW_SHOTS)
+}
+
+/// Shots behind each verdict of a window.
+const WINDOW_SHOTS: usize = 8192;
 
 /// The windows of all settings that have a range or a tolerance, each as far as its range goes.
 pub fn windows(setup: &Setup, choice: &Choice, passing: &[Subject], shots: usize) -> Vec<Window> {

@@ -1,1 +1,32 @@
-fn main() {}
+//! The command line: each command is one short function over the public library.
+
+mod args;
+mod check;
+mod evaluate;
+mod impact;
+mod output;
+mod progress;
+mod solve;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use output::Failure;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match &arguments.command {
+        Command::Solve(args) => solve::run(args),
+        Command::Evaluate(args) => evaluate::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Impact(args) => impact::run(args)
+            .map_err(Failure::from)
+            .and_then(output::text),
+    };
+    match outcome {
+        Ok(code) => code,
+        Err(failure) => failure.report(),
+    }
+}

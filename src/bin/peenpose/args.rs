@@ -1,0 +1,98 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+
+use crate::impact::ImpactArgs;
+
+/// Finds nozzle settings for precision shot peening deep inside keyways, bores and slots.
+#[derive(Parser)]
+#[command(version, after_help = EXIT_CODES)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit status:
+  0  the answer passes every verdict
+  1  the best answer fails one, or the nozzle fits nowhere (still reported in full)
+  2  bad input or failure
+
+Results go to stdout, progress and warnings to stderr.";
+
+/// The commands.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Find the best settings for a problem file
+    Solve(SolveArgs),
+    /// Say what given settings do
+    Evaluate(EvaluateArgs),
+    /// Show all faults of problem files at once
+    Check(CheckArgs),
+    /// Compute one impact, or print the paper's tables
+    Impact(ImpactArgs),
+}
+
+/// Arguments of `solve`.
+#[derive(clap::Args)]
+pub struct SolveArgs {
+    /// The problem file
+    pub file: PathBuf,
+    /// Write result.json and sheet.txt into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print result.json instead of the technique sheet
+    #[arg(long)]
+    pub json: bool,
+    /// Accuracy of J, such as `1 %`; the file's by default
+    #[arg(long, value_name = "PERCENT")]
+    pub accuracy: Option<String>,
+    /// Seed of all samples; the file's by default
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; all cores by default. The answer does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// No progress bar
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `evaluate`.
+#[derive(clap::Args)]
+pub struct EvaluateArgs {
+    /// The problem file
+    pub file: PathBuf,
+    /// A setting, such as `incidence=60deg` or `contact=dry`; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Take the settings of this result.json; --set goes on top
+    #[arg(long, value_name = "result.json")]
+    pub from: Option<PathBuf>,
+    /// Number of shots
+    #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub shots: u32,
+    /// Seed of all samples; the file's by default
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; all cores by default. The answer does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// Print JSON instead of the sheet
+    #[arg(long)]
+    pub json: bool,
+    /// Write result.json and sheet.txt into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `check`.
+#[derive(clap::Args)]
+pub struct CheckArgs {
+    /// Problem files
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+}

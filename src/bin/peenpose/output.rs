@@ -1,0 +1,86 @@
+//! Where results and failures go.
+
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use peenpose::record::Record;
+use peenpose::report::sheet;
+use peenpose::setup::Rejection;
+
+/// Exit status of a full answer that fails a verdict.
+const FAILS: u8 = 1;
+/// Exit status of bad input or failure.
+const BAD_INPUT: u8 = 2;
+
+/// Why a command gave no result.
+pub struct Failure(String);
+
+impl From<String> for Failure {
+    fn from(message: String) -> Self {
+        Self(format!("error: {message}\n"))
+    }
+}
+
+impl From<Rejection> for Failure {
+    fn from(rejection: Rejection) -> Self {
+        Self(rejection.render(is_colorful(&std::io::stderr())))
+    }
+}
+
+impl Failure {
+    /// Shows it on stderr.
+    pub fn report(&self) -> ExitCode {
+        // Nothing can be done when even stderr is closed.
+        let _ = std::io::stderr().write_all(self.0.as_bytes());
+        ExitCode::from(BAD_INPUT)
+    }
+}
+
+/// Prints a text to stdout. A reader that has gone away is not a failure.
+pub fn text(text: String) -> Result<ExitCode, Failure> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::from(format!("cannot write the result: {error}")))
+        }
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// Prints a record as a sheet or as JSON, and writes both into a folder if there is one.
+pub fn record(record: &Record, json: bool, out: Option<&Path>) -> Result<ExitCode, Failure> {
+    let as_json = record
+        .to_json()
+        .map_err(|error| format!("cannot write the result as JSON: {error}"))?;
+    let as_sheet = sheet(record);
+    if let Some(folder) = out {
+        write(folder, "result.json", &as_json)?;
+        write(folder, "sheet.txt", &as_sheet)?;
+    }
+    text(if json { as_json } else { as_sheet })?;
+    Ok(if record.passes() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(FAILS)
+    })
+}
+
+/// Writes a file in one go: whoever looks sees the old file or the new one.
+fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
+    let path = folder.join(name);
+    let written = || {
+        std::fs::create_dir_all(folder)?;
+        let mut file = tempfile::NamedTempFile::new_in(folder)?;
+        file.write_all(text.as_bytes())?;
+        file.as_file().sync_all()?;
+        file.persist(&path).map_err(|error| error.error)
+    };
+    written().map(drop).map_err(|error: std::io::Error| {
+        Failure::from(format!("cannot write {}: {error}", path.display()))
+    })
+}
+
+/// Whether colours make sense on a stream.
+pub fn is_colorful(stream: &impl IsTerminal) -> bool {
+    stream.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}

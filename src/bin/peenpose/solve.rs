@@ -1,0 +1,88 @@
+//! `peenpose solve`: the main job.
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use peenpose::record::{Circumstances, Record, WorkRecord};
+use peenpose::setup::Setup;
+use peenpose::solve::{Control, passing_windows, solve};
+use peenpose::units::{self, Dimension};
+use peenpose::validity;
+
+use crate::args::SolveArgs;
+use crate::output::{self, Failure};
+use crate::progress::Watcher;
+
+/// Solves a problem file and reports the answer.
+pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
+    let started = Instant::now();
+    use_threads(args.threads)?;
+    let (mut setup, source) = Setup::load(&args.file)?;
+    if let Some(accuracy) = &args.accuracy {
+        setup.problem.accuracy = accuracy_of(accuracy)?;
+    }
+    if let Some(seed) = args.seed {
+        setup.problem.seed = seed;
+    }
+    let watcher = Watcher::new(args.quiet);
+    let control = Control {
+        stop: &watcher.stop,
+        watch: &|progress| watcher.show(progress),
+        ..Control::default()
+    };
+    let solution = solve(&setup, &control);
+    let windows = passing_windows(&setup, &solution);
+    watcher.finish();
+    let best = solution
+        .answers
+        .first()
+        .ok_or("there is no contact to choose".to_owned())?;
+    let notes = validity::notes(&setup, &best.choice);
+    let circumstances = Circumstances {
+        source: &source,
+        status: solution.status.into(),
+        command: command(args, &setup),
+        work: WorkRecord {
+            poses: solution.poses,
+            shots_per_pose: solution.shots_per_pose,
+            rays: solution.rays,
+            seconds: started.elapsed().as_secs_f64(),
+        },
+    };
+    let record = Record::new(&setup, &solution.answers, &windows, notes, circumstances)
+        .ok_or("there is no contact to choose".to_owned())?;
+    output::record(&record, args.json, args.out.as_deref())
+}
+
+/// The command that gives the same answer again.
+fn command(args: &SolveArgs, setup: &Setup) -> String {
+    format!(
+        "peenpose solve {} --accuracy '{} %' --seed {}",
+        args.file.display(),
+        setup.problem.accuracy * 100.0,
+        setup.problem.seed
+    )
+}
+
+fn accuracy_of(text: &str) -> Result<f64, String> {
+    let accuracy =
+        units::parse(Dimension::Fraction, text).map_err(|fault| format!("--accuracy: {fault}"))?;
+    if accuracy > 0.0 && accuracy < 1.0 {
+        Ok(accuracy)
+    } else {
+        Err(format!(
+            "--accuracy: `{text}` must lie between 0 and 100 %, such as `1 %`"
+        ))
+    }
+}
+
+/// Uses this many threads instead of one for each core.
+pub fn use_threads(threads: Option<u16>) -> Result<(), String> {
+    let Some(threads) = threads else {
+        return Ok(());
+    };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build_global()
+        .map_err(|error| format!("cannot start {threads} threads: {error}"))
+}

@@ -1,0 +1,5 @@
+//! Reports, made from the record alone.
+
+mod sheet;
+
+pub use sheet::sheet;
