@@ -4,10 +4,10 @@ use std::path::{Component, Path, PathBuf};
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::coordinates::Coordinates;
+use super::coordinates::{Coordinates, metres};
 use super::limit::Limit;
 use super::scope::Scope;
-use super::{metres_per, shape};
+use super::shape;
 use crate::problem::fault::Fault;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
@@ -73,11 +73,15 @@ impl Scene {
         };
         let expected = match (is_mesh, full.is_empty()) {
             (true, true) => format!("{part_name}.all, or a group of its mesh file"),
-            (true, false) => format!("one of {}, or a group of its mesh file", full.join(", ")),
+            (true, false) => format!("{}, or a group of its mesh file", full.join(", ")),
             _ => format!("one of {}", full.join(", ")),
         };
         let fault = Fault { message, ..key }.expecting(expected);
-        Some(fault.nearest(name, full.iter().map(String::as_str)))
+        Some(if surface.is_empty() {
+            fault
+        } else {
+            fault.nearest(name, full.iter().map(String::as_str))
+        })
     }
 }
 
@@ -178,7 +182,7 @@ fn part(
         .value()
         .and_then(|bore| shape::bore(&scope.of("bore"), bore));
     let block = entry.block.value().and_then(|block| {
-        let (min, max) = coordinates.corners(&scope.of("box"), block, coordinates.scale())?;
+        let (min, max) = coordinates.corners(&scope.of("box"), block, coordinates.unit())?;
         Some(Shape::Box { min, max })
     });
     let extrude = entry
@@ -237,10 +241,10 @@ fn mesh(
     folder: &Path,
 ) -> Option<Shape> {
     let path = mesh_path(scope, file, folder);
-    let scale = match &entry.lengths_in {
-        Field::Missing => coordinates.scale(),
+    let unit = match &entry.lengths_in {
+        Field::Missing => coordinates.unit(),
         Field::Faulty => None,
-        Field::Present(unit) => Some(metres_per(*unit)),
+        Field::Present(unit) => Some(*unit),
     };
     let regions = match &entry.regions {
         Field::Missing => Some(Vec::new()),
@@ -252,7 +256,7 @@ fn mesh(
                 .map(|(name, field)| {
                     let valid = list.valid_name(name);
                     let entry = list.required(name, field, "`{ min: [..], max: [..] }`")?;
-                    let (min, max) = coordinates.corners(&list.of(name), entry, scale)?;
+                    let (min, max) = coordinates.corners(&list.of(name), entry, unit)?;
                     valid.then(|| Region {
                         name: name.clone(),
                         min,
@@ -265,7 +269,7 @@ fn mesh(
     };
     Some(Shape::Mesh {
         path: path?,
-        metres_per_unit: scale?,
+        metres_per_unit: metres(1.0, unit?),
         regions: regions?,
     })
 }
