@@ -542,7 +542,6 @@ fn hostile_files_are_refused() {
         assert!(reading.problem.is_none());
         assert!(!reading.faults.is_empty());
         problem::render(&reading.source, &reading.faults, false);
-        println!("{:?} {:?}", &text[..12], start.elapsed());
         assert!(start.elapsed().as_secs() < 20, "{:?}", &text[..12]);
     }
 }

@@ -80,8 +80,10 @@ fn report<'a>(source: &'a Source, path: &'a str, fault: &'a Fault) -> Group<'a> 
 /// One fault on one line: `file:line:column: key: what is wrong; expected ...`.
 pub fn one_line(source: &Source, fault: &Fault) -> String {
     let path = source.path.display();
-    match fault.at {
+    let line = match fault.at {
         Some(at) => format!("{path}:{}:{}: {fault}", at.line, at.column),
         None => format!("{path}: {fault}"),
-    }
+    };
+    // Names out of the file must not move the cursor of a terminal.
+    line.replace(char::is_control, "\u{fffd}")
 }

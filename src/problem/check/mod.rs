@@ -7,6 +7,7 @@ mod contacts;
 mod coordinates;
 mod goals;
 mod limit;
+mod mesh;
 mod nozzle;
 mod profile;
 mod scene;

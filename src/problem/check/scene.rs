@@ -1,18 +1,18 @@
 //! `scene`: the named parts, what each looks like and where it stands.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::coordinates::{Coordinates, metres};
+use super::coordinates::Coordinates;
 use super::limit::Limit;
 use super::scope::Scope;
-use super::shape;
+use super::{mesh, shape};
 use crate::problem::fault::Fault;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
 use crate::problem::file::scene::{PartEntry, PlaceEntry};
-use crate::problem::part::{Part, Place, Region, Shape};
+use crate::problem::part::{Part, Place, Shape};
 
 /// The parts of the file by name; `None` for a faulty one.
 pub(super) struct Scene {
@@ -192,7 +192,7 @@ fn part(
     let mesh = entry
         .mesh
         .value()
-        .and_then(|file| mesh(scope, file, entry, coordinates, folder));
+        .and_then(|file| mesh::check(scope, file, entry, coordinates, folder));
     let shape = keyway.or(bore).or(block).or(extrude).or(mesh)?;
     if given.len() != 1 {
         return None;
@@ -231,77 +231,4 @@ fn place(scope: &Scope<'_>, entry: &PlaceEntry, coordinates: &Coordinates<'_>) -
         rotation: rotation?,
         shift: shift?,
     })
-}
-
-fn mesh(
-    scope: &Scope<'_>,
-    file: &str,
-    entry: &PartEntry,
-    coordinates: &Coordinates<'_>,
-    folder: &Path,
-) -> Option<Shape> {
-    let path = mesh_path(scope, file, folder);
-    let unit = match &entry.lengths_in {
-        Field::Missing => coordinates.unit(),
-        Field::Faulty => None,
-        Field::Present(unit) => Some(*unit),
-    };
-    let regions = match &entry.regions {
-        Field::Missing => Some(Vec::new()),
-        Field::Faulty => None,
-        Field::Present(Named(entries)) => {
-            let list = scope.of("regions");
-            let regions: Vec<Option<Region>> = entries
-                .iter()
-                .map(|(name, field)| {
-                    let valid = list.valid_name(name);
-                    let entry = list.required(name, field, "`{ min: [..], max: [..] }`")?;
-                    let (min, max) = coordinates.corners(&list.of(name), entry, unit)?;
-                    valid.then(|| Region {
-                        name: name.clone(),
-                        min,
-                        max,
-                    })
-                })
-                .collect();
-            regions.into_iter().collect()
-        }
-    };
-    Some(Shape::Mesh {
-        path: path?,
-        metres_per_unit: metres(1.0, unit?),
-        regions: regions?,
-    })
-}
-
-/// The mesh file within the folder of the problem file. Whether it exists shows when it is read.
-fn mesh_path(scope: &Scope<'_>, file: &str, folder: &Path) -> Option<PathBuf> {
-    let complaint = if file.trim().is_empty() {
-        Some("has no value")
-    } else if file.contains('\\') || file.contains('\0') {
-        Some("is not a portable path")
-    } else {
-        let mut depth = 0_i32;
-        Path::new(file)
-            .components()
-            .any(|component| {
-                match component {
-                    Component::Normal(_) => depth += 1,
-                    Component::ParentDir => depth -= 1,
-                    Component::CurDir => {}
-                    Component::RootDir | Component::Prefix(_) => depth = i32::MIN / 2,
-                }
-                depth < 0
-            })
-            .then_some("leaves the folder of the problem file")
-    };
-    match complaint {
-        None => Some(folder.join(file)),
-        Some(complaint) => {
-            scope.report(scope.fault("mesh", complaint).expecting(
-                "a path relative to the problem file, in its folder, with `/` between names",
-            ));
-            None
-        }
-    }
 }
