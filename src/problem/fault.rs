@@ -67,6 +67,14 @@ pub fn nearest_name<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -
         .map(|(_, name)| name)
 }
 
+/// The names that would do, in messages.
+pub(super) fn one_of(names: &[&str]) -> String {
+    match names {
+        [single] => format!("`{single}`"),
+        several => format!("one of {}", several.join(", ")),
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.key.is_empty() {
@@ -82,3 +90,5 @@ impl fmt::Display for Fault {
         Ok(())
     }
 }
+
+impl std::error::Error for Fault {}

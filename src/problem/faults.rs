@@ -1,15 +1,18 @@
 //! Where faults are collected, each with its place in the text.
 
 use std::cell::RefCell;
+use std::collections::HashSet;
 
-use super::fault::{Fault, Span};
-use super::source::Source;
+use super::fault::{Fault, Span, one_of};
+use super::source::{Source, child_key};
 
 /// All faults found so far in one file.
 pub(super) struct Faults<'a> {
     /// The file.
     pub source: &'a Source,
     found: RefCell<Vec<Fault>>,
+    /// The keys that unknown keys were probably meant to be.
+    meant: RefCell<HashSet<String>>,
 }
 
 impl<'a> Faults<'a> {
@@ -17,6 +20,7 @@ impl<'a> Faults<'a> {
         Self {
             source,
             found: RefCell::default(),
+            meant: RefCell::default(),
         }
     }
 
@@ -32,26 +36,27 @@ impl<'a> Faults<'a> {
         self.found.borrow_mut().push(fault);
     }
 
-    /// Whether an unknown key of the group `key` was probably meant to be `name`.
-    pub fn misspelt(&self, key: &str, name: &str) -> bool {
-        self.found.borrow().iter().any(|fault| {
-            fault.suggestion.as_deref() == Some(name)
-                && fault.message == super::reader::UNKNOWN_KEY
-                && match fault.key.strip_prefix(key) {
-                    Some(rest) => !rest.trim_start_matches('.').contains('.'),
-                    None => false,
-                }
-        })
+    /// Records a key that is not one of the `known` keys of its group.
+    pub fn push_unknown_key(&self, group: &str, name: &str, at: Span, known: &[&str]) {
+        let mut fault = Fault::at_key(child_key(group, name), "unknown key")
+            .expecting(one_of(known))
+            .nearest(name, known.iter().copied());
+        fault.at = Some(at);
+        if let Some(meant) = &fault.suggestion {
+            self.meant.borrow_mut().insert(child_key(group, meant));
+        }
+        self.push(fault);
+    }
+
+    /// Whether an unknown key of `group` was probably meant to be `name`.
+    pub fn misspelt(&self, group: &str, name: &str) -> bool {
+        self.meant.borrow().contains(&child_key(group, name))
     }
 
     /// The faults in the order of the text.
     pub fn into_sorted(self) -> Vec<Fault> {
         let mut found = self.found.into_inner();
-        found.sort_by_key(|fault| {
-            fault
-                .at
-                .map_or((0, 0), |Span { start, end, .. }| (start, end))
-        });
+        found.sort_by_key(|fault| fault.at.map_or((0, 0), |at| (at.start, at.end)));
         found
     }
 }

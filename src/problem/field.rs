@@ -30,11 +30,6 @@ impl<T> Field<T> {
     pub fn is_given(&self) -> bool {
         !matches!(self, Self::Missing)
     }
-
-    /// Whether the value could not be read.
-    pub fn is_faulty(&self) -> bool {
-        matches!(self, Self::Faulty)
-    }
 }
 
 impl<T: Clone> Field<T> {

@@ -16,7 +16,7 @@
 //!     "keyway.yaml:2:17: shot.radius: `0.5` has no unit; expected a length such as `0.5 mm`; \
 //!      did you mean `0.5 mm`?"
 //! );
-//! # Ok::<(), peenpose::problem::fault::Fault>(())
+//! # Ok::<(), Box<peenpose::problem::fault::Fault>>(())
 //! ```
 
 pub mod equipment;

@@ -39,14 +39,15 @@ pub struct Reading {
 /// # Errors
 /// A [`Fault`] when the file cannot be read at all; what is wrong inside it is in
 /// [`Reading::faults`].
-pub fn read(path: &Path) -> Result<Reading, Fault> {
+pub fn read(path: &Path) -> Result<Reading, Box<Fault>> {
     let unreadable = |error: std::io::Error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
             std::io::ErrorKind::IsADirectory => "it is a folder, not a file".to_owned(),
             _ => error.to_string(),
         };
-        Fault::at_key("", format!("cannot read {}: {reason}", path.display()))
+        let message = format!("cannot read {}: {reason}", path.display());
+        Box::new(Fault::at_key("", message))
     };
     let mut bytes = Vec::new();
     File::open(path)
@@ -59,17 +60,17 @@ pub fn read(path: &Path) -> Result<Reading, Fault> {
 ///
 /// # Errors
 /// A [`Fault`] when the text is too long for a problem file.
-pub fn read_text(text: &str, path: &Path) -> Result<Reading, Fault> {
+pub fn read_text(text: &str, path: &Path) -> Result<Reading, Box<Fault>> {
     read_bytes(text.as_bytes(), path)
 }
 
-fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Fault> {
+fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Box<Fault>> {
     if bytes.len() as u64 > LARGEST_FILE {
-        return Err(Fault::at_key(
-            "",
-            format!("{} is too large for a problem file", path.display()),
-        )
-        .expecting("at most 1 MB; meshes belong into files of their own"));
+        let message = format!("{} is too large for a problem file", path.display());
+        return Err(Box::new(
+            Fault::at_key("", message)
+                .expecting("at most 1 MB; meshes belong into files of their own"),
+        ));
     }
     let content = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = String::from_utf8_lossy(content).into_owned();

@@ -8,7 +8,10 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use super::fault::Fault;
 use super::source::Source;
 
-/// Shows every fault with the line that it stands in, as compilers do.
+/// More faults than this are only counted: nobody reads them before mending the first ones.
+const MOST_SHOWN: usize = 100;
+
+/// Shows every fault with the line that it stands in, as compilers do; of very many the first 100.
 ///
 /// ```
 /// use std::path::Path;
@@ -16,7 +19,7 @@ use super::source::Source;
 /// let reading = peenpose::problem::read_text("format: 2", Path::new("keyway.yaml"))?;
 /// let text = peenpose::problem::render(&reading.source, &reading.faults, false);
 /// assert!(text.contains("format: 2"));
-/// # Ok::<(), peenpose::problem::fault::Fault>(())
+/// # Ok::<(), Box<peenpose::problem::fault::Fault>>(())
 /// ```
 pub fn render(source: &Source, faults: &[Fault], color: bool) -> String {
     let renderer = if color {
@@ -27,10 +30,13 @@ pub fn render(source: &Source, faults: &[Fault], color: bool) -> String {
     let renderer = renderer.decor_style(DecorStyle::Ascii);
     let path = source.path.display().to_string();
     let mut text = String::new();
-    for fault in faults {
+    for fault in faults.iter().take(MOST_SHOWN) {
         let report = [report(source, &path, fault)];
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}\n", renderer.render(&report));
+    }
+    if faults.len() > MOST_SHOWN {
+        let _ = writeln!(text, "... and {} more faults", faults.len() - MOST_SHOWN);
     }
     text
 }
@@ -74,8 +80,10 @@ fn report<'a>(source: &'a Source, path: &'a str, fault: &'a Fault) -> Group<'a> 
 /// One fault on one line: `file:line:column: key: what is wrong; expected ...`.
 pub fn one_line(source: &Source, fault: &Fault) -> String {
     let path = source.path.display();
-    match fault.at {
+    let line = match fault.at {
         Some(at) => format!("{path}:{}:{}: {fault}", at.line, at.column),
         None => format!("{path}: {fault}"),
-    }
+    };
+    // Names out of the file must not move the cursor of a terminal.
+    line.replace(char::is_control, "\u{fffd}")
 }

@@ -27,7 +27,7 @@ struct Place {
     /// `None` for the items of a list.
     name: Option<Span>,
     value: Span,
-    /// Whether the value is worth pointing at: present, and on one line.
+    /// Whether the value is worth pointing at: present, on one line, and not lines of keys.
     compact: bool,
 }
 
@@ -70,7 +70,11 @@ impl Source {
     fn add(&mut self, key: String, name: Option<Span>, node: &Node) {
         self.add_contents(&key, node);
         let written = self.text.get(node.span.start..node.span.end);
-        let compact = written.is_some_and(|text| !text.is_empty() && !text.contains('\n'));
+        let is_group = matches!(node.value, Value::List(_) | Value::Map(_));
+        let compact = written.is_some_and(|text| {
+            let block = is_group && !text.starts_with(['[', '{']);
+            !text.is_empty() && !text.contains('\n') && !block
+        });
         let value = node.span;
         self.places.insert(
             key,
@@ -84,7 +88,7 @@ impl Source {
 
     /// Where the value of `key` stands, such as `shot.radius` or `settings.speed[1]`.
     ///
-    /// A value of several lines is found by its key, and an absent key by the nearest group that
+    /// A value of several lines, or of keys on lines of their own, is found by its key, and an absent key by the nearest group that
     /// it belongs to; the beginning of the text stands for the file as a whole. `None` only when
     /// the text could not be parsed at all.
     pub fn locate(&self, key: &str) -> Option<Span> {

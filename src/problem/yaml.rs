@@ -228,7 +228,11 @@ fn span(text: &str, location: Location) -> Span {
 /// The YAML crate's complaint in the words of this program.
 fn explain(text: &str, error: &Error) -> Fault {
     let file = |message: &str| Fault::at_key("", message);
-    let mut fault = match error {
+    let mut cause = error.without_snippet();
+    while let Error::AliasError { error, .. } = cause {
+        cause = error;
+    }
+    let mut fault = match cause {
         Error::DuplicateMappingKey { key, .. } => match key {
             Some(key) => file(&format!("`{key}` is given twice")),
             None => file("the same key is given twice"),
@@ -247,7 +251,7 @@ fn explain(text: &str, error: &Error) -> Fault {
         Error::Budget {
             breach: BudgetBreach::Depth { .. },
             ..
-        } => file("nested too deeply").expecting("at most 24 levels"),
+        } => too_deep(),
         Error::Budget { .. }
         | Error::AliasReplayCounterOverflow { .. }
         | Error::AliasReplayLimitExceeded { .. }
@@ -260,6 +264,8 @@ fn explain(text: &str, error: &Error) -> Fault {
             let message = UserMessageFormatter.format_message(other).into_owned();
             if message.starts_with("tabs disallowed") {
                 file("not valid YAML: a tab is used to indent").expecting("spaces")
+            } else if message.starts_with("recursion limit") {
+                too_deep()
             } else if message.starts_with("expected string scalar") {
                 file("not valid YAML here: a key must be a plain name")
             } else {
@@ -269,4 +275,8 @@ fn explain(text: &str, error: &Error) -> Fault {
     };
     fault.at = error.location().map(|location| span(text, location));
     fault
+}
+
+fn too_deep() -> Fault {
+    Fault::at_key("", "nested too deeply").expecting("at most 24 levels")
 }

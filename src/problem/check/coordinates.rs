@@ -5,17 +5,16 @@ use std::cell::Cell;
 use nalgebra::{Point2, Point3, Vector3};
 
 use super::limit::Limit;
-use super::metres_per;
 use super::scope::Scope;
 use crate::problem::field::Field;
 use crate::problem::file::scene::BoxEntry;
 use crate::problem::file::{LengthUnit, Pair, Triple};
+use crate::units::{self, Dimension};
 
 /// How bare coordinates become metres.
 pub(super) struct Coordinates<'a> {
     root: Scope<'a>,
-    /// Metres per unit.
-    scale: Option<f64>,
+    unit: Option<LengthUnit>,
     /// Whether a missing unit is still to be reported, at its first use.
     unreported: Cell<bool>,
 }
@@ -24,13 +23,13 @@ impl<'a> Coordinates<'a> {
     pub fn new(root: &Scope<'a>, unit: &Field<LengthUnit>) -> Self {
         Self {
             root: root.clone(),
-            scale: unit.value().copied().map(metres_per),
+            unit: unit.value().copied(),
             unreported: Cell::new(!unit.is_given()),
         }
     }
 
-    /// Metres per unit of coordinate lists and mesh files.
-    pub fn scale(&self) -> Option<f64> {
+    /// The unit of coordinate lists and mesh files.
+    pub fn unit(&self) -> Option<LengthUnit> {
         if self.unreported.replace(false) {
             self.root.required(
                 "lengths_in",
@@ -38,27 +37,27 @@ impl<'a> Coordinates<'a> {
                 "um, mm, cm, m or in, as the file has coordinates or a mesh",
             );
         }
-        self.scale
+        self.unit
     }
 
     /// A point of the scene in m.
     pub fn point(&self, scope: &Scope<'_>, triple: &Triple) -> Option<Point3<f64>> {
-        self.scaled_point(scope, triple, self.scale())
+        self.point_in(scope, triple, self.unit())
     }
 
     /// A point in a cross-section in m.
     pub fn flat_point(&self, scope: &Scope<'_>, pair: &Pair) -> Option<Point2<f64>> {
-        scaled(scope, pair, self.scale()).map(|[x, y]| Point2::new(x, y))
+        scaled(scope, pair, self.unit()).map(|[x, y]| Point2::new(x, y))
     }
 
     /// A point in m, where the unit may differ from that of the file.
-    pub fn scaled_point(
+    pub fn point_in(
         &self,
         scope: &Scope<'_>,
         triple: &Triple,
-        scale: Option<f64>,
+        unit: Option<LengthUnit>,
     ) -> Option<Point3<f64>> {
-        scaled(scope, triple, scale).map(Point3::from)
+        scaled(scope, triple, unit).map(Point3::from)
     }
 
     /// Two opposite corners in m, the smaller one first.
@@ -66,11 +65,11 @@ impl<'a> Coordinates<'a> {
         &self,
         scope: &Scope<'_>,
         entry: &BoxEntry,
-        scale: Option<f64>,
+        unit: Option<LengthUnit>,
     ) -> Option<(Point3<f64>, Point3<f64>)> {
         let corner = |name: &str, field: &Field<Triple>| {
             let triple = scope.required(name, field, "a corner `[x, y, z]`")?;
-            self.scaled_point(&scope.of(name), triple, scale)
+            self.point_in(&scope.of(name), triple, unit)
         };
         let (min, max) = (corner("min", &entry.min), corner("max", &entry.max));
         let (min, max) = (min?, max?);
@@ -104,6 +103,13 @@ pub(super) fn direction(scope: &Scope<'_>, triple: &Triple) -> Option<Vector3<f6
     unit
 }
 
+/// A bare length in metres, through the same door as `0.5 mm`.
+pub(super) fn metres(value: f64, unit: LengthUnit) -> f64 {
+    let written = format!("{value} {}", unit.name());
+    // Only an overflow can fail; the caller finds infinity too large.
+    units::parse(Dimension::Length, &written).unwrap_or(f64::INFINITY)
+}
+
 /// The numbers of a list, all of which must be there.
 fn numbers<const N: usize>(scope: &Scope<'_>, list: &[Field<f64>; N]) -> Option<[f64; N]> {
     let mut values = [0.0; N];
@@ -125,14 +131,14 @@ fn numbers<const N: usize>(scope: &Scope<'_>, list: &[Field<f64>; N]) -> Option<
 fn scaled<const N: usize>(
     scope: &Scope<'_>,
     list: &[Field<f64>; N],
-    scale: Option<f64>,
+    unit: Option<LengthUnit>,
 ) -> Option<[f64; N]> {
     let values = numbers(scope, list)?;
-    let scale = scale?;
-    let metres = values.map(|value| value * scale);
+    let unit = unit?;
+    let values = values.map(|value| metres(value, unit));
     let mut sound = true;
-    for (index, value) in metres.iter().enumerate() {
+    for (index, value) in values.iter().enumerate() {
         sound &= scope.item(index).within_own(*value, Limit::SHIFT).is_some();
     }
-    sound.then_some(metres)
+    sound.then_some(values)
 }

@@ -7,6 +7,7 @@ mod contacts;
 mod coordinates;
 mod goals;
 mod limit;
+mod mesh;
 mod nozzle;
 mod profile;
 mod scene;
@@ -22,9 +23,9 @@ use std::path::Path;
 use super::Problem;
 use super::equipment::{Jet, PathLimits, Shot, Spread};
 use super::faults::Faults;
+use super::file::ProblemFile;
 use super::file::equipment::{JetEntry, PathsEntry, ShotEntry, SpreadEntry};
 use super::file::settings::SolveEntry;
-use super::file::{LengthUnit, ProblemFile};
 use super::part::{Part, Target};
 use coordinates::Coordinates;
 use limit::Limit;
@@ -180,14 +181,4 @@ fn solve(scope: &Scope<'_>, entry: &SolveEntry) -> Option<(f64, u64)> {
     let accuracy = scope.optional("accuracy", &entry.accuracy, Limit::ACCURACY, 0.01);
     let seed = entry.seed.or(1);
     Some((accuracy?, seed?))
-}
-
-/// Metres in one of the units of bare coordinates.
-fn metres_per(unit: LengthUnit) -> f64 {
-    // Every name of `LengthUnit` is a unit of length.
-    crate::units::parse(
-        crate::units::Dimension::Length,
-        &format!("1 {}", unit.name()),
-    )
-    .unwrap_or(f64::NAN)
 }

@@ -1,18 +1,18 @@
 //! `scene`: the named parts, what each looks like and where it stands.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::coordinates::Coordinates;
 use super::limit::Limit;
 use super::scope::Scope;
-use super::{metres_per, shape};
+use super::{mesh, shape};
 use crate::problem::fault::Fault;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
 use crate::problem::file::scene::{PartEntry, PlaceEntry};
-use crate::problem::part::{Part, Place, Region, Shape};
+use crate::problem::part::{Part, Place, Shape};
 
 /// The parts of the file by name; `None` for a faulty one.
 pub(super) struct Scene {
@@ -73,11 +73,15 @@ impl Scene {
         };
         let expected = match (is_mesh, full.is_empty()) {
             (true, true) => format!("{part_name}.all, or a group of its mesh file"),
-            (true, false) => format!("one of {}, or a group of its mesh file", full.join(", ")),
+            (true, false) => format!("{}, or a group of its mesh file", full.join(", ")),
             _ => format!("one of {}", full.join(", ")),
         };
         let fault = Fault { message, ..key }.expecting(expected);
-        Some(fault.nearest(name, full.iter().map(String::as_str)))
+        Some(if surface.is_empty() {
+            fault
+        } else {
+            fault.nearest(name, full.iter().map(String::as_str))
+        })
     }
 }
 
@@ -178,7 +182,7 @@ fn part(
         .value()
         .and_then(|bore| shape::bore(&scope.of("bore"), bore));
     let block = entry.block.value().and_then(|block| {
-        let (min, max) = coordinates.corners(&scope.of("box"), block, coordinates.scale())?;
+        let (min, max) = coordinates.corners(&scope.of("box"), block, coordinates.unit())?;
         Some(Shape::Box { min, max })
     });
     let extrude = entry
@@ -188,7 +192,7 @@ fn part(
     let mesh = entry
         .mesh
         .value()
-        .and_then(|file| mesh(scope, file, entry, coordinates, folder));
+        .and_then(|file| mesh::check(scope, file, entry, coordinates, folder));
     let shape = keyway.or(bore).or(block).or(extrude).or(mesh)?;
     if given.len() != 1 {
         return None;
@@ -227,77 +231,4 @@ fn place(scope: &Scope<'_>, entry: &PlaceEntry, coordinates: &Coordinates<'_>) -
         rotation: rotation?,
         shift: shift?,
     })
-}
-
-fn mesh(
-    scope: &Scope<'_>,
-    file: &str,
-    entry: &PartEntry,
-    coordinates: &Coordinates<'_>,
-    folder: &Path,
-) -> Option<Shape> {
-    let path = mesh_path(scope, file, folder);
-    let scale = match &entry.lengths_in {
-        Field::Missing => coordinates.scale(),
-        Field::Faulty => None,
-        Field::Present(unit) => Some(metres_per(*unit)),
-    };
-    let regions = match &entry.regions {
-        Field::Missing => Some(Vec::new()),
-        Field::Faulty => None,
-        Field::Present(Named(entries)) => {
-            let list = scope.of("regions");
-            let regions: Vec<Option<Region>> = entries
-                .iter()
-                .map(|(name, field)| {
-                    let valid = list.valid_name(name);
-                    let entry = list.required(name, field, "`{ min: [..], max: [..] }`")?;
-                    let (min, max) = coordinates.corners(&list.of(name), entry, scale)?;
-                    valid.then(|| Region {
-                        name: name.clone(),
-                        min,
-                        max,
-                    })
-                })
-                .collect();
-            regions.into_iter().collect()
-        }
-    };
-    Some(Shape::Mesh {
-        path: path?,
-        metres_per_unit: scale?,
-        regions: regions?,
-    })
-}
-
-/// The mesh file within the folder of the problem file. Whether it exists shows when it is read.
-fn mesh_path(scope: &Scope<'_>, file: &str, folder: &Path) -> Option<PathBuf> {
-    let complaint = if file.trim().is_empty() {
-        Some("has no value")
-    } else if file.contains('\\') || file.contains('\0') {
-        Some("is not a portable path")
-    } else {
-        let mut depth = 0_i32;
-        Path::new(file)
-            .components()
-            .any(|component| {
-                match component {
-                    Component::Normal(_) => depth += 1,
-                    Component::ParentDir => depth -= 1,
-                    Component::CurDir => {}
-                    Component::RootDir | Component::Prefix(_) => depth = i32::MIN / 2,
-                }
-                depth < 0
-            })
-            .then_some("leaves the folder of the problem file")
-    };
-    match complaint {
-        None => Some(folder.join(file)),
-        Some(complaint) => {
-            scope.report(scope.fault("mesh", complaint).expecting(
-                "a path relative to the problem file, in its folder, with `/` between names",
-            ));
-            None
-        }
-    }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use super::contacts::Contacts;
 use super::limit::Limit;
 use super::scope::Scope;
+use crate::problem::fault::one_of;
 use crate::problem::field::Field;
 use crate::problem::file::Length;
 use crate::problem::file::Quantity;
@@ -91,10 +92,7 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
                 }
             }
             if given.is_empty() {
-                list.report(
-                    list.own_fault("names no contact")
-                        .expecting(known.join(", ")),
-                );
+                list.report(list.own_fault("names no contact").expecting(one_of(&known)));
                 return None;
             }
             given
@@ -119,7 +117,7 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
                         "there is no contact `{}`",
                         crate::units::shortened(name)
                     ))
-                    .expecting(format!("one of {}", known.join(", ")))
+                    .expecting(one_of(&known))
                     .nearest(name, known.iter().copied()),
                 );
                 sound = false;

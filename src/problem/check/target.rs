@@ -31,7 +31,7 @@ pub(super) fn check(
             },
         );
     let within = optional(&entry.within, |corners| {
-        coordinates.corners(&scope.of("within"), corners, coordinates.scale())
+        coordinates.corners(&scope.of("within"), corners, coordinates.unit())
     });
     let aim = optional(&entry.aim, |aim| coordinates.point(&scope.of("aim"), aim));
     let along = optional(&entry.along, |along| {

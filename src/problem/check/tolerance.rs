@@ -19,6 +19,17 @@ pub(super) fn check(
     let aim_across = scope.optional("aim_across", &entry.aim_across, Limit::LENGTH_OR_ZERO, 0.0);
     let restitution = scope.optional("restitution", &entry.restitution, Limit::FRACTION, 0.0);
     let friction = scope.optional("friction", &entry.friction, Limit::BELOW_ALL, 0.0);
+    // A faulty half-width is on record; 0 fits anywhere.
+    let readable = Tolerance {
+        incidence: incidence.unwrap_or_default(),
+        azimuth: azimuth.unwrap_or_default(),
+        standoff: standoff.unwrap_or_default(),
+        aim_along: aim_along.unwrap_or_default(),
+        aim_across: aim_across.unwrap_or_default(),
+        speed: speed.unwrap_or_default(),
+        ..Tolerance::default()
+    };
+    let fits = settings.is_none_or(|settings| fits(scope, &readable, settings));
     let tolerance = Tolerance {
         incidence: incidence?,
         azimuth: azimuth?,
@@ -29,9 +40,7 @@ pub(super) fn check(
         restitution: restitution?,
         friction: friction?,
     };
-    settings
-        .is_none_or(|settings| fits(scope, &tolerance, settings))
-        .then_some(tolerance)
+    fits.then_some(tolerance)
 }
 
 /// Whether the tolerance leaves something to search, and never reaches beyond what can be set.

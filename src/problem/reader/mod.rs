@@ -20,14 +20,10 @@ use serde::forward_to_deserialize_any;
 use access::{Entries, Form, Items};
 use error::ReadError;
 
-use super::fault::Fault;
+use super::fault::{Fault, one_of};
 use super::faults::Faults;
-use super::source::child_key;
 use super::yaml::{Entry, Node, Value};
 use crate::units::{self, Dimension, shortened};
-
-/// What is said of a key that nobody asked for.
-pub(super) const UNKNOWN_KEY: &str = "unknown key";
 
 /// One node on its way to a typed value.
 pub(super) struct Reader<'a> {
@@ -50,7 +46,10 @@ impl<'a> Reader<'a> {
         self.push(Fault::at_key(&self.key, message).expecting(expected))
     }
 
-    fn push(&self, fault: Fault) -> ReadError {
+    fn push(&self, mut fault: Fault) -> ReadError {
+        if self.key.is_empty() {
+            fault.at = Some(self.node.span);
+        }
         self.faults.push(fault);
         ReadError::Recorded
     }
@@ -263,11 +262,8 @@ impl<'a> Deserializer<'a> for Reader<'a> {
             .iter()
             .partition(|entry| fields.contains(&entry.key.as_str()));
         for entry in unknown {
-            let mut fault = Fault::at_key(child_key(&self.key, &entry.key), UNKNOWN_KEY)
-                .expecting(one_of(fields))
-                .nearest(&entry.key, fields.iter().copied());
-            fault.at = Some(entry.key_span);
-            self.faults.push(fault);
+            self.faults
+                .push_unknown_key(&self.key, &entry.key, entry.key_span, fields);
         }
         self.record(visitor.visit_map(self.access(known)))
     }
@@ -313,12 +309,5 @@ impl<'a> Deserializer<'a> for Reader<'a> {
     forward_to_deserialize_any! {
         <V: Visitor<'a>>
         bool i128 u128 char bytes byte_buf unit unit_struct tuple_struct identifier
-    }
-}
-
-fn one_of(names: &[&str]) -> String {
-    match names {
-        [single] => format!("`{single}`"),
-        several => format!("one of {}", several.join(", ")),
     }
 }
