@@ -108,10 +108,10 @@ pub struct Rejection {
 }
 
 impl Rejection {
-    fn unread(fault: Fault) -> Self {
+    fn unread(fault: Box<Fault>) -> Self {
         Self {
             source: None,
-            faults: vec![fault],
+            faults: vec![*fault],
         }
     }
 
