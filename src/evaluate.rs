@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use crate::impact::Regime;
-use crate::jet::{Samples, Stream};
+use crate::jet::{Replicates, Samples};
 use crate::objective::{Sums, Tallier, Tally, Terms};
 use crate::problem::goal::Goals;
 use crate::problem::setting::Choice;
@@ -78,19 +78,14 @@ pub struct Spread {
     pub largest: f64,
 }
 
-/// Independent scramblings whose scatter gives the standard error.
-pub const REPLICATES: usize = 32;
-
-/// Evaluates `choice` on `shots` fresh shots (rounded up to a multiple of [`REPLICATES`]).
-///
-/// `first_stream` numbers the scramblings: evaluations with different ranges of streams are
-/// independent.
-pub fn evaluate(setup: &Setup, choice: &Choice, shots: usize, first_stream: u32) -> Evaluation {
-    let each = shots.div_ceil(REPLICATES).max(1);
-    let replicates: Vec<Replicate> = (0..REPLICATES as u32)
-        .into_par_iter()
-        .map(|number| Replicate::trace(setup, choice, Stream::Fresh(first_stream + number), each))
+/// Evaluates `choice` on fresh shots.
+pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluation {
+    let replicates: Vec<Replicate> = fresh
+        .sets
+        .par_iter()
+        .map(|samples| Replicate::trace(setup, choice, samples))
         .collect();
+    let shots = fresh.shots();
     let goals = &setup.problem.goals;
     let sums: Vec<Sums> = replicates
         .iter()
@@ -100,13 +95,13 @@ pub fn evaluate(setup: &Setup, choice: &Choice, shots: usize, first_stream: u32)
     let rays = replicates.iter().map(|r| r.tally.rays).sum();
     let mut ends = BTreeMap::new();
     for (&end, &count) in replicates.iter().flat_map(|replicate| &replicate.ends) {
-        *ends.entry(end).or_insert(0.0) += count as f64 / (each * REPLICATES) as f64;
+        *ends.entry(end).or_insert(0.0) += count as f64 / shots as f64;
     }
     let surfaces = (0..setup.surfaces.len())
         .map(|index| receipt(replicates.iter().map(|r| &r.surfaces[index])))
         .collect();
     Evaluation {
-        shots: each * REPLICATES,
+        shots,
         rays,
         terms,
         term_errors,
@@ -158,13 +153,12 @@ struct SurfaceSums {
 }
 
 impl Replicate {
-    fn trace(setup: &Setup, choice: &Choice, stream: Stream, count: usize) -> Self {
-        let samples = Samples::new(&setup.problem, stream, count);
+    fn trace(setup: &Setup, choice: &Choice, samples: &Samples) -> Self {
         let tracer = Tracer::new(setup, choice, choice.speed);
         let mut ends = BTreeMap::new();
         let mut sticking = 0;
         let mut surfaces = vec![SurfaceSums::default(); setup.surfaces.len()];
-        let mut tallier = Tallier::new(setup, choice.speed, count);
+        let mut tallier = Tallier::new(setup, choice.speed, samples.deviates.len());
         let mut path: Vec<PathImpact> = Vec::new();
         for deviate in &samples.deviates {
             path.clear();

@@ -6,7 +6,7 @@ mod common;
 use nalgebra::{Point3, Vector3};
 use peenpose::evaluate::evaluate;
 use peenpose::impact::{Contact, Regime};
-use peenpose::jet::{Deviate, Pose};
+use peenpose::jet::{Deviate, Pose, Replicates};
 use peenpose::problem::setting::{Choice, Tolerance};
 use peenpose::scene::Walls;
 use peenpose::scene::ray::Ray;
@@ -147,7 +147,8 @@ fn terms_agree_all_over_the_range() {
             .unwrap();
         assert!((clearance - number(&case["clearance_m"])).abs() < 1e-6);
 
-        let found = evaluate(&setup, &choice, 1 << 17, 0);
+        let fresh = Replicates::new(&setup.problem, 0, 1 << 17);
+        let found = evaluate(&setup, &choice, &fresh);
         let (terms, errors) = (&case["terms"], &case["term_errors"]);
         let mut check = |name: &str, ours: f64, our_error: f64, theirs: f64, their_error: f64| {
             let error = our_error.hypot(their_error);

@@ -1,6 +1,7 @@
 //! How single shots deviate from the jet's axis: low-discrepancy samples, each a pure function of
 //! (index, dimension, seed), so that neither order nor threads can change a result.
 
+use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::problem::Problem;
@@ -55,6 +56,37 @@ impl Deviate {
 pub struct Samples {
     /// One for each shot.
     pub deviates: Vec<Deviate>,
+}
+
+/// Independent scramblings of the same jet, whose scatter tells the error of an average.
+#[derive(Clone, Debug)]
+pub struct Replicates {
+    /// One set of shots for each scrambling.
+    pub sets: Vec<Samples>,
+}
+
+impl Replicates {
+    /// Number of scramblings.
+    pub const COUNT: usize = 32;
+
+    /// Fresh shots, rounded up to a multiple of [`Self::COUNT`]. Sets with different `purpose` are
+    /// independent of each other and of every search.
+    pub fn new(problem: &Problem, purpose: u32, shots: usize) -> Self {
+        let each = shots.div_ceil(Self::COUNT).max(1);
+        let sets = (0..Self::COUNT as u32)
+            .into_par_iter()
+            .map(|number| {
+                let stream = Stream::Fresh(purpose * Self::COUNT as u32 + number);
+                Samples::new(problem, stream, each)
+            })
+            .collect();
+        Self { sets }
+    }
+
+    /// Number of shots in all sets together.
+    pub fn shots(&self) -> usize {
+        self.sets.iter().map(|set| set.deviates.len()).sum()
+    }
 }
 
 /// An independent sequence of samples under one seed.

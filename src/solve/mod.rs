@@ -20,7 +20,7 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::evaluate::{Evaluation, evaluate};
-use crate::jet::{Samples, Stream};
+use crate::jet::{Replicates, Samples, Stream};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use crate::verdict::Verdict;
@@ -135,6 +135,9 @@ const STAGES: [Stage; 4] = [
 
 const SCREENING_SHOTS: usize = 64;
 
+/// What the shots behind reported figures are drawn for.
+pub const ANSWERS: u32 = 0;
+
 /// Finds the best settings of a problem.
 pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let effort = Effort::default();
@@ -171,9 +174,10 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
             best: best.min_by(f64::total_cmp),
         });
     }
+    let fresh = Replicates::new(&setup.problem, ANSWERS, control.fresh_shots);
     let mut answers: Vec<Answer> = searches
         .iter()
-        .map(|search| answer(setup, search.best(), control.fresh_shots, &effort))
+        .map(|search| answer(setup, search.best(), &fresh, &effort))
         .collect();
     answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
     let stopped = control.stop.load(std::sync::atomic::Ordering::Relaxed);
@@ -206,7 +210,7 @@ impl Answer {
 }
 
 /// The reported figures of a candidate, on shots that the search has not seen.
-fn answer(setup: &Setup, candidate: &Candidate, shots: usize, effort: &Effort) -> Answer {
+fn answer(setup: &Setup, candidate: &Candidate, fresh: &Replicates, effort: &Effort) -> Answer {
     let choice = candidate.choice;
     match candidate.standing {
         Standing::Blocked(violation) => Answer {
@@ -216,7 +220,7 @@ fn answer(setup: &Setup, candidate: &Candidate, shots: usize, effort: &Effort) -
             violation,
         },
         Standing::Feasible(_) => {
-            let evaluation = evaluate(setup, &choice, shots, 0);
+            let evaluation = evaluate(setup, &choice, fresh);
             effort.add(1, evaluation.rays);
             Answer {
                 choice,

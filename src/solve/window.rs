@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::Solution;
 use super::judge::clearance_violation;
 use crate::evaluate::evaluate;
+use crate::jet::Replicates;
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
 use crate::verdict::{Subject, Verdict};
@@ -59,14 +60,22 @@ pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
         .filter(|verdict| verdict.passes())
         .map(|verdict| verdict.subject)
         .collect();
-    windows(setup, &best.choice, &passing, WINDOW_SHOTS)
+    let fresh = Replicates::new(&setup.problem, WINDOWS, WINDOW_SHOTS);
+    windows(setup, &best.choice, &passing, &fresh)
 }
 
+/// What the shots behind windows are drawn for; answers are purpose 0.
+const WINDOWS: u32 = 1;
 /// Shots behind each verdict of a window.
 const WINDOW_SHOTS: usize = 8192;
 
 /// The windows of all settings that have a range or a tolerance, each as far as its range goes.
-pub fn windows(setup: &Setup, choice: &Choice, passing: &[Subject], shots: usize) -> Vec<Window> {
+pub fn windows(
+    setup: &Setup,
+    choice: &Choice,
+    passing: &[Subject],
+    fresh: &Replicates,
+) -> Vec<Window> {
     let settings = Setting::OF_THE_NOZZLE.into_iter().filter_map(|setting| {
         let range = setup.problem.settings.range(setting)?;
         (!range.is_held()).then_some((setting, range))
@@ -76,7 +85,7 @@ pub fn windows(setup: &Setup, choice: &Choice, passing: &[Subject], shots: usize
         .collect();
     let drifts: Vec<Drift> = sides
         .par_iter()
-        .map(|&(setting, end)| drift(setup, choice, setting, end, passing, shots))
+        .map(|&(setting, end)| drift(setup, choice, setting, end, passing, fresh))
         .collect();
     sides
         .chunks_exact(2)
@@ -95,11 +104,11 @@ fn drift(
     setting: Setting,
     end: f64,
     passing: &[Subject],
-    shots: usize,
+    fresh: &Replicates,
 ) -> Drift {
     let start = setting.of(choice);
     let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
-    let turn = |fraction: f64| turned(setup, &setting.with(choice, at(fraction)), passing, shots);
+    let turn = |fraction: f64| turned(setup, &setting.with(choice, at(fraction)), passing, fresh);
     if start == end {
         return Drift {
             to: end,
@@ -141,17 +150,14 @@ fn drift(
 }
 
 /// What turns at a choice among the verdicts that passed: the one that is exceeded most.
-fn turned(setup: &Setup, choice: &Choice, passing: &[Subject], shots: usize) -> Option<Turn> {
+fn turned(setup: &Setup, choice: &Choice, passing: &[Subject], fresh: &Replicates) -> Option<Turn> {
     if clearance_violation(setup, choice).is_some() {
         return Some(Turn::Clearance);
     }
-    let evaluation = evaluate(setup, choice, shots, WINDOW_STREAM);
+    let evaluation = evaluate(setup, choice, fresh);
     Verdict::all(setup, &evaluation)
         .into_iter()
         .filter(|verdict| !verdict.passes() && passing.contains(&verdict.subject))
         .max_by(|a, b| a.load().total_cmp(&b.load()))
         .map(|verdict| Turn::Verdict(verdict.subject))
 }
-
-/// Windows have shots of their own.
-const WINDOW_STREAM: u32 = 1 << 16;

@@ -4,12 +4,13 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use peenpose::jet::Replicates;
 use peenpose::problem::Problem;
 use peenpose::problem::fault::nearest_name;
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{Answer, clearance_violation};
+use peenpose::solve::{ANSWERS, Answer, clearance_violation};
 use peenpose::units::{self, Dimension};
 use peenpose::validity;
 use peenpose::verdict::Verdict;
@@ -27,7 +28,8 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         setup.problem.seed = seed;
     }
     let choice = choice(args, &setup.problem)?;
-    let evaluation = peenpose::evaluate::evaluate(&setup, &choice, args.shots as usize, 0);
+    let fresh = Replicates::new(&setup.problem, ANSWERS, args.shots as usize);
+    let evaluation = peenpose::evaluate::evaluate(&setup, &choice, &fresh);
     let rays = evaluation.rays;
     let answer = Answer {
         verdicts: Verdict::all(&setup, &evaluation),
@@ -41,7 +43,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         command: command(args, &setup, &choice),
         work: WorkRecord {
             poses: 1,
-            shots_per_pose: args.shots as usize,
+            shots_per_pose: fresh.shots(),
             rays,
             seconds: started.elapsed().as_secs_f64(),
         },
