@@ -271,13 +271,16 @@ impl Spread {
             return Self::default();
         }
         let mean = values.iter().sum::<f64>() / values.len() as f64;
-        values.sort_unstable_by(f64::total_cmp);
-        let quantile = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
+        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut quantile = |share: f64| {
+            let place = ((values.len() - 1) as f64 * share).round() as usize;
+            *values.select_nth_unstable_by(place, f64::total_cmp).1
+        };
         Self {
             mean,
             low: quantile(0.05),
             high: quantile(0.95),
-            largest: values[values.len() - 1],
+            largest,
         }
     }
 }

@@ -157,10 +157,6 @@ struct Point {
     rim_density: f64,
 }
 
-/// How strongly rim shots crowd there: a distance from the rim that is uniform in the jet is
-/// uniform to the power of this for a rim shot.
-const RIM_CROWDING: i32 = 3;
-
 /// Keeps the density finite on the rim itself.
 const LEAST_DEPTH: f64 = 1e-18;
 
@@ -208,13 +204,9 @@ impl Point {
     /// The distance from the rim of this point, when that of the jet's own points is uniform in
     /// 0 to 1; keeps account of the density.
     fn towards_rim(&mut self, depth: f64) -> f64 {
-        let depth = if self.on_rim {
-            depth.powi(RIM_CROWDING)
-        } else {
-            depth
-        };
-        let crowding = f64::from(RIM_CROWDING);
-        self.rim_density *= depth.max(LEAST_DEPTH).powf(1.0 / crowding - 1.0) / crowding;
+        // The cube of a uniform variable crowds at 0, with density depth^(-2/3) / 3.
+        let depth = if self.on_rim { depth.powi(3) } else { depth };
+        self.rim_density /= 3.0 * depth.max(LEAST_DEPTH).cbrt().powi(2);
         depth
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use crate::jet::{Deviate, Pose, Samples};
+use crate::jet::{Deviate, Pose};
 use crate::objective::{Tally, Terms};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -71,17 +71,16 @@ pub struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// A judge with the first `shots` of the samples.
+    /// A judge on some shots.
     pub fn new(
         setup: &'a Setup,
-        samples: &'a Samples,
-        shots: usize,
+        shots: &'a [Deviate],
         effort: &'a Effort,
         stop: &'a AtomicBool,
     ) -> Self {
         Self {
             setup,
-            shots: &samples.deviates[..shots],
+            shots,
             effort,
             stop,
         }

@@ -15,7 +15,7 @@ mod window;
 pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
 pub use window::{Drift, Turn, Window, passing_windows, windows};
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
@@ -58,7 +58,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 impl Default for Control<'_> {
     fn default() -> Self {
         Self {
-            most_shots: 1 << 14,
+            most_shots: 1 << 18,
             fresh_shots: 1 << 16,
             stop: &NEVER,
             watch: &|_| (),
@@ -114,26 +114,33 @@ const STAGES: [Stage; 4] = [
     Stage {
         shots: 256,
         candidates: 6,
-        size: 0.1,
+        size: 0.4,
     },
     Stage {
         shots: 1024,
         candidates: 3,
-        size: 0.03,
+        size: 0.2,
     },
     Stage {
         shots: 4096,
         candidates: 2,
-        size: 0.01,
+        size: 0.08,
     },
     Stage {
         shots: 16384,
         candidates: 1,
-        size: 0.004,
+        size: 0.03,
     },
 ];
 
 const SCREENING_SHOTS: usize = 64;
+
+/// By how much the shots rise when the last stage was not accurate enough.
+const RISE: usize = 4;
+
+/// A descent ends when J differs by less than this share of the accuracy over its simplex. Along the
+/// flat valley a looser end stops far from the best place.
+const SETTLED: f64 = 0.01;
 
 /// What the shots behind reported figures are drawn for.
 pub const ANSWERS: u32 = 0;
@@ -141,59 +148,136 @@ pub const ANSWERS: u32 = 0;
 /// Finds the best settings of a problem.
 pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let effort = Effort::default();
-    let most_shots = STAGES
-        .iter()
-        .map(|stage| stage.shots)
-        .max()
-        .unwrap_or(SCREENING_SHOTS);
-    let samples = Samples::with_rim(
+    let contacts = &setup.problem.settings.contact;
+    let mut samples = Samples::with_rim(
         &setup.problem,
         Stream::Search,
-        most_shots.min(control.most_shots),
+        FIRST_SHOTS.min(control.most_shots),
     );
-    let judge = |shots: usize| Judge::new(setup, &samples, shots, &effort, control.stop);
-    let contacts = &setup.problem.settings.contact;
+    let is_stopped = || control.stop.load(Ordering::Relaxed);
     let mut searches: Vec<Search> = contacts
         .par_iter()
-        .map(|&contact| Search::screen(setup, contact, &judge(SCREENING_SHOTS)))
+        .map(|&contact| {
+            Search::screen(
+                setup,
+                contact,
+                &Judge::new(
+                    setup,
+                    &samples.deviates[..SCREENING_SHOTS],
+                    &effort,
+                    control.stop,
+                ),
+            )
+        })
         .collect();
-    let mut shots_per_pose = SCREENING_SHOTS;
+    let tell = |searches: &[Search]| {
+        let best = least_objective(searches);
+        (control.watch)(Progress {
+            poses: effort.poses(),
+            best: best.is_finite().then_some(best),
+        });
+    };
+    let mut shots = SCREENING_SHOTS;
     for stage in STAGES
         .iter()
         .filter(|stage| stage.shots <= control.most_shots)
     {
-        shots_per_pose = stage.shots;
+        shots = stage.shots;
+        let judge = Judge::new(setup, &samples.deviates[..shots], &effort, control.stop);
+        let least = least_objective(&searches);
         searches
             .par_iter_mut()
-            .for_each(|search| search.refine(&judge(stage.shots), stage, setup.problem.accuracy));
-        let best = searches
-            .iter()
-            .filter_map(|search| search.best().standing.objective());
-        (control.watch)(Progress {
-            poses: effort.poses(),
-            best: best.min_by(f64::total_cmp),
-        });
+            .filter(|search| shots <= CHEAP_SHOTS || search.is_in_reach(least))
+            .for_each(|search| search.refine(&judge, stage, setup.problem.accuracy));
+        tell(&searches);
     }
     let fresh = Replicates::new(&setup.problem, ANSWERS, control.fresh_shots);
-    let mut answers: Vec<Answer> = searches
-        .iter()
-        .map(|search| answer(setup, search.best(), &fresh, &effort))
-        .collect();
+    let report = |search: &Search| answer(setup, search.best(), &fresh, &effort);
+    let mut answers: Vec<Answer> = searches.iter().map(report).collect();
+    loop {
+        let open = unsettled(&searches, &answers, setup.problem.accuracy);
+        if open.is_empty() || shots * RISE > control.most_shots || is_stopped() {
+            break;
+        }
+        shots *= RISE;
+        samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
+        let stage = Stage {
+            shots,
+            candidates: 1,
+            size: 0.03,
+        };
+        for index in open {
+            let judge = Judge::new(setup, &samples.deviates, &effort, control.stop);
+            searches[index].refine(&judge, &stage, setup.problem.accuracy);
+            answers[index] = report(&searches[index]);
+            tell(&searches);
+        }
+    }
+    let settled = unsettled(&searches, &answers, setup.problem.accuracy).is_empty();
     answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
-    let stopped = control.stop.load(std::sync::atomic::Ordering::Relaxed);
     let status = match answers.first() {
-        _ if stopped => Status::Interrupted,
-        Some(best) if best.evaluation.is_some() => Status::Converged,
-        _ => Status::NoFeasiblePose,
+        _ if is_stopped() => Status::Interrupted,
+        Some(best) if best.evaluation.is_none() => Status::NoFeasiblePose,
+        Some(_) if settled => Status::Converged,
+        _ => Status::BudgetSpent,
     };
     Solution {
         status,
         answers,
         poses: effort.poses(),
-        shots_per_pose,
+        shots_per_pose: shots,
         rays: effort.rays(),
     }
 }
+
+/// Shots that every search draws.
+const FIRST_SHOTS: usize = STAGES[STAGES.len() - 1].shots;
+
+/// Least J over all contacts; infinite while the nozzle has fitted nowhere.
+fn least_objective(searches: &[Search]) -> f64 {
+    let objectives = searches
+        .iter()
+        .filter_map(|search| search.best().standing.objective());
+    objectives.fold(f64::INFINITY, f64::min)
+}
+
+/// The searches that could still change the answer: among the contacts within reach of the best,
+/// those whose J on fresh shots is above J on the shots of the search by more than the accuracy
+/// asked for and the statistical error.
+///
+/// The least J on any set of shots is on average below the least true J, and the true J of the
+/// settings found is above it. So the gap between the two bounds how far these settings are from
+/// the best ones.
+fn unsettled(searches: &[Search], answers: &[Answer], accuracy: f64) -> Vec<usize> {
+    let fresh = |answer: &Answer| {
+        Some((
+            answer.evaluation.as_ref()?.terms.total(),
+            answer.standard_error(),
+        ))
+    };
+    let least = answers
+        .iter()
+        .filter_map(|answer| Some(fresh(answer)?.0))
+        .fold(f64::INFINITY, f64::min);
+    let is_unsettled = |search: &Search, answer: &Answer| {
+        let (claimed, (found, error)) = search.best().standing.objective().zip(fresh(answer))?;
+        let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
+        let gap = found - claimed;
+        Some(in_reach && gap > accuracy * found + CONFIDENCE * error)
+    };
+    let pairs = searches.iter().zip(answers).enumerate();
+    pairs
+        .filter(|(_, (search, answer))| is_unsettled(search, answer).unwrap_or(false))
+        .map(|(index, _)| index)
+        .collect()
+}
+
+/// Standard errors that a difference must exceed to count.
+const CONFIDENCE: f64 = 2.0;
+/// A contact whose J is above the best by more than this share cannot become the best.
+const IN_REACH: f64 = 0.25;
+/// Up to so many shots every contact is worth its refinement.
+const CHEAP_SHOTS: usize = 4096;
 
 impl Answer {
     fn order(&self) -> f64 {
@@ -201,6 +285,12 @@ impl Answer {
             Some(evaluation) => Standing::Feasible(evaluation.terms).rank(),
             None => Standing::Blocked(self.violation).rank(),
         }
+    }
+
+    fn standard_error(&self) -> f64 {
+        self.evaluation
+            .as_ref()
+            .map_or(0.0, |evaluation| evaluation.standard_error)
     }
 
     /// Whether every verdict passes.
@@ -269,6 +359,12 @@ impl Search {
         &self.candidates[0]
     }
 
+    /// Whether this contact could still become the best.
+    fn is_in_reach(&self, least: f64) -> bool {
+        let objective = self.best().standing.objective();
+        objective.is_none_or(|objective| objective <= least * (1.0 + IN_REACH))
+    }
+
     fn sort(&mut self) {
         self.candidates
             .sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
@@ -280,7 +376,7 @@ impl Search {
         let mut starts: Vec<Candidate> = Vec::new();
         for candidate in &self.candidates {
             let is_new = |other: &Candidate| {
-                space.distance(&candidate.point, &other.point) > 2.0 * stage.size
+                space.distance(&candidate.point, &other.point) > 0.2 * stage.size
             };
             if starts.len() < stage.candidates && starts.iter().all(is_new) {
                 starts.push(candidate.clone());
@@ -293,7 +389,7 @@ impl Search {
                 if space.dimensions() == 0 {
                     return start;
                 }
-                polish(space, judge, start, stage.size, 0.1 * accuracy)
+                polish(space, judge, start, stage.size, SETTLED * accuracy)
             })
             .collect();
         self.sort();
