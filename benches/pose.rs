@@ -1,0 +1,130 @@
+//! What one pose costs: rays per second through exact walls and through facets, impacts and
+//! bookkeeping included, and how the cost grows with shots and with triangles.
+//!
+//! Run on one core: `taskset -c 0 cargo bench --bench pose`.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use peenpose::jet::{Samples, Stream};
+use peenpose::objective::Tally;
+use peenpose::problem;
+use peenpose::problem::setting::Choice;
+use peenpose::scene::Walls;
+use peenpose::setup::Setup;
+
+/// A shipped problem with its walls as asked for.
+fn setup(file: &str, walls: Walls) -> Setup {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("problems")
+        .join(file);
+    let problem = problem::read(&path)
+        .expect("the file can be read")
+        .problem
+        .expect("a shipped problem has no faults");
+    Setup::new(problem, walls).expect("its scene has no faults")
+}
+
+fn choice(incidence: f64, azimuth: f64, standoff: f64, speed: f64) -> Choice {
+    Choice {
+        incidence: incidence.to_radians(),
+        azimuth: azimuth.to_radians(),
+        standoff,
+        speed,
+        aim_along: 0.0,
+        aim_across: 0.0,
+        contact: 0,
+        static_friction: 0.0,
+    }
+}
+
+fn facets(degrees: f64) -> Walls {
+    Walls::Facets {
+        chord_angle: degrees.to_radians(),
+    }
+}
+
+/// A pose of the long hub with many bounces, and the blind keyway near its best pose.
+fn rays(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("rays");
+    let steep = choice(60.0, 20.0, 10e-3, 10.0);
+    let blind = choice(63.0, 0.0, 8e-3, 48.0);
+    for (name, setup, choice) in [
+        (
+            "keyway exact",
+            setup("keyway-long.yaml", Walls::Exact),
+            steep,
+        ),
+        (
+            "keyway 700 facets",
+            setup("keyway-long.yaml", facets(1.0)),
+            steep,
+        ),
+        (
+            "blind keyway 14588 facets",
+            setup("keyway-blind.yaml", Walls::Exact),
+            blind,
+        ),
+    ] {
+        let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
+        let once = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
+        group.throughput(Throughput::Elements(once.rays as u64));
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| Tally::trace(&setup, black_box(&choice), 1.0, &samples.deviates));
+        });
+    }
+    group.finish();
+}
+
+/// The whole judgement of a pose of 1024 shots, best speed included.
+fn pose(criterion: &mut Criterion) {
+    let setup = setup("keyway.yaml", Walls::Exact);
+    let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
+    let choice = choice(68.0, 0.0, 8e-3, 9.4);
+    criterion.bench_function("pose of 1024 shots with the best speed", |bencher| {
+        bencher.iter(|| {
+            let tally = Tally::trace(&setup, black_box(&choice), 1.0, &samples.deviates);
+            let goals = &setup.problem.goals;
+            let speed = tally.best_speed(goals, setup.problem.settings.speed);
+            tally.terms(goals, speed)
+        });
+    });
+}
+
+fn growth(criterion: &mut Criterion) {
+    let steep = choice(60.0, 20.0, 10e-3, 10.0);
+    let mut group = criterion.benchmark_group("shots");
+    let exact = setup("keyway-long.yaml", Walls::Exact);
+    for shots in [256, 1024, 4096, 16384, 65536] {
+        let samples = Samples::with_rim(&exact.problem, Stream::Search, shots);
+        group.throughput(Throughput::Elements(shots as u64));
+        group.bench_with_input(
+            BenchmarkId::from_parameter(shots),
+            &samples,
+            |bencher, samples| {
+                bencher.iter(|| Tally::trace(&exact, black_box(&steep), 1.0, &samples.deviates));
+            },
+        );
+    }
+    group.finish();
+    let mut group = criterion.benchmark_group("chord angle in degrees");
+    for degrees in [1.0, 0.1, 0.01, 0.001] {
+        let setup = setup("keyway-long.yaml", facets(degrees));
+        let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
+        let once = Tally::trace(&setup, &steep, 1.0, &samples.deviates);
+        group.throughput(Throughput::Elements(once.rays as u64));
+        let name = format!("{degrees}, {} triangles", setup.scene.triangles());
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| Tally::trace(&setup, black_box(&steep), 1.0, &samples.deviates));
+        });
+    }
+    group.finish();
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(20).without_plots();
+    targets = rays, pose, growth
+}
+criterion_main!(benches);

@@ -1,0 +1,31 @@
+//! Whole searches of the shipped problems, on all cores, without the start of the process.
+
+use std::path::Path;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use peenpose::setup::Setup;
+use peenpose::solve::{Control, solve};
+
+fn shipped(criterion: &mut Criterion) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    for file in [
+        "plate.yaml",
+        "keyway.yaml",
+        "keyway-long.yaml",
+        "keyway-blind.yaml",
+    ] {
+        let Ok((setup, _)) = Setup::load(&folder.join(file)) else {
+            panic!("{file} has faults");
+        };
+        criterion.bench_function(file, |bencher| {
+            bencher.iter(|| solve(&setup, &Control::default()));
+        });
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(10).without_plots();
+    targets = shipped
+}
+criterion_main!(benches);
