@@ -11,3 +11,4 @@ pub mod problem;
 pub mod scene;
 pub mod setup;
 pub mod trace;
+pub mod units;

@@ -1,0 +1,152 @@
+use proptest::prelude::*;
+
+use super::*;
+
+#[test]
+fn every_unit_leads_to_si() {
+    let cases = [
+        (Dimension::Length, "500 um", 0.0005),
+        (Dimension::Length, "500 µm", 0.0005),
+        (Dimension::Length, "0.5 mm", 0.0005),
+        (Dimension::Length, "0.5mm", 0.0005),
+        (Dimension::Length, "1e-3 mm", 1e-6),
+        (Dimension::Length, "1e-3mm", 1e-6),
+        (Dimension::Length, "+.5 cm", 0.005),
+        (Dimension::Length, "-5. m", -5.0),
+        (Dimension::Length, "1 in", 0.0254),
+        (Dimension::Length, "2 inch", 0.0508),
+        (Dimension::Angle, "180 deg", std::f64::consts::PI),
+        (Dimension::Angle, "180°", std::f64::consts::PI),
+        (Dimension::Angle, "1.5 rad", 1.5),
+        (Dimension::Speed, "10 m/s", 10.0),
+        (Dimension::Speed, "10 mm/s", 0.01),
+        (Dimension::Speed, "36 km/h", 10.0),
+        (Dimension::Speed, "10 ft/s", 3.048),
+        (Dimension::Impulse, "40 uN.s", 40e-6),
+        (Dimension::Impulse, "40 uN s", 40e-6),
+        (Dimension::Impulse, "40 µN.s", 40e-6),
+        (Dimension::Impulse, "40 μN·s", 40e-6),
+        (Dimension::Impulse, "40 uNs", 40e-6),
+        (Dimension::Impulse, "3 mN.s", 3e-3),
+        (Dimension::Impulse, "3 nN.s", 3e-9),
+        (Dimension::Impulse, "3 N.s", 3.0),
+        (Dimension::Density, "7000 kg/m3", 7000.0),
+        (Dimension::Density, "7.8 g/cm3", 7800.0),
+        (Dimension::Density, "7.8 g/cm^3", 7800.0),
+        (Dimension::Density, "7000 kg/m³", 7000.0),
+        (Dimension::Fraction, "5 %", 0.05),
+        (Dimension::Fraction, "0.1%", 0.001),
+    ];
+    for (dimension, text, si) in cases {
+        assert_eq!(parse(dimension, text), Ok(si), "{text}");
+    }
+}
+
+#[test]
+fn faults_say_what_to_write() {
+    let cases = [
+        (
+            Dimension::Speed,
+            "0.5 mm",
+            "`0.5 mm` is a length; expected a speed such as `10 m/s`",
+        ),
+        (
+            Dimension::Length,
+            "0.5",
+            "`0.5` has no unit; expected a length such as `0.5 mm`; did you mean `0.5 mm`?",
+        ),
+        (
+            Dimension::Fraction,
+            "0.07",
+            "`0.07` has no unit; expected a percentage such as `5 %`; did you mean `7 %`?",
+        ),
+        (
+            Dimension::Fraction,
+            "5",
+            "`5` has no unit; expected a percentage such as `5 %`; did you mean `5 %`?",
+        ),
+        (
+            Dimension::Angle,
+            "60 degrees",
+            "`degrees` is not a unit of angle; expected one of deg, rad; did you mean `deg`?",
+        ),
+        (
+            Dimension::Length,
+            "5 MM",
+            "`MM` is not a unit of length; expected one of um, mm, cm, m, in, inch; \
+             did you mean `mm`?",
+        ),
+        (
+            Dimension::Length,
+            "1_000 mm",
+            "`1_000 mm` is not a number with a unit; expected a length such as `0.5 mm`",
+        ),
+        (
+            Dimension::Length,
+            "0,5 mm",
+            "`0,5 mm` is not a number with a unit; expected a length such as `0.5 mm`",
+        ),
+        (
+            Dimension::Length,
+            "nan mm",
+            "`nan mm` is not a number with a unit; expected a length such as `0.5 mm`",
+        ),
+        (
+            Dimension::Length,
+            "1e999 mm",
+            "`1e999 mm` is too large a number; expected a length such as `0.5 mm`",
+        ),
+        (
+            Dimension::Length,
+            "",
+            "has no value; expected a length such as `0.5 mm`",
+        ),
+    ];
+    for (dimension, text, message) in cases {
+        let fault = parse(dimension, text).unwrap_err();
+        assert_eq!(fault.to_string(), message, "{text}");
+    }
+}
+
+#[test]
+fn bare_numbers_are_decimal() {
+    assert_eq!(parse_number("-1.5e-3"), Some(-0.0015));
+    for text in [
+        "1_000", "0x10", "inf", ".nan", "", "1 mm", "1e", "--1", "1 2",
+    ] {
+        assert_eq!(parse_number(text), None, "{text}");
+    }
+}
+
+fn dimension() -> impl Strategy<Value = Dimension> {
+    (0..Dimension::ALL.len()).prop_map(|i| Dimension::ALL[i])
+}
+
+proptest! {
+    #[test]
+    fn printing_and_parsing_round_trips(
+        value in -1e12..1e12_f64,
+        dimension in dimension(),
+        pick in 0_usize..10,
+        gap in 0_usize..3,
+    ) {
+        let (name, scale) = dimension.units()[pick % dimension.units().len()];
+        let text = format!("{value}{:gap$}{name}", "");
+        let si = parse(dimension, &text).unwrap();
+        let back = match scale {
+            Shift(places) => si * 10_f64.powi(-places),
+            Factor(factor) => si / factor,
+        };
+        // One rounding each for the scale, the product and the way back.
+        prop_assert!((back - value).abs() <= 4.0 * f64::EPSILON * value.abs());
+    }
+
+    #[test]
+    fn no_text_makes_it_panic(text in "[-+0-9.eE_x,µ°%a-zN/ \\PC]{0,12}") {
+        for dimension in Dimension::ALL {
+            if let Ok(value) = parse(dimension, &text) {
+                prop_assert!(value.is_finite());
+            }
+        }
+    }
+}
