@@ -151,18 +151,24 @@ impl Prism {
                 }
                 let z = local.origin.z + t * local.direction.z;
                 let point = origin + direction * t;
+                if z < -self.slack
+                    || z > self.length + self.slack
+                    || !wall.form.spans(&point, self.slack)
+                {
+                    continue;
+                }
                 let front = wall.form.front(&point);
                 let approach = direction.dot(&front);
-                let (margin, farther) = if start.sees(approach < 0.0) {
-                    (self.slack, 0.0)
+                let farther = if start.sees(approach < 0.0) {
+                    0.0
                 } else {
-                    (0.0, self.slack)
+                    // Seen from behind, it ends exactly where it ends.
+                    if z < 0.0 || z > self.length || !wall.form.spans(&point, 0.0) {
+                        continue;
+                    }
+                    self.slack
                 };
-                if t + farther >= nearest
-                    || z < -margin
-                    || z > self.length + margin
-                    || !wall.form.spans(&point, margin)
-                {
+                if t + farther >= nearest {
                     continue;
                 }
                 nearest = t + farther;
@@ -214,7 +220,7 @@ impl Prism {
     /// Whether a point counts as one of the wall.
     fn lies_on(&self, wall: &Wall, point: &Point3<f64>) -> bool {
         let within = -self.slack..=self.length + self.slack;
-        within.contains(&point.z) && wall.form.lies_on(&point.xy(), self.slack)
+        wall.form.lies_on(&point.xy(), self.slack) && within.contains(&point.z)
     }
 
     /// Whether the closed cross-section holds a point: it lies on the outline, or a ray from it
@@ -353,11 +359,14 @@ impl Form {
     /// Whether a point is within `slack` of the wall.
     #[inline]
     fn lies_on(&self, point: &Point2<f64>, slack: f64) -> bool {
-        let distance = match *self {
-            Self::Plane { from, tangent, .. } => (point - from).perp(&tangent),
-            Self::Cylinder { centre, radius, .. } => (point - centre).norm() - radius,
+        let near = match *self {
+            Self::Plane { from, tangent, .. } => (point - from).perp(&tangent).abs() <= slack,
+            Self::Cylinder { centre, radius, .. } => {
+                let offset = (point - centre).norm_squared() - radius * radius;
+                offset.abs() <= 2.0 * radius * slack
+            }
         };
-        distance.abs() <= slack && self.spans(point, slack)
+        near && self.spans(point, slack)
     }
 
     /// Unit normal on the front, at a point of the wall.
