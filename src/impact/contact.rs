@@ -46,25 +46,33 @@ impl Contact {
     /// # Errors
     /// The first [`ContactFault`] found.
     pub fn validate(&self) -> Result<(), ContactFault> {
+        self.faults().into_iter().next().map_or(Ok(()), Err)
+    }
+
+    /// Everything that is wrong with the coefficients.
+    pub fn faults(&self) -> Vec<ContactFault> {
         let friction = |value: f64| value.is_finite() && value >= 0.0;
-        if !friction(self.static_friction) {
-            return Err(ContactFault::StaticFriction(self.static_friction));
+        let (static_friction, dynamic_friction) = (self.static_friction, self.dynamic_friction);
+        let mut faults = Vec::new();
+        if !friction(static_friction) {
+            faults.push(ContactFault::StaticFriction(static_friction));
         }
-        if !friction(self.dynamic_friction) {
-            return Err(ContactFault::DynamicFriction(self.dynamic_friction));
+        if !friction(dynamic_friction) {
+            faults.push(ContactFault::DynamicFriction(dynamic_friction));
         }
-        if self.dynamic_friction > self.static_friction {
-            return Err(ContactFault::DynamicAboveStatic {
-                dynamic_friction: self.dynamic_friction,
-                static_friction: self.static_friction,
+        if faults.is_empty() && dynamic_friction > static_friction {
+            faults.push(ContactFault::DynamicAboveStatic {
+                dynamic_friction,
+                static_friction,
             });
         }
         if !(-1.0..=1.0).contains(&self.tangential_restitution) {
-            return Err(ContactFault::TangentialRestitution(
+            faults.push(ContactFault::TangentialRestitution(
                 self.tangential_restitution,
             ));
         }
-        self.restitution.validate()
+        faults.extend(self.restitution.validate().err());
+        faults
     }
 
     /// Whether paths stay the same when every speed is multiplied by one factor.

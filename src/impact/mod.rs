@@ -25,9 +25,12 @@
 
 mod contact;
 mod law;
+mod oblique;
+pub mod zohdi;
 
 pub use contact::{Contact, ContactFault, Restitution};
 pub use law::{Law, Regime};
+pub use oblique::{Energy, Oblique, Outcome};
 
 use nalgebra::Vector3;
 

@@ -11,6 +11,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost};
 
+use super::LIFT;
 use super::mesh::Mesh;
 use super::prism::Start;
 use super::ray::{Crossing, Ray, Spot};
@@ -86,12 +87,11 @@ impl Facets {
         let start = Start {
             piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
             front: leaving.map(|spot| spot.front),
-            slack: self.slack,
         };
         let shear = Shear::new(ray);
         let origin: Vector = ray.origin.coords.into();
         let inverse = Vector::from(<[f64; 3]>::from(ray.direction).map(reciprocal));
-        let (index, Nearest { t, front }) = self.tree.find_best(
+        let (index, Nearest { t, front, .. }) = self.tree.find_best(
             limit,
             |node, _| {
                 let (a, b) = (
@@ -110,13 +110,25 @@ impl Facets {
                 if start.piece == Some(index) {
                     return None;
                 }
-                let (t, front) = shear.crossing(&self.corners(index))?;
-                let approach = if front { -1.0 } else { 1.0 };
-                let counts = t < nearest && start.accepts(t, approach);
-                counts.then_some(Nearest {
-                    t: t.max(0.0),
-                    front,
-                })
+                let corners = self.corners(index);
+                if start.front.is_some() && lies_on(&ray.origin, &corners, self.slack) {
+                    let [a, b, c] = corners;
+                    let approach = ray.direction.dot(&(b - a).cross(&(c - a)));
+                    return start.enters(approach).then_some(Nearest {
+                        t: 0.0,
+                        front: approach < 0.0,
+                        farther: 0.0,
+                    });
+                }
+                let (t, front) = shear.crossing(&corners, |front| {
+                    if start.sees(front) {
+                        self.slack * LIFT
+                    } else {
+                        0.0
+                    }
+                })?;
+                let farther = if start.sees(front) { 0.0 } else { self.slack };
+                (t > 0.0 && t + farther < nearest).then_some(Nearest { t, front, farther })
             },
         )?;
         let [a, b, c] = self.corners(index);
@@ -133,14 +145,43 @@ impl Facets {
     }
 }
 
+/// Whether a point is within `slack` of a triangle.
+#[inline]
+fn lies_on(point: &Point3<f64>, corners: &[Point3<f64>; 3], slack: f64) -> bool {
+    let [a, b, c] = *corners;
+    let apart = |axis: usize| {
+        let (low, high) = (
+            a[axis].min(b[axis]).min(c[axis]),
+            a[axis].max(b[axis]).max(c[axis]),
+        );
+        point[axis] < low - slack || point[axis] > high + slack
+    };
+    if apart(0) || apart(1) || apart(2) {
+        return false;
+    }
+    let area_normal = (b - a).cross(&(c - a));
+    let twice_area = area_normal.norm();
+    let inside = |from: Point3<f64>, to: Point3<f64>| {
+        let edge = to - from;
+        edge.cross(&(point - from)).dot(&area_normal) >= -slack * edge.norm() * twice_area
+    };
+    (point - a).dot(&area_normal).abs() <= slack * twice_area
+        && inside(a, b)
+        && inside(b, c)
+        && inside(c, a)
+}
+
 struct Nearest {
     t: f64,
     front: bool,
+    /// Where a ray passes over the edge between a facet that it sees and one that it sees from
+    /// behind, the one behind counts as farther.
+    farther: f64,
 }
 
 impl BvhLeafCost for Nearest {
     fn cost(&self) -> f64 {
-        self.t
+        self.t + self.farther
     }
 }
 
@@ -179,10 +220,14 @@ impl Shear {
         }
     }
 
-    /// Signed distance to the plane of the triangle where the ray's line crosses the triangle, and
-    /// whether it crosses from the front.
+    /// Signed distance to the plane of the triangle where the ray's line crosses the triangle, or
+    /// passes its edges by at most the margin of that side, and whether it crosses from the front.
     #[inline]
-    fn crossing(&self, corners: &[Point3<f64>; 3]) -> Option<(f64, bool)> {
+    fn crossing(
+        &self,
+        corners: &[Point3<f64>; 3],
+        margin: impl Fn(bool) -> f64,
+    ) -> Option<(f64, bool)> {
         let [x, y, z] = self.axes;
         let sheared = corners.map(|corner| {
             let p = corner.coords - self.origin;
@@ -198,10 +243,28 @@ impl Shear {
         let w = b[0] * a[1] - b[1] * a[0];
         let outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
         let determinant = u + v + w;
-        if outside || determinant == 0.0 {
+        let front = determinant > 0.0;
+        if determinant == 0.0 || outside && beyond(corners, [u, v, w], determinant, margin(front)) {
             return None;
         }
         let t = (u * a[2] + v * b[2] + w * c[2]) / determinant;
-        Some((t, determinant > 0.0))
+        Some((t, front))
     }
+}
+
+/// Whether a point of a triangle's plane, given by its barycentric coordinates times
+/// `determinant`, lies beyond an edge by more than `margin`.
+#[inline]
+fn beyond(corners: &[Point3<f64>; 3], weights: [f64; 3], determinant: f64, margin: f64) -> bool {
+    // Far enough for any triangle that is higher than a million margins.
+    const CLEARLY: f64 = -1e-6;
+    let shares = weights.map(|weight| weight / determinant);
+    if shares.iter().any(|&share| share < CLEARLY) {
+        return true;
+    }
+    let [a, b, c] = *corners;
+    let twice_area = (b - a).cross(&(c - a)).norm();
+    let opposite = [c - b, a - c, b - a];
+    let mut sides = shares.iter().zip(opposite);
+    sides.any(|(share, edge)| share * twice_area < -margin * edge.norm())
 }

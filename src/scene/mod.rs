@@ -25,6 +25,11 @@ use ray::{Hit, Ray, Spot};
 /// Two points nearer than this share of the scene's size count as one.
 const SLACK: f64 = 1e-12;
 
+/// Hits are reported by this share of the slack above their surface, on the side that the ray
+/// comes from: far more than rounding errors, so that rays which leave a hit start on that side of
+/// the facets next to it, and far less than the slack.
+const LIFT: f64 = 1.0 / 16.0;
+
 /// The parts of a problem, ready for rays and distances.
 #[derive(Clone)]
 pub struct Scene {
@@ -128,10 +133,12 @@ impl Scene {
                 continue;
             };
             nearest = crossing.distance;
+            let normal = if crossing.front { front } else { -front };
+            let lift = LIFT * SLACK * self.size;
             hit = Some(Hit {
                 distance: crossing.distance,
-                point: ray.origin + ray.direction * crossing.distance,
-                normal: if crossing.front { front } else { -front },
+                point: ray.origin + ray.direction * crossing.distance + normal * lift,
+                normal,
                 surface: crossing.surface,
                 spot: Spot {
                     part: index,

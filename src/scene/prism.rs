@@ -116,18 +116,37 @@ impl Prism {
         let start = Start {
             piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
             front: leaving.map(|spot| spot.front),
-            slack: self.slack,
         };
         let mut best: Option<(Crossing, Vector3<f64>)> = None;
         let mut nearest = limit;
         let (origin, direction) = (local.origin.xy(), local.direction.xy());
         for (index, wall) in self.walls.iter().enumerate() {
             let piece = index as u32;
-            let on_it = start.piece == Some(piece);
+            let mut on_it = start.piece == Some(piece);
+            if !on_it && start.front.is_some() && self.lies_on(wall, &local.origin) {
+                let front = wall.form.front(&origin);
+                let approach = direction.dot(&front);
+                if start.enters(approach) {
+                    if nearest > 0.0 {
+                        nearest = 0.0;
+                        best = Some((
+                            Crossing {
+                                distance: 0.0,
+                                front: approach < 0.0,
+                                piece,
+                                surface: wall.surface,
+                            },
+                            Vector3::new(front.x, front.y, 0.0),
+                        ));
+                    }
+                    continue;
+                }
+                on_it = true;
+            }
             for t in wall.form.roots(&origin, &direction, on_it) {
-                // NaN, for no crossing, is not nearer either.
-                let nearer = t < nearest;
-                if !nearer {
+                // NaN, for no crossing, is neither ahead nor nearer.
+                let counts = t > 0.0 && t < nearest;
+                if !counts {
                     continue;
                 }
                 let z = local.origin.z + t * local.direction.z;
@@ -140,13 +159,22 @@ impl Prism {
                 }
                 let front = wall.form.front(&point);
                 let approach = direction.dot(&front);
-                if !start.accepts(t, approach) {
+                let farther = if start.sees(approach < 0.0) {
+                    0.0
+                } else {
+                    // Seen from behind, it ends exactly where it ends.
+                    if z < 0.0 || z > self.length || !wall.form.spans(&point, 0.0) {
+                        continue;
+                    }
+                    self.slack
+                };
+                if t + farther >= nearest {
                     continue;
                 }
-                nearest = t.max(0.0);
+                nearest = t + farther;
                 best = Some((
                     Crossing {
-                        distance: nearest,
+                        distance: t,
                         front: approach < 0.0,
                         piece,
                         surface: wall.surface,
@@ -157,19 +185,28 @@ impl Prism {
         }
         for (index, cap) in self.caps.iter().enumerate() {
             let piece = (self.walls.len() + index) as u32;
-            let approach = local.direction.z * cap.facing;
-            let t = (cap.z - local.origin.z) / local.direction.z;
-            if start.piece == Some(piece) || !start.accepts(t, approach) || t >= nearest {
+            if start.piece == Some(piece) {
                 continue;
             }
-            let point = local.origin + local.direction * t;
-            if !self.holds(point.xy()) {
+            let approach = local.direction.z * cap.facing;
+            let height = cap.z - local.origin.z;
+            let on_it = start.front.is_some() && height.abs() <= self.slack && self.holds(origin);
+            let t = if on_it {
+                if !start.enters(approach) {
+                    continue;
+                }
+                0.0
+            } else {
+                height / local.direction.z
+            };
+            let counts = (on_it || t > 0.0) && t < nearest;
+            if !counts || !self.holds(origin + direction * t) {
                 continue;
             }
             nearest = t;
             best = Some((
                 Crossing {
-                    distance: t.max(0.0),
+                    distance: t,
                     front: approach < 0.0,
                     piece,
                     surface: cap.surface,
@@ -180,8 +217,19 @@ impl Prism {
         best.map(|(crossing, normal)| (crossing, self.rotation * normal))
     }
 
-    /// Whether the closed cross-section holds a point: how often a ray from it leaves.
+    /// Whether a point counts as one of the wall.
+    fn lies_on(&self, wall: &Wall, point: &Point3<f64>) -> bool {
+        let within = -self.slack..=self.length + self.slack;
+        wall.form.lies_on(&point.xy(), self.slack) && within.contains(&point.z)
+    }
+
+    /// Whether the closed cross-section holds a point: it lies on the outline, or a ray from it
+    /// leaves an odd number of times.
     fn holds(&self, point: Point2<f64>) -> bool {
+        let mut walls = self.walls.iter();
+        if walls.any(|wall| wall.form.lies_on(&point, self.slack)) {
+            return true;
+        }
         // No outline that anybody draws has a line in this direction.
         let direction = Vector2::new(0.827_132, 0.561_983);
         let crossings = self.walls.iter().flat_map(|wall| {
@@ -195,26 +243,30 @@ impl Prism {
 }
 
 /// Where a ray starts, and what it therefore must not hit.
+///
+/// In a corner the start of a rebound lies on more than one wall, and rounding may put it on
+/// either side of those that it did not come from. The shot is known to be on one side of them,
+/// though: a wall on which the start lies is hit at once when the shot heads into it from that
+/// side, and not at all otherwise.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
     pub piece: Option<u32>,
     pub front: Option<bool>,
-    pub slack: f64,
 }
 
 impl Start {
-    /// Whether a crossing at distance `t` counts, given the direction's component along the front
-    /// normal. Next to the start (in a corner) rounding may put the start on either side of the
-    /// other wall: there a crossing counts when the shot comes from the side it is known to be on.
+    /// Whether a wall that shows this side is one that the shot can reach without passing through
+    /// another, as far as is known.
     #[inline]
-    pub fn accepts(&self, t: f64, approach: f64) -> bool {
-        if t > self.slack {
-            return true;
-        }
-        match self.front {
-            Some(front) => t >= -self.slack && (approach < 0.0) == front && approach != 0.0,
-            None => t > 0.0,
-        }
+    pub fn sees(&self, front: bool) -> bool {
+        self.front.unwrap_or(true) == front
+    }
+
+    /// Whether a shot heads into a wall on which it starts, given the direction's component along
+    /// the wall's front normal.
+    #[inline]
+    pub fn enters(&self, approach: f64) -> bool {
+        approach != 0.0 && self.front == Some(approach < 0.0)
     }
 }
 
@@ -302,6 +354,19 @@ impl Form {
                 ..
             } => (point - centre).dot(&towards) >= reach - slack,
         }
+    }
+
+    /// Whether a point is within `slack` of the wall.
+    #[inline]
+    fn lies_on(&self, point: &Point2<f64>, slack: f64) -> bool {
+        let near = match *self {
+            Self::Plane { from, tangent, .. } => (point - from).perp(&tangent).abs() <= slack,
+            Self::Cylinder { centre, radius, .. } => {
+                let offset = (point - centre).norm_squared() - radius * radius;
+                offset.abs() <= 2.0 * radius * slack
+            }
+        };
+        near && self.spans(point, slack)
     }
 
     /// Unit normal on the front, at a point of the wall.
