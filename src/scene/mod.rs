@@ -13,6 +13,7 @@ mod prism;
 pub mod profile;
 pub mod ray;
 pub mod tessellate;
+mod triangle;
 
 use nalgebra::{Point3, Vector3};
 
