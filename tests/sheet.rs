@@ -218,3 +218,23 @@ fn sticking_that_makes_friction_irrelevant_is_said_in_so_many_words() {
     }
     assert!(!sheet(&record).contains("friction makes no difference"));
 }
+
+#[test]
+fn windows_are_rounded_inwards_and_keep_their_setting_inside() {
+    let mut record = record("keyway");
+    let window = &mut record.windows[0];
+    window.down.to = 67.911;
+    window.up.to = 67.928;
+    let text = sheet(&record);
+    let row = text
+        .lines()
+        .find(|line| line.contains("  incidence "))
+        .unwrap();
+    assert!(
+        row.contains("67.915") && row.contains("67.911 to 67.928 deg"),
+        "{row}"
+    );
+    record.windows[0].up.to = 75.987;
+    let text = sheet(&record);
+    assert!(text.contains("67.92 to 75.98 deg"), "{text}");
+}

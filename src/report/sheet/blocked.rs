@@ -1,6 +1,6 @@
 //! A nozzle that does not fit: where, by how much, what would cure it.
 
-use super::setting::SETTINGS;
+use super::setting::{SETTINGS, Setting};
 use crate::record::{AnswerRecord, Record, StatusRecord};
 use crate::report::layout::Block;
 use crate::report::number::{plain, significant};
@@ -90,7 +90,11 @@ pub fn cures(record: &Record) -> Option<Block> {
 /// Settings that stand at the end of their range: beyond it there may be room.
 fn ends_reached(record: &Record) -> Vec<String> {
     let mut ends = Vec::new();
-    for setting in SETTINGS {
+    // Stepping back is the cure that is tried first.
+    let (standoff, others): (Vec<&Setting>, Vec<&Setting>) = SETTINGS
+        .iter()
+        .partition(|setting| setting.key == "standoff_m");
+    for setting in standoff.into_iter().chain(others) {
         let Some(range) = setting.range(record) else {
             continue;
         };

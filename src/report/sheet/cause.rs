@@ -243,9 +243,16 @@ fn mean(record: &Record) -> Vec<String> {
     let speed = best.settings.speed_m_s / (1.0 + deviation.bias);
     let mends = best.contact_values.restitution_at_m_s.is_none();
     let cure = if mends {
+        let range = record
+            .problem
+            .ranges
+            .iter()
+            .find(|r| r.setting == "speed_m_s");
+        let outside = range.is_some_and(|r| r.min < r.max && !(r.min..=r.max).contains(&speed));
         format!(
-            "; about {} m/s would mend it at this pose",
-            significant(speed, 3)
+            "; about {} m/s{} would mend it at this pose",
+            significant(speed, 3),
+            if outside { ", outside its range," } else { "" }
         )
     } else {
         String::new()

@@ -140,7 +140,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
     }
     if hit.iter().any(|(_, receipt, _)| receipt.allow.is_some()) {
         block.paragraph(
-            "load: largest N* against what it may take; how many exceed it see VERDICTS.",
+            "load: largest N* against what it may take; VERDICTS counts the shots that exceed it.",
         );
     }
     Some(block)

@@ -55,10 +55,10 @@ pub fn sentence(record: &Record) -> Option<String> {
     let named: Vec<String> = sources
         .iter()
         .filter(|(_, sd)| *sd > WORTH_A_WORD * largest)
-        .map(|(name, sd)| format!("{name} {}", percent(*sd)))
+        .map(|(name, sd)| format!("{} from {name}", percent(*sd)))
         .collect();
     Some(format!(
-        "Scatter of N* by source (standard deviation, to first order): {}; together {}.",
+        "Scatter of N* (standard deviation, to first order): {}; together {}.",
         named.join("; "),
         percent(total)
     ))

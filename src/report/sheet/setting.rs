@@ -74,8 +74,8 @@ pub const SETTINGS: [Setting; 6] = [
 
 /// Most decimals shown.
 const MOST_DECIMALS: usize = 4;
-/// Rounding may shift a value by no more than this part of its window.
-const ROUNDING: f64 = 1.0 / 30.0;
+/// A step of the last decimal is no larger than this part of the window.
+const ROUNDING: f64 = 0.1;
 
 /// A setting and its window in the unit of the sheet, all with the same decimals.
 pub struct Shown {
@@ -174,8 +174,7 @@ impl Setting {
         }
     }
 
-    /// Both ends of the window with what turns there: the end as shown, the drift until there in
-    /// the unit of the sheet, and how it is called to go there.
+    /// The ends of the window at which something turns.
     pub fn edges<'a>(&self, record: &'a Record) -> Vec<Edge<'a>> {
         let Some(window) = self.window(record) else {
             return Vec::new();

@@ -141,7 +141,7 @@ fn remarks(record: &Record) -> Vec<String> {
             .iter()
             .any(|setting| setting.tolerance(record).is_some())
     {
-        remarks[0] += " All figures allow for errors of `set within`.";
+        remarks[0] += " Figures allow for errors `set within`.";
     }
     if record.windows.is_empty() {
         if record.status == StatusRecord::Evaluated && best.feasible {
