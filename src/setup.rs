@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::impact::{Contact, Sphere};
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
+use crate::problem::part::{Part, Target};
 use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
 use crate::scene::{Scene, Walls};
@@ -59,9 +60,11 @@ impl Setup {
         } = reading;
         let mut collect = |found: Vec<Fault>| faults.extend(found);
         let scene = reading.scene.and_then(|parts| {
-            Scene::build(&parts, Walls::Exact)
-                .map_err(&mut collect)
-                .ok()
+            let scene = Scene::build(&parts, Walls::Exact);
+            if let (Err(faults), Some(target)) = (&scene, &reading.target) {
+                collect(target_faults(parts, faults, target));
+            }
+            scene.map_err(&mut collect).ok()
         });
         let target = scene
             .as_ref()
@@ -137,6 +140,23 @@ impl Rejection {
                 .collect(),
         }
     }
+}
+
+/// What is wrong with the target, where its part can be built although others cannot.
+fn target_faults(mut parts: Vec<Part>, faults: &[Fault], target: &Target) -> Vec<Fault> {
+    let is_damaged = |part: &Part| {
+        let block = format!("scene.{}.", part.name);
+        faults.iter().any(|fault| fault.key.starts_with(&block))
+    };
+    let holds_target = |part: &Part| target.surface.starts_with(&format!("{}.", part.name));
+    parts.retain(|part| holds_target(part) && !is_damaged(part));
+    if parts.is_empty() {
+        return Vec::new();
+    }
+    Scene::build(&parts, Walls::Exact)
+        .and_then(|scene| Patch::find(&scene, target))
+        .err()
+        .unwrap_or_default()
 }
 
 fn surface_limits(problem: &Problem, scene: &Scene) -> Result<Vec<SurfaceLimits>, Vec<Fault>> {
