@@ -199,9 +199,11 @@ impl Answer {
         }
     }
 
-    /// Whether every verdict passes.
+    /// Whether the nozzle fits and every verdict passes.
     pub fn passes(&self) -> bool {
-        self.evaluation.is_some() && self.verdicts.iter().all(Verdict::passes)
+        self.violation <= 0.0
+            && self.evaluation.is_some()
+            && self.verdicts.iter().all(Verdict::passes)
     }
 }
 
