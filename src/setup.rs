@@ -1,5 +1,6 @@
 //! A problem together with its scene: everything that stays the same for every pose.
 
+use std::fmt;
 use std::path::Path;
 
 use crate::impact::{Contact, Sphere};
@@ -83,7 +84,7 @@ impl Setup {
     }
 
     fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
-        let surfaces = surface_limits(&problem, &scene)?;
+        let surfaces = surface_limits(&problem, &scene, target.surface)?;
         Ok(Self {
             problem,
             scene,
@@ -159,7 +160,19 @@ fn target_faults(mut parts: Vec<Part>, faults: &[Fault], target: &Target) -> Vec
         .unwrap_or_default()
 }
 
-fn surface_limits(problem: &Problem, scene: &Scene) -> Result<Vec<SurfaceLimits>, Vec<Fault>> {
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.render(false).trim_end())
+    }
+}
+
+impl std::error::Error for Rejection {}
+
+fn surface_limits(
+    problem: &Problem,
+    scene: &Scene,
+    target: u32,
+) -> Result<Vec<SurfaceLimits>, Vec<Fault>> {
     let rebound = problem.goals.rebound;
     let usual = SurfaceLimits {
         allow: rebound.map(|goal| goal.allow),
@@ -172,6 +185,11 @@ fn surface_limits(problem: &Problem, scene: &Scene) -> Result<Vec<SurfaceLimits>
     let mut faults = Vec::new();
     for rule in &problem.surfaces {
         match scene.surface_named(&rule.surface) {
+            Ok(index) if index == target && rule.role == Role::Deflector => {
+                let key = format!("surfaces.{}.role", rule.surface);
+                let message = "hits on a deflector do not count, and this is the target";
+                faults.push(Fault::at_key(key, message).expecting("another surface"));
+            }
             Ok(index) => {
                 limits[index as usize] = SurfaceLimits {
                     allow: rule.allow.or(usual.allow),
