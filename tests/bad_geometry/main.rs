@@ -369,6 +369,17 @@ fn an_unknown_surface_with_rules_of_its_own() {
 }
 
 #[test]
+fn a_target_that_deflects() {
+    let rule = "surfaces: { hub.floor: { role: deflector } }\npaths:";
+    let (text, line) = edited(&keyway(), "paths:", rule);
+    refused(
+        text,
+        Some(line),
+        &["surfaces.hub.floor.role", "this is the target"],
+    );
+}
+
+#[test]
 fn faults_of_several_blocks_come_in_one_run() {
     let text = std::fs::read_to_string(root().join("tests/bad_geometry/several.yaml")).unwrap();
     let folder = Folder::new();
