@@ -1,4 +1,4 @@
-//! A problem that is changed in code: how does the depth of a keyway change what can be reached?
+//! A problem that is changed in code: how long may a hub be before rebounds stay inside?
 //!
 //!     cargo run --release --example problem_in_code
 
@@ -36,24 +36,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let faults = problem::render(&reading.source, &reading.faults, false);
     let problem = reading.problem.ok_or(faults)?;
 
-    for depth in [2.0e-3, 3.3e-3, 5.0e-3, 7.0e-3] {
-        let mut deeper = problem.clone();
-        if let Shape::Keyway(keyway) = &mut deeper.parts[0].shape {
-            keyway.depth = depth;
+    for length in [40e-3, 60e-3, 100e-3, 200e-3] {
+        let mut longer = problem.clone();
+        if let Shape::Keyway(keyway) = &mut longer.parts[0].shape {
+            keyway.length = length;
         }
         // The scene is built once, and every pose is tried in it.
-        let setup = Setup::new(deeper, Walls::Exact).map_err(|faults| format!("{faults:?}"))?;
+        let setup = Setup::new(longer, Walls::Exact).map_err(|faults| format!("{faults:?}"))?;
         let best = &solve(&setup, &Control::default()).answers[0];
-        let incidence = best.choice.incidence.to_degrees();
+        let (millimetres, incidence) = (length * 1e3, best.choice.incidence.to_degrees());
         match &best.evaluation {
-            Some(evaluation) => {
-                let objective = evaluation.terms.total();
-                println!(
-                    "depth {:.1} mm: {incidence:.1} deg, J {objective:.5}",
-                    depth * 1e3
-                );
-            }
-            None => println!("depth {:.1} mm: the nozzle fits nowhere", depth * 1e3),
+            Some(found) => println!(
+                "{millimetres:3.0} mm: {incidence:.1} deg, J {:.5}",
+                found.terms.total()
+            ),
+            None => println!("{millimetres:3.0} mm: the nozzle fits nowhere"),
         }
     }
     Ok(())
