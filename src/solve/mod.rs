@@ -287,6 +287,7 @@ impl Answer {
         }
     }
 
+<<<<<<< HEAD
     fn standard_error(&self) -> f64 {
         self.evaluation
             .as_ref()
@@ -294,8 +295,13 @@ impl Answer {
     }
 
     /// Whether every verdict passes.
+=======
+    /// Whether the nozzle fits and every verdict passes.
+>>>>>>> cli
     pub fn passes(&self) -> bool {
-        self.evaluation.is_some() && self.verdicts.iter().all(Verdict::passes)
+        self.violation <= 0.0
+            && self.evaluation.is_some()
+            && self.verdicts.iter().all(Verdict::passes)
     }
 }
 
