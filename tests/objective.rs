@@ -3,6 +3,7 @@
 mod common;
 
 use peenpose::evaluate::evaluate;
+use peenpose::impact::Regime;
 use peenpose::jet::{Deviate, Samples, Stream};
 use peenpose::objective::{Impulses, Sums, Tally, Terms};
 use peenpose::problem::Problem;
@@ -237,6 +238,70 @@ fn terms_follow_from_the_impacts_as_defined() {
             }
             let sum = found.normal_impulse + found.tangential_impulse + found.rebound + found.miss;
             assert_eq!(found.total(), sum);
+        }
+    }
+}
+
+#[test]
+fn an_evaluation_counts_what_every_surface_receives() {
+    let setup = setup(40e-3);
+    let goals = &setup.problem.goals;
+    for choice in [choice(45.0, 35.0, 9e-3, 1), choice(35.0, 80.0, 15e-3, 0)] {
+        let found = evaluate(&setup, &choice, 32 * 100, 7);
+        let tracer = Tracer::new(&setup, &choice, choice.speed);
+        let mut paths: Vec<Vec<PathImpact>> = Vec::new();
+        for number in 0..32 {
+            let samples = Samples::new(&setup.problem, Stream::Fresh(7 + number), 100);
+            for deviate in &samples.deviates {
+                let mut path = Vec::new();
+                tracer.follow(deviate, |impact| path.push(*impact));
+                paths.push(path);
+            }
+        }
+        assert_eq!(found.shots, paths.len());
+        assert!((found.ends.values().sum::<f64>() - 1.0).abs() < 1e-12);
+        let count =
+            |holds: &dyn Fn(&[PathImpact]) -> bool| paths.iter().filter(|path| holds(path)).count();
+        let first = |path: &[PathImpact]| path.first().copied().filter(|first| first.on_target);
+        let target = &found.target;
+        assert_eq!(target.hits, count(&|path| first(path).is_some()));
+        let off = |impulse: f64| (impulse / goals.normal_impulse.target - 1.0).abs() > 0.15;
+        let is_off = |path: &[PathImpact]| first(path).is_some_and(|i| off(i.normal_impulse));
+        assert_eq!(target.off_target, count(&is_off));
+        let sticks = |path: &[PathImpact]| first(path).is_some_and(|i| i.regime == Regime::Stick);
+        assert_eq!(target.sticking, count(&sticks));
+        for (index, receipt) in found.surfaces.iter().enumerate() {
+            let on_it = |i: &PathImpact| !i.on_target && i.surface as usize == index;
+            let is_over = |i: &PathImpact| on_it(i) && i.normal_impulse > 10e-6;
+            assert_eq!(receipt.shots, count(&|path| path.iter().any(on_it)));
+            assert_eq!(receipt.over, count(&|path| path.iter().any(is_over)));
+            for number in 1..=6 {
+                let with = |impact: &dyn Fn(&PathImpact) -> bool| {
+                    let impacts = paths.iter().flatten();
+                    impacts.filter(|i| i.number == number && impact(i)).count()
+                };
+                let at = |counts: &[usize]| counts.get(number - 1).copied().unwrap_or(0);
+                assert_eq!(at(&receipt.impacts_by_number), with(&on_it));
+                assert_eq!(at(&receipt.over_by_number), with(&is_over));
+            }
+            let mut impulses: Vec<f64> = paths
+                .iter()
+                .flatten()
+                .copied()
+                .filter(on_it)
+                .map(|impact| impact.normal_impulse)
+                .collect();
+            impulses.sort_unstable_by(f64::total_cmp);
+            assert_eq!(
+                receipt.normal_impulse.largest,
+                impulses.last().copied().unwrap_or(0.0)
+            );
+            let below = impulses.partition_point(|&i| i < receipt.normal_impulse.high) as f64;
+            let share = below / impulses.len().max(1) as f64;
+            assert!(
+                impulses.len() < 100 || (share - 0.95).abs() < 0.02,
+                "{share}"
+            );
         }
     }
 }
