@@ -4,7 +4,7 @@ mod common;
 
 use peenpose::evaluate::evaluate;
 use peenpose::impact::Regime;
-use peenpose::jet::{Deviate, Samples, Stream};
+use peenpose::jet::{Deviate, Replicates, Samples, Stream};
 use peenpose::objective::{Impulses, Sums, Tally, Terms};
 use peenpose::problem::Problem;
 use peenpose::problem::equipment::Spread;
@@ -247,7 +247,11 @@ fn an_evaluation_counts_what_every_surface_receives() {
     let setup = setup(40e-3);
     let goals = &setup.problem.goals;
     for choice in [choice(45.0, 35.0, 9e-3, 1), choice(35.0, 80.0, 15e-3, 0)] {
-        let found = evaluate(&setup, &choice, 32 * 100, 7);
+        let found = evaluate(
+            &setup,
+            &choice,
+            &Replicates::new(&setup.problem, 7, 32 * 100),
+        );
         let tracer = Tracer::new(&setup, &choice, choice.speed);
         let mut paths: Vec<Vec<PathImpact>> = Vec::new();
         for number in 0..32 {
@@ -316,7 +320,13 @@ fn the_reported_error_is_the_scatter_of_independent_evaluations() {
         choice(67.0, 0.0, 8e-3, 2),
     ] {
         let evaluations: Vec<_> = (0..30)
-            .map(|number| evaluate(&setup, &choice, 2048, 100 + 32 * number))
+            .map(|number| {
+                evaluate(
+                    &setup,
+                    &choice,
+                    &Replicates::new(&setup.problem, 100 + number, 2048),
+                )
+            })
             .collect();
         let total = |number: usize| evaluations[number].terms.total();
         let mean = (0..30).map(total).sum::<f64>() / 30.0;

@@ -7,7 +7,7 @@ use std::path::Path;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::impact::Contact;
-use peenpose::jet::{Deviate, Pose, Samples, Stream};
+use peenpose::jet::{Deviate, Pose, Replicates, Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::problem::Problem;
 use peenpose::problem::equipment::{Body, Nozzle, Role, SurfaceRule};
@@ -287,7 +287,9 @@ fn the_rest_of_a_target_surface_is_secondary() {
     };
     let (whole, narrow) = (exact(whole), exact(narrow));
     let choice = choice(67.0, 0.0, 8e-3);
-    let found = |setup: &Setup| -> Evaluation { evaluate(setup, &choice, 8192, 0) };
+    let found = |setup: &Setup| -> Evaluation {
+        evaluate(setup, &choice, &Replicates::new(&setup.problem, 0, 8192))
+    };
     let (on_whole, on_narrow) = (found(&whole), found(&narrow));
     assert_eq!(on_whole.target.hits, on_whole.shots);
     assert!(on_narrow.target.hits > 1000 && on_narrow.target.hits < on_narrow.shots - 1000);
@@ -362,8 +364,12 @@ fn a_root_radius_is_a_round_between_floor_and_walls() {
 fn agree_within_errors(one: &Setup, other: &Setup, slack: f64) {
     for choice in choices() {
         let (a, b) = (
-            evaluate(one, &choice, 1 << 15, 0),
-            evaluate(other, &choice, 1 << 15, 500),
+            evaluate(one, &choice, &Replicates::new(&one.problem, 0, 1 << 15)),
+            evaluate(
+                other,
+                &choice,
+                &Replicates::new(&other.problem, 500, 1 << 15),
+            ),
         );
         let error = a.standard_error.hypot(b.standard_error);
         let (a, b) = (a.terms.total(), b.terms.total());
@@ -523,8 +529,12 @@ fn hits_on_a_deflector_belong_to_the_flight() {
     }
     assert!(banked > 100, "{banked}");
     let (before, after) = (
-        evaluate(&plain, &choice, 4096, 0),
-        evaluate(&deflecting, &choice, 4096, 0),
+        evaluate(&plain, &choice, &Replicates::new(&plain.problem, 0, 4096)),
+        evaluate(
+            &deflecting,
+            &choice,
+            &Replicates::new(&deflecting.problem, 0, 4096),
+        ),
     );
     assert!(after.target.hits > before.target.hits);
     assert!(after.terms.miss < before.terms.miss);
@@ -603,7 +613,11 @@ fn a_surface_may_have_its_own_limits() {
     let tally = Tally::trace(&setup, &choice, choice.speed, &samples.deviates);
     let found = tally.terms(&setup.problem.goals, choice.speed).rebound;
     assert!((found / harm - 1.0).abs() < 1e-9, "{found} {harm}");
-    let evaluation = evaluate(&setup, &choice, 1 << 14, 0);
+    let evaluation = evaluate(
+        &setup,
+        &choice,
+        &Replicates::new(&setup.problem, 0, 1 << 14),
+    );
     let verdicts = Verdict::all(&setup, &evaluation);
     let verdict = verdicts
         .iter()

@@ -287,17 +287,13 @@ impl Answer {
         }
     }
 
-<<<<<<< HEAD
     fn standard_error(&self) -> f64 {
         self.evaluation
             .as_ref()
             .map_or(0.0, |evaluation| evaluation.standard_error)
     }
 
-    /// Whether every verdict passes.
-=======
     /// Whether the nozzle fits and every verdict passes.
->>>>>>> cli
     pub fn passes(&self) -> bool {
         self.violation <= 0.0
             && self.evaluation.is_some()
