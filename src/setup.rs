@@ -54,8 +54,8 @@ impl Setup {
     ///
     /// # Errors
     /// All faults of the file and of the geometry at once, in the order of the text.
-    pub fn load(path: &Path) -> Result<(Self, Source), Rejection> {
-        let reading = problem::read(path).map_err(Rejection::unread)?;
+    pub fn load(path: &Path) -> Result<(Self, Source), Box<Rejection>> {
+        let reading = problem::read(path).map_err(|fault| Rejection::unread(*fault))?;
         let Reading {
             source, mut faults, ..
         } = reading;
@@ -112,22 +112,22 @@ pub struct Rejection {
 }
 
 impl Rejection {
-    fn unread(fault: Box<Fault>) -> Self {
-        Self {
+    fn unread(fault: Fault) -> Box<Self> {
+        Box::new(Self {
             source: None,
-            faults: vec![*fault],
-        }
+            faults: vec![fault],
+        })
     }
 
-    fn new(source: Source, mut faults: Vec<Fault>) -> Self {
+    fn new(source: Source, mut faults: Vec<Fault>) -> Box<Self> {
         for fault in &mut faults {
             fault.at = fault.at.or_else(|| source.locate(&fault.key));
         }
         faults.sort_by_key(|fault| fault.at);
-        Self {
+        Box::new(Self {
             source: Some(source),
             faults,
-        }
+        })
     }
 
     /// The faults for people: with the lines of the file, or a line each.
@@ -201,7 +201,7 @@ fn surface_limits(
             }
             Err(fault) => faults.push(Fault {
                 key: format!("surfaces.{}", rule.surface),
-                ..fault
+                ..*fault
             }),
         }
     }

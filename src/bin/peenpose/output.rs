@@ -22,8 +22,8 @@ impl From<String> for Failure {
     }
 }
 
-impl From<Rejection> for Failure {
-    fn from(rejection: Rejection) -> Self {
+impl From<Box<Rejection>> for Failure {
+    fn from(rejection: Box<Rejection>) -> Self {
         Self(rejection.render(is_colorful(&std::io::stderr())))
     }
 }
