@@ -1,7 +1,5 @@
 //! The friction laws: how much tangential impulse a contact gives.
 
-use super::contact::Contact;
-
 /// Which friction law a contact follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Law {
@@ -26,13 +24,6 @@ pub enum Regime {
     Stick,
     /// It kept sliding.
     Slip,
-}
-
-/// Friction of one impact.
-pub(super) struct Friction {
-    /// Tangential impulse per unit mass over the slip speed; finite even without slip.
-    pub per_slip: f64,
-    pub regime: Regime,
 }
 
 impl Law {
@@ -63,37 +54,5 @@ impl Law {
     /// 1 for a particle that cannot spin (Eq. 38).
     pub(super) const fn stopping_share(self) -> f64 {
         if self.spins() { 2.0 / 7.0 } else { 1.0 }
-    }
-
-    /// The tangential impulse of a contact with `normal_impulse` and `slip_speed`, both in m/s.
-    #[inline]
-    pub(super) fn friction(
-        self,
-        contact: &Contact,
-        normal_impulse: f64,
-        slip_speed: f64,
-    ) -> Friction {
-        let stick_share = self.stopping_share() * (1.0 + contact.tangential_restitution);
-        let stick_impulse = stick_share * slip_speed;
-        let slip_impulse = contact.dynamic_friction * normal_impulse;
-        let holds = match self {
-            // Eq. 22.
-            Self::StickSlip | Self::Irrotational => {
-                stick_impulse <= contact.static_friction * normal_impulse
-            }
-            Self::Kinetic => stick_impulse <= slip_impulse,
-            Self::AlwaysSlip => false,
-        };
-        if holds || slip_speed == 0.0 {
-            Friction {
-                per_slip: stick_share,
-                regime: Regime::Stick,
-            }
-        } else {
-            Friction {
-                per_slip: slip_impulse / slip_speed,
-                regime: Regime::Slip,
-            }
-        }
     }
 }

@@ -24,6 +24,7 @@
 //! ```
 
 mod contact;
+mod friction;
 mod law;
 mod oblique;
 pub mod zohdi;
@@ -32,6 +33,7 @@ pub use contact::{Contact, ContactFault, Restitution};
 pub use law::{Law, Regime};
 pub use oblique::{Energy, Oblique, Outcome};
 
+use friction::Friction;
 use nalgebra::Vector3;
 
 /// A solid homogeneous sphere.
@@ -147,7 +149,7 @@ pub fn rebound(
     // Eq. 10.
     let restitution = contact.restitution.at(-normal_speed);
     let normal_impulse = -(1.0 + restitution) * normal_speed;
-    let friction = contact.law.friction(contact, normal_impulse, slip_speed);
+    let friction = Friction::of(contact, normal_impulse, slip_speed);
     let tangential = slip * friction.per_slip;
     // Eqs. 8, 17 and 14; the sphere's moment of inertia makes the factor R^2 m/I = 5/2.
     let velocity_after = velocity + normal * normal_impulse - tangential;

@@ -1,12 +1,13 @@
 //! What can be wrong with a mesh file, in words that say what to do.
 
 use std::fmt;
-use std::path::PathBuf;
 
 use nalgebra::Point3;
 
-use super::fault::{MeshFault, Place};
 use super::warning::Coordinates;
+
+/// Bytes of the longest line that is read; a face of four thousand corners fits.
+pub(super) const LONGEST_LINE: usize = 1 << 18;
 
 /// What is wrong with a mesh file.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,15 +130,6 @@ impl Defect {
         }
         Self::Unexpected { expected, found }
     }
-
-    /// The fault that this defect makes of a file, once [`MeshFault::in_file`] has named it.
-    pub(super) fn at(self, place: Place) -> MeshFault {
-        MeshFault {
-            file: PathBuf::new(),
-            place,
-            defect: self,
-        }
-    }
 }
 
 impl From<std::io::Error> for Defect {
@@ -188,7 +180,7 @@ impl fmt::Display for Defect {
             Self::LineTooLong => write!(
                 f,
                 "the line is longer than {} bytes; this is no text mesh, check the file's format",
-                super::lines::LONGEST_LINE
+                LONGEST_LINE
             ),
             Self::Empty => f.write_str("the file is empty; export the part again"),
             Self::NoTriangles => f.write_str(

@@ -32,6 +32,17 @@ pub enum Place {
     Face(u64),
 }
 
+impl Defect {
+    /// The fault that this defect makes of a file, once [`MeshFault::in_file`] has named it.
+    pub(super) fn at(self, place: Place) -> MeshFault {
+        MeshFault {
+            file: PathBuf::new(),
+            place,
+            defect: self,
+        }
+    }
+}
+
 impl MeshFault {
     pub(super) fn in_file(self, file: &Path) -> Self {
         Self {

@@ -2,11 +2,8 @@
 
 use std::io::{BufRead, Read};
 
-use super::defect::Defect;
+use super::defect::{Defect, LONGEST_LINE};
 use super::fault::{MeshFault, Place};
-
-/// Bytes of the longest line that is read; a face of four thousand corners fits.
-pub(super) const LONGEST_LINE: usize = 1 << 18;
 
 /// What some editors put before the first line.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";

@@ -1,0 +1,48 @@
+//! When the answer is good enough.
+
+use super::answer::Answer;
+use super::search::Search;
+
+/// Least J over all contacts; infinite while the nozzle has fitted nowhere.
+pub(super) fn least_objective(searches: &[Search]) -> f64 {
+    let objectives = searches
+        .iter()
+        .filter_map(|search| search.best().standing.objective());
+    objectives.fold(f64::INFINITY, f64::min)
+}
+
+/// The searches that could still change the answer: among the contacts within reach of the best,
+/// those whose J on fresh shots is above J on the shots of the search by more than the accuracy
+/// asked for and the statistical error.
+///
+/// The least J on any set of shots is on average below the least true J, and the true J of the
+/// settings found is above it. So the gap between the two bounds how far these settings are from
+/// the best ones.
+pub(super) fn unsettled(searches: &[Search], answers: &[Answer], accuracy: f64) -> Vec<usize> {
+    let fresh = |answer: &Answer| {
+        Some((
+            answer.evaluation.as_ref()?.terms.total(),
+            answer.standard_error(),
+        ))
+    };
+    let least = answers
+        .iter()
+        .filter_map(|answer| Some(fresh(answer)?.0))
+        .fold(f64::INFINITY, f64::min);
+    let is_unsettled = |search: &Search, answer: &Answer| {
+        let (claimed, (found, error)) = search.best().standing.objective().zip(fresh(answer))?;
+        let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
+        let gap = found - claimed;
+        Some(in_reach && gap > accuracy * found + CONFIDENCE * error)
+    };
+    let pairs = searches.iter().zip(answers).enumerate();
+    pairs
+        .filter(|(_, (search, answer))| is_unsettled(search, answer).unwrap_or(false))
+        .map(|(index, _)| index)
+        .collect()
+}
+
+/// Standard errors that a difference must exceed to count.
+const CONFIDENCE: f64 = 2.0;
+/// A contact whose J is above the best by more than this share cannot become the best.
+pub(super) const IN_REACH: f64 = 0.25;

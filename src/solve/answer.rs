@@ -1,0 +1,73 @@
+//! The answer for one contact, with its figures.
+
+use super::judge::{Effort, Standing};
+use super::polish::Candidate;
+use crate::evaluate::{Evaluation, evaluate};
+use crate::jet::Replicates;
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use crate::verdict::Verdict;
+
+/// The best settings found for one contact.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The settings.
+    pub choice: Choice,
+    /// What they do, on fresh shots; `None` when the nozzle does not fit.
+    pub evaluation: Option<Evaluation>,
+    /// Verdicts on that.
+    pub verdicts: Vec<Verdict>,
+    /// By how much the clearance is violated, m; 0 when it is kept.
+    pub violation: f64,
+}
+
+impl Answer {
+    /// By this answers are ranked.
+    pub(super) fn order(&self) -> f64 {
+        match &self.evaluation {
+            Some(evaluation) => Standing::Feasible(evaluation.terms).rank(),
+            None => Standing::Blocked(self.violation).rank(),
+        }
+    }
+
+    pub(super) fn standard_error(&self) -> f64 {
+        self.evaluation
+            .as_ref()
+            .map_or(0.0, |evaluation| evaluation.standard_error)
+    }
+
+    /// Whether the nozzle fits and every verdict passes.
+    pub fn passes(&self) -> bool {
+        self.violation <= 0.0
+            && self.evaluation.is_some()
+            && self.verdicts.iter().all(Verdict::passes)
+    }
+
+    /// The answer that a candidate is, with figures from shots that the search has not seen.
+    pub(super) fn of(
+        setup: &Setup,
+        candidate: &Candidate,
+        fresh: &Replicates,
+        effort: &Effort,
+    ) -> Self {
+        let choice = candidate.choice;
+        match candidate.standing {
+            Standing::Blocked(violation) => Self {
+                choice,
+                evaluation: None,
+                verdicts: Vec::new(),
+                violation,
+            },
+            Standing::Feasible(_) => {
+                let evaluation = evaluate(setup, &choice, fresh);
+                effort.add(1, evaluation.rays);
+                Self {
+                    choice,
+                    verdicts: Verdict::all(setup, &evaluation),
+                    evaluation: Some(evaluation),
+                    violation: 0.0,
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! What a search may spend, how it is watched, and how it can end.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The accuracy asked for was reached.
+    Converged,
+    /// The budget was spent before.
+    BudgetSpent,
+    /// The nozzle collides with the part at every pose that was tried.
+    NoFeasiblePose,
+    /// It was told to stop.
+    Interrupted,
+}
+
+/// What a search may spend, and how it is watched.
+pub struct Control<'a> {
+    /// Most shots at a pose.
+    pub most_shots: usize,
+    /// Fresh shots for the reported figures.
+    pub fresh_shots: usize,
+    /// Set to end the search with the best answer so far.
+    pub stop: &'a AtomicBool,
+    /// Told about progress; called from any thread.
+    pub watch: &'a (dyn Fn(Progress) + Sync),
+}
+
+impl Control<'_> {
+    /// Whether the search should come to an end.
+    pub fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+impl Default for Control<'_> {
+    fn default() -> Self {
+        Self {
+            most_shots: 1 << 18,
+            fresh_shots: 1 << 16,
+            stop: &NEVER,
+            watch: &|_| (),
+        }
+    }
+}
+
+/// How far a search is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Poses judged so far.
+    pub poses: usize,
+    /// Least J so far, on the shots of the search.
+    pub best: Option<f64>,
+}

@@ -1,0 +1,131 @@
+//! The search for one contact, stage by stage.
+
+use rayon::prelude::*;
+
+use super::accuracy::IN_REACH;
+use super::judge::{Judge, speed_scales_out};
+use super::polish::{Candidate, polish};
+use super::space::Space;
+use crate::setup::Setup;
+
+/// A stage of the search.
+pub(super) struct Stage {
+    pub shots: usize,
+    /// Candidates that go on, for each contact.
+    pub candidates: usize,
+    /// Edge of the first simplex, as a share of each range.
+    pub size: f64,
+}
+
+/// More and more shots for fewer and fewer candidates.
+pub(super) const STAGES: [Stage; 4] = [
+    Stage {
+        shots: 256,
+        candidates: 6,
+        size: 0.4,
+    },
+    Stage {
+        shots: 1024,
+        candidates: 3,
+        size: 0.2,
+    },
+    Stage {
+        shots: 4096,
+        candidates: 2,
+        size: 0.08,
+    },
+    Stage {
+        shots: 16384,
+        candidates: 1,
+        size: 0.03,
+    },
+];
+
+impl Stage {
+    /// What follows the last stage while the answer is not accurate enough.
+    pub fn beyond(shots: usize) -> Self {
+        Self {
+            shots,
+            ..STAGES[STAGES.len() - 1]
+        }
+    }
+}
+
+/// A descent ends when J differs by less than this share of the accuracy over its simplex. Along the
+/// flat valley a looser end stops far from the best place.
+const SETTLED: f64 = 0.01;
+
+/// The search for one contact.
+pub(super) struct Search {
+    space: Space,
+    /// Best first.
+    candidates: Vec<Candidate>,
+}
+
+impl Search {
+    /// Judges a low-discrepancy set of points all over the space.
+    pub fn screen(setup: &Setup, contact: usize, judge: &Judge) -> Self {
+        let space = Space::new(&setup.problem, contact, !speed_scales_out(setup, contact));
+        let dimensions = space.dimensions();
+        let points = match dimensions {
+            0 => 1,
+            1 => 32,
+            2 => 96,
+            3 => 192,
+            _ => 128 * dimensions,
+        };
+        let seed = setup.problem.seed as u32;
+        let candidates = (0..points as u32)
+            .into_par_iter()
+            .map(|index| {
+                let coordinate = |axis| f64::from(sobol_burley::sample(index, axis as u32, seed));
+                let point: Vec<f64> = (0..dimensions).map(coordinate).collect();
+                Candidate::at(&space, judge, &point)
+            })
+            .collect();
+        let mut search = Self { space, candidates };
+        search.sort();
+        search
+    }
+
+    /// The best candidate so far.
+    pub fn best(&self) -> &Candidate {
+        &self.candidates[0]
+    }
+
+    /// Whether this contact could still become the best.
+    pub fn is_in_reach(&self, least: f64) -> bool {
+        let objective = self.best().standing.objective();
+        objective.is_none_or(|objective| objective <= least * (1.0 + IN_REACH))
+    }
+
+    fn sort(&mut self) {
+        self.candidates
+            .sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
+    }
+
+    /// Goes on from the best few candidates with more shots.
+    pub fn refine(&mut self, judge: &Judge, stage: &Stage, accuracy: f64) {
+        let space = &self.space;
+        let mut starts: Vec<Candidate> = Vec::new();
+        for candidate in &self.candidates {
+            let is_new = |other: &Candidate| {
+                space.distance(&candidate.point, &other.point) > 0.2 * stage.size
+            };
+            if starts.len() < stage.candidates && starts.iter().all(is_new) {
+                starts.push(candidate.clone());
+            }
+        }
+        self.candidates = starts
+            .into_par_iter()
+            .map(|start| {
+                let start = Candidate::at(space, judge, &start.point);
+                if space.dimensions() == 0 {
+                    return start;
+                }
+                polish(space, judge, start, stage.size, SETTLED * accuracy)
+            })
+            .collect();
+        self.sort();
+    }
+}
