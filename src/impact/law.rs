@@ -56,3 +56,13 @@ impl Law {
         if self.spins() { 2.0 / 7.0 } else { 1.0 }
     }
 }
+
+impl Regime {
+    /// Its name in tables and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stick => "stick",
+            Self::Slip => "slip",
+        }
+    }
+}

@@ -11,6 +11,12 @@ pub(super) fn least_objective(searches: &[Search]) -> f64 {
     objectives.fold(f64::INFINITY, f64::min)
 }
 
+/// Whether a contact could still become the best.
+pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
+    let objective = search.best().standing.objective();
+    objective.is_none_or(|objective| objective <= least * (1.0 + IN_REACH))
+}
+
 /// The searches that could still change the answer: among the contacts within reach of the best,
 /// those whose J on fresh shots is above J on the shots of the search by more than the accuracy
 /// asked for and the statistical error.
@@ -45,4 +51,4 @@ pub(super) fn unsettled(searches: &[Search], answers: &[Answer], accuracy: f64) 
 /// Standard errors that a difference must exceed to count.
 const CONFIDENCE: f64 = 2.0;
 /// A contact whose J is above the best by more than this share cannot become the best.
-pub(super) const IN_REACH: f64 = 0.25;
+const IN_REACH: f64 = 0.25;

@@ -25,7 +25,7 @@ use rayon::prelude::*;
 
 use crate::jet::{Replicates, Samples, Stream};
 use crate::setup::Setup;
-use accuracy::{least_objective, unsettled};
+use accuracy::{is_in_reach, least_objective, unsettled};
 use judge::Judge;
 use search::{STAGES, Search, Stage};
 
@@ -106,7 +106,7 @@ fn descend(setup: &Setup, control: &Control, effort: &Effort) -> (Vec<Search>, u
         let least = least_objective(&searches);
         searches
             .par_iter_mut()
-            .filter(|search| stage.shots <= CHEAP_SHOTS || search.is_in_reach(least))
+            .filter(|search| stage.shots <= CHEAP_SHOTS || is_in_reach(search, least))
             .for_each(|search| search.refine(&judge(stage.shots), stage, setup.problem.accuracy));
         tell(control, effort, &searches);
     }

@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use super::accuracy::IN_REACH;
 use super::judge::{Judge, speed_scales_out};
 use super::polish::{Candidate, polish};
 use super::space::Space;
@@ -91,12 +90,6 @@ impl Search {
     /// The best candidate so far.
     pub fn best(&self) -> &Candidate {
         &self.candidates[0]
-    }
-
-    /// Whether this contact could still become the best.
-    pub fn is_in_reach(&self, least: f64) -> bool {
-        let objective = self.best().standing.objective();
-        objective.is_none_or(|objective| objective <= least * (1.0 + IN_REACH))
     }
 
     fn sort(&mut self) {

@@ -4,8 +4,6 @@ use peenpose::impact::zohdi::Row;
 use peenpose::impact::{Oblique, Outcome};
 use serde::Serialize;
 
-use super::text::regime_name;
-
 pub fn to_json(value: &impl Serialize) -> Result<String, String> {
     serde_json::to_string_pretty(value)
         .map(|text| text + "\n")
@@ -63,7 +61,7 @@ impl ImpactJson {
             dynamic_friction: contact.dynamic_friction,
             restitution: contact.restitution.at(shot.speed * shot.angle.sin()),
             tangential_restitution: contact.tangential_restitution,
-            regime: regime_name(outcome.regime),
+            regime: outcome.regime.name(),
             normal_impulse: outcome.normal_impulse,
             tangential_impulse: outcome.tangential_impulse,
             normal_velocity_after_m_s: outcome.normal_velocity,
@@ -103,7 +101,7 @@ impl VelocitiesJson {
         let out = &row.outcome;
         Self {
             static_friction: row.static_friction,
-            regime: regime_name(out.regime),
+            regime: out.regime.name(),
             normal_velocity_after_m_s: out.normal_velocity,
             tangential_velocity_after_m_s: out.tangential_velocity,
             angle_after_rad: out.angle,
@@ -136,7 +134,7 @@ impl EnergiesJson {
         let out = &row.outcome;
         Self {
             static_friction: row.static_friction,
-            regime: regime_name(out.regime),
+            regime: out.regime.name(),
             normal_impulse: out.normal_impulse,
             tangential_impulse: out.tangential_impulse,
             translation_before: out.before.translation,

@@ -6,13 +6,6 @@ use peenpose::impact::{Law, Oblique, Outcome, Regime};
 use super::Table;
 use super::json::{EnergiesJson, TableJson, VelocitiesJson, to_json};
 
-pub const fn regime_name(regime: Regime) -> &'static str {
-    match regime {
-        Regime::Stick => "stick",
-        Regime::Slip => "slip",
-    }
-}
-
 pub fn impact_text(shot: &Oblique, outcome: &Outcome) -> String {
     let sticking = match shot.stick_angle() {
         Some(angle) => [
@@ -28,7 +21,7 @@ pub fn impact_text(shot: &Oblique, outcome: &Outcome) -> String {
     let energy = |value: f64| decimals(1e6 * value, 4);
     let row = |name: &str, value: String, unit: &str| [name.to_owned(), value, unit.to_owned()];
     let rows = [
-        row("regime", regime_name(outcome.regime).to_owned(), ""),
+        row("regime", outcome.regime.name().to_owned(), ""),
         row(
             "normal impulse N*",
             decimals(1e6 * outcome.normal_impulse, 4),
@@ -166,7 +159,7 @@ fn velocities(rows: &[Row]) -> String {
         let out = &row.outcome;
         vec![
             decimals(row.static_friction, 3),
-            regime_name(out.regime).to_owned(),
+            out.regime.name().to_owned(),
             decimals(out.normal_velocity, 4),
             decimals(out.tangential_velocity, 4),
             decimals(out.angle.to_degrees(), 4),
@@ -185,7 +178,7 @@ fn energies(rows: &[Row]) -> String {
         let micro = |value: f64| decimals(1e6 * value, 4);
         vec![
             decimals(row.static_friction, 3),
-            regime_name(out.regime).to_owned(),
+            out.regime.name().to_owned(),
             micro(out.normal_impulse),
             micro(out.tangential_impulse),
             micro(out.before.translation),
