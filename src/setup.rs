@@ -1,10 +1,12 @@
 //! A problem together with its scene: everything that stays the same for every pose.
 
+use std::fmt;
 use std::path::Path;
 
 use crate::impact::{Contact, Sphere};
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
+use crate::problem::part::{Part, Target};
 use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
 use crate::scene::{Scene, Walls};
@@ -52,16 +54,18 @@ impl Setup {
     ///
     /// # Errors
     /// All faults of the file and of the geometry at once, in the order of the text.
-    pub fn load(path: &Path) -> Result<(Self, Source), Rejection> {
-        let reading = problem::read(path).map_err(Rejection::unread)?;
+    pub fn load(path: &Path) -> Result<(Self, Source), Box<Rejection>> {
+        let reading = problem::read(path).map_err(|fault| Rejection::unread(*fault))?;
         let Reading {
             source, mut faults, ..
         } = reading;
         let mut collect = |found: Vec<Fault>| faults.extend(found);
         let scene = reading.scene.and_then(|parts| {
-            Scene::build(&parts, Walls::Exact)
-                .map_err(&mut collect)
-                .ok()
+            let scene = Scene::build(&parts, Walls::Exact);
+            if let (Err(faults), Some(target)) = (&scene, &reading.target) {
+                collect(target_faults(parts, faults, target));
+            }
+            scene.map_err(&mut collect).ok()
         });
         let target = scene
             .as_ref()
@@ -80,7 +84,7 @@ impl Setup {
     }
 
     fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
-        let surfaces = surface_limits(&problem, &scene)?;
+        let surfaces = surface_limits(&problem, &scene, target.surface)?;
         Ok(Self {
             problem,
             scene,
@@ -108,22 +112,22 @@ pub struct Rejection {
 }
 
 impl Rejection {
-    fn unread(fault: Box<Fault>) -> Self {
-        Self {
+    fn unread(fault: Fault) -> Box<Self> {
+        Box::new(Self {
             source: None,
-            faults: vec![*fault],
-        }
+            faults: vec![fault],
+        })
     }
 
-    fn new(source: Source, mut faults: Vec<Fault>) -> Self {
+    fn new(source: Source, mut faults: Vec<Fault>) -> Box<Self> {
         for fault in &mut faults {
             fault.at = fault.at.or_else(|| source.locate(&fault.key));
         }
         faults.sort_by_key(|fault| fault.at);
-        Self {
+        Box::new(Self {
             source: Some(source),
             faults,
-        }
+        })
     }
 
     /// The faults for people: with the lines of the file, or a line each.
@@ -139,7 +143,36 @@ impl Rejection {
     }
 }
 
-fn surface_limits(problem: &Problem, scene: &Scene) -> Result<Vec<SurfaceLimits>, Vec<Fault>> {
+/// What is wrong with the target, where its part can be built although others cannot.
+fn target_faults(mut parts: Vec<Part>, faults: &[Fault], target: &Target) -> Vec<Fault> {
+    let is_damaged = |part: &Part| {
+        let block = format!("scene.{}.", part.name);
+        faults.iter().any(|fault| fault.key.starts_with(&block))
+    };
+    let holds_target = |part: &Part| target.surface.starts_with(&format!("{}.", part.name));
+    parts.retain(|part| holds_target(part) && !is_damaged(part));
+    if parts.is_empty() {
+        return Vec::new();
+    }
+    Scene::build(&parts, Walls::Exact)
+        .and_then(|scene| Patch::find(&scene, target))
+        .err()
+        .unwrap_or_default()
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.render(false).trim_end())
+    }
+}
+
+impl std::error::Error for Rejection {}
+
+fn surface_limits(
+    problem: &Problem,
+    scene: &Scene,
+    target: u32,
+) -> Result<Vec<SurfaceLimits>, Vec<Fault>> {
     let rebound = problem.goals.rebound;
     let usual = SurfaceLimits {
         allow: rebound.map(|goal| goal.allow),
@@ -152,6 +185,11 @@ fn surface_limits(problem: &Problem, scene: &Scene) -> Result<Vec<SurfaceLimits>
     let mut faults = Vec::new();
     for rule in &problem.surfaces {
         match scene.surface_named(&rule.surface) {
+            Ok(index) if index == target && rule.role == Role::Deflector => {
+                let key = format!("surfaces.{}.role", rule.surface);
+                let message = "hits on a deflector do not count, and this is the target";
+                faults.push(Fault::at_key(key, message).expecting("another surface"));
+            }
             Ok(index) => {
                 limits[index as usize] = SurfaceLimits {
                     allow: rule.allow.or(usual.allow),
@@ -163,7 +201,7 @@ fn surface_limits(problem: &Problem, scene: &Scene) -> Result<Vec<SurfaceLimits>
             }
             Err(fault) => faults.push(Fault {
                 key: format!("surfaces.{}", rule.surface),
-                ..fault
+                ..*fault
             }),
         }
     }

@@ -1,5 +1,7 @@
 //! Reports, made from the record alone.
 
+mod layout;
+mod number;
 mod sheet;
 
 pub use sheet::sheet;

@@ -17,12 +17,22 @@ pub(super) struct NearestPoint {
     pub point: Point3<f64>,
 }
 
-struct Distance(f64);
+/// A triangle at a distance.
+struct Neighbour {
+    distance: f64,
+    triangle: u32,
+}
 
-impl BvhLeafCost for Distance {
+impl BvhLeafCost for Neighbour {
     fn cost(&self) -> f64 {
-        self.0
+        self.distance
     }
+}
+
+fn nearest_of(candidates: impl Iterator<Item = (f64, u32)>) -> Option<Neighbour> {
+    candidates
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(distance, triangle)| Neighbour { distance, triangle })
 }
 
 impl Facets {
@@ -33,14 +43,18 @@ impl Facets {
         counts: impl Fn(u32) -> bool,
     ) -> Option<NearestPoint> {
         let centre: Vector = to.coords.into();
-        let (triangle, _) = self.tree().find_best(
+        let (_, found) = self.tree().find_best(
             f64::INFINITY,
             |node, _| gap(node, centre, centre),
-            |index, _| {
-                let projection = self.triangle(index).project_local_point(centre, true);
-                counts(index).then(|| Distance((projection.point - centre).length()))
+            |leaf, _| {
+                let counted = self.bundle(leaf).filter(|&index| counts(index));
+                nearest_of(counted.map(|index| {
+                    let projection = self.triangle(index).project_local_point(centre, true);
+                    ((projection.point - centre).length(), index)
+                }))
             },
         )?;
+        let triangle = found.triangle;
         let nearest = self.triangle(triangle).project_local_point(centre, true);
         let point: Vector3<f64> = nearest.point.into();
         Some(NearestPoint {
@@ -60,12 +74,15 @@ impl Facets {
     ) -> Option<(f64, u32)> {
         let segment = Segment::new(from.coords.into(), to.coords.into());
         let (low, high) = (segment.a.min(segment.b), segment.a.max(segment.b));
-        let (triangle, Distance(distance)) = self.tree().find_best(
+        let (_, found) = self.tree().find_best(
             limit,
             |node, _| gap(node, low, high),
-            |index, _| Some(Distance(segment_triangle(&segment, &self.triangle(index)))),
+            |leaf, _| {
+                let distance = |index| segment_triangle(&segment, &self.triangle(index));
+                nearest_of(self.bundle(leaf).map(|index| (distance(index), index)))
+            },
         )?;
-        Some((distance, triangle))
+        Some((found.distance, found.triangle))
     }
 
     fn triangle(&self, index: u32) -> Triangle {

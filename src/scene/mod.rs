@@ -13,6 +13,7 @@ mod prism;
 pub mod profile;
 pub mod ray;
 pub mod tessellate;
+mod triangle;
 
 use nalgebra::{Point3, Vector3};
 
@@ -62,7 +63,7 @@ impl Scene {
         for part in parts {
             match Geometry::of(part, walls) {
                 Ok(geometry) => geometries.push(geometry),
-                Err(fault) => faults.push(fault),
+                Err(fault) => faults.push(*fault),
             }
         }
         if !faults.is_empty() {
@@ -95,13 +96,14 @@ impl Scene {
     ///
     /// # Errors
     /// A fault (without a key) that names the nearest surface and lists all of them.
-    pub fn surface_named(&self, name: &str) -> Result<u32, Fault> {
+    pub fn surface_named(&self, name: &str) -> Result<u32, Box<Fault>> {
         let found = self.surfaces.iter().position(|surface| surface == name);
         found.map(|index| index as u32).ok_or_else(|| {
             let known = || self.surfaces.iter().map(String::as_str);
-            Fault::at_key("", format!("there is no surface `{name}`"))
+            let fault = Fault::at_key("", format!("there is no surface `{name}`"))
                 .expecting(format!("one of {}", known().collect::<Vec<_>>().join(", ")))
-                .nearest(name, known())
+                .nearest(name, known());
+            Box::new(fault)
         })
     }
 

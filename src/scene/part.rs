@@ -34,7 +34,7 @@ const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
 impl Geometry {
     /// The geometry of a part in its place.
-    pub fn of(part: &Part, walls: Walls) -> Result<Self, Fault> {
+    pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
         let (mesh, warnings, prism) = match &part.shape {
             Shape::Keyway(keyway) => prismatic(
                 Profile::keyway(keyway),

@@ -49,7 +49,7 @@ impl Patch {
         let surface = scene.surface_named(&target.surface).map_err(|fault| {
             vec![Fault {
                 key: "target.surface".into(),
-                ..fault
+                ..*fault
             }]
         })?;
         let pieces = scene.surface_triangles(surface);

@@ -293,9 +293,11 @@ impl Answer {
             .map_or(0.0, |evaluation| evaluation.standard_error)
     }
 
-    /// Whether every verdict passes.
+    /// Whether the nozzle fits and every verdict passes.
     pub fn passes(&self) -> bool {
-        self.evaluation.is_some() && self.verdicts.iter().all(Verdict::passes)
+        self.violation <= 0.0
+            && self.evaluation.is_some()
+            && self.verdicts.iter().all(Verdict::passes)
     }
 }
 

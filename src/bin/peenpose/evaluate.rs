@@ -111,6 +111,8 @@ fn contact_named(name: &str, problem: &Problem) -> Result<usize, String> {
 struct Known {
     values: [Option<f64>; SETTINGS.len()],
     contact: Option<usize>,
+    /// Whether `--set` says what the friction is.
+    friction_asked: bool,
 }
 
 const SETTINGS: [Setting; 7] = [
@@ -137,6 +139,7 @@ impl Known {
         Self {
             values: SETTINGS.map(held),
             contact,
+            friction_asked: false,
         }
     }
 
@@ -174,6 +177,7 @@ impl Known {
         let parsed =
             parse(SETTINGS[index], value).map_err(|fault| format!("--set {text}: {fault}"))?;
         self.values[index] = Some(parsed);
+        self.friction_asked |= SETTINGS[index] == Setting::StaticFriction;
         Ok(())
     }
 
@@ -199,7 +203,14 @@ impl Known {
             Some(contact) => choice.contact = contact,
             None => missing.push("contact"),
         }
-        let friction = problem.contacts[choice.contact].static_friction;
+        let contact = &problem.contacts[choice.contact];
+        let friction = contact.static_friction;
+        if self.friction_asked && self.contact.is_some() && friction.is_held() {
+            return Err(format!(
+                "--set mu_s: the friction of contact `{}` is fixed in the file, not a range",
+                contact.name
+            ));
+        }
         choice.static_friction = self.values[6].unwrap_or(friction.min);
         if self.values[6].is_none() && !friction.is_held() {
             missing.push("mu_s");
@@ -215,6 +226,10 @@ impl Known {
     }
 }
 
+/// Lengths, m, and speeds, m/s, beyond any workshop; problem files end there too.
+const FARTHEST: f64 = 1e3;
+const FASTEST: f64 = 1e4;
+
 /// A value of a setting, SI, in the range where it means something.
 fn parse(setting: Setting, text: &str) -> Result<f64, String> {
     let (dimension, fits): (_, fn(f64) -> bool) = match setting {
@@ -222,9 +237,9 @@ fn parse(setting: Setting, text: &str) -> Result<f64, String> {
             x > 0.0 && x <= std::f64::consts::FRAC_PI_2 + 1e-12
         }),
         Setting::Azimuth => (Dimension::Angle, |_| true),
-        Setting::Standoff => (Dimension::Length, |x| x > 0.0),
-        Setting::Speed => (Dimension::Speed, |x| x > 0.0),
-        Setting::AimAlong | Setting::AimAcross => (Dimension::Length, |_| true),
+        Setting::Standoff => (Dimension::Length, |x| x > 0.0 && x <= FARTHEST),
+        Setting::Speed => (Dimension::Speed, |x| x > 0.0 && x <= FASTEST),
+        Setting::AimAlong | Setting::AimAcross => (Dimension::Length, |x| x.abs() <= FARTHEST),
         Setting::StaticFriction => {
             return text
                 .parse()
@@ -239,7 +254,9 @@ fn parse(setting: Setting, text: &str) -> Result<f64, String> {
     } else {
         Err(match setting {
             Setting::Incidence => format!("`{text}` must be above 0 deg and at most 90 deg"),
-            _ => format!("`{text}` must be above 0"),
+            Setting::Standoff => format!("`{text}` must be above 0 mm and at most 1 km"),
+            Setting::Speed => format!("`{text}` must be above 0 m/s and at most 10000 m/s"),
+            _ => format!("`{text}` must be at most 1 km"),
         })
     }
 }

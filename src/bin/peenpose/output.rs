@@ -22,8 +22,8 @@ impl From<String> for Failure {
     }
 }
 
-impl From<Rejection> for Failure {
-    fn from(rejection: Rejection) -> Self {
+impl From<Box<Rejection>> for Failure {
+    fn from(rejection: Box<Rejection>) -> Self {
         Self(rejection.render(is_colorful(&std::io::stderr())))
     }
 }
@@ -70,7 +70,7 @@ fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
     let path = folder.join(name);
     let written = || {
         std::fs::create_dir_all(folder)?;
-        let mut file = tempfile::NamedTempFile::new_in(folder)?;
+        let mut file = temporary().tempfile_in(folder)?;
         file.write_all(text.as_bytes())?;
         file.as_file().sync_all()?;
         file.persist(&path).map_err(|error| error.error)
@@ -78,6 +78,17 @@ fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
     written().map(drop).map_err(|error: std::io::Error| {
         Failure::from(format!("cannot write {}: {error}", path.display()))
     })
+}
+
+/// A temporary file that may be read by whom the umask lets; usually nobody else may.
+fn temporary() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder
 }
 
 /// Whether colours make sense on a stream.

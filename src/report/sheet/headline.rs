@@ -1,0 +1,115 @@
+//! The head of the sheet: what it is about, the overall verdict, what limits it.
+
+use super::{blocked, cause, subject};
+use crate::record::{AnswerRecord, Record, StatusRecord};
+use crate::report::layout::Block;
+use crate::report::number::{plural, share_asked};
+
+/// Failing verdicts that the headline spells out.
+const SPELT_OUT: usize = 3;
+
+/// Title, file, overall verdict, what limits it, how the search ended.
+pub fn block(record: &Record) -> Block {
+    let mut block = Block::titled("TECHNIQUE SHEET");
+    block.paragraph(&record.problem.title);
+    block.paragraph(&record.problem.file);
+    block.gap();
+    for (index, line) in verdict(record).iter().enumerate() {
+        let label = if index == 0 {
+            "verdict      "
+        } else {
+            "             "
+        };
+        block.hanging(label, line);
+    }
+    block.hanging("limited by   ", &cause::headline(record));
+    block.hanging("search       ", &status(record));
+    block
+}
+
+/// The overall verdict; what fails stands on lines of its own, worst first.
+fn verdict(record: &Record) -> Vec<String> {
+    let best = &record.best;
+    if record.status == StatusRecord::NoFeasiblePose {
+        return vec![format!(
+            "NO FEASIBLE POSE: {}; nearest miss below",
+            blocked::conflict(best)
+        )];
+    }
+    let mut lines = Vec::new();
+    if !best.feasible {
+        lines.push(format!("FAIL: {}", blocked::conflict(best)));
+    }
+    let failing = subject::failing(best);
+    if let [only] = failing[..] {
+        lines.push(format!("FAIL: {}", failure(record, &only.subject)));
+    } else if !failing.is_empty() {
+        lines.push(format!(
+            "FAIL: {} of {}",
+            failing.len(),
+            plural(best.verdicts.len(), "verdict")
+        ));
+        for verdict in failing.iter().take(SPELT_OUT) {
+            lines.push(format!("- {}", failure(record, &verdict.subject)));
+        }
+        if failing.len() > SPELT_OUT {
+            lines.push(format!("- and {} more", failing.len() - SPELT_OUT));
+        }
+    }
+    if lines.is_empty() {
+        lines.push(pass(best));
+    } else if let Some(other) = record.choices.iter().find(|choice| choice.passes) {
+        lines.push(format!(
+            "but {} passes every verdict, with a larger J: see CONTACTS",
+            other.contact
+        ));
+    }
+    lines
+}
+
+fn pass(best: &AnswerRecord) -> String {
+    let near: Vec<&str> = best
+        .verdicts
+        .iter()
+        .filter(|verdict| !verdict.certain)
+        .map(|verdict| verdict.subject.as_str())
+        .collect();
+    let all = match best.verdicts.len() {
+        1 => "PASS: the only verdict".to_owned(),
+        2 => "PASS: both verdicts".to_owned(),
+        number => format!("PASS: all {}", plural(number, "verdict")),
+    };
+    if near.is_empty() {
+        all
+    } else {
+        format!("{all}, but too near to be certain: {}", near.join(", "))
+    }
+}
+
+/// What fails and by how much.
+fn failure(record: &Record, name: &str) -> String {
+    let best = &record.best;
+    let Some(verdict) = best.verdicts.iter().find(|v| v.subject == name) else {
+        return name.into();
+    };
+    format!(
+        "{name}: {} ({})",
+        subject::share_against_allowed(verdict),
+        subject::broken_when(name, &record.problem.goals, best)
+    )
+}
+
+fn status(record: &Record) -> String {
+    let accuracy = share_asked(record.problem.accuracy);
+    match record.status {
+        StatusRecord::Converged => format!("converged (accuracy asked for: {accuracy} of J)"),
+        StatusRecord::BudgetSpent => format!(
+            "BUDGET SPENT before the accuracy asked for ({accuracy} of J): better settings may exist"
+        ),
+        StatusRecord::NoFeasiblePose => "the nozzle fits at no pose that was tried".into(),
+        StatusRecord::Interrupted => {
+            "INTERRUPTED: the best settings until then; better ones may exist".into()
+        }
+        StatusRecord::Evaluated => "none: the settings were given".into(),
+    }
+}

@@ -1,0 +1,191 @@
+//! What the target and its neighbours receive.
+
+use crate::record::{AnswerRecord, ReceiptRecord, Record, SpreadRecord};
+use crate::report::layout::{Align, Block, Table};
+use crate::report::number::{
+    fixed, impulse, impulse_asked, plural, share, share_asked, significant,
+};
+
+/// N* and f* on the target against what was asked.
+pub fn target(record: &Record) -> Option<Block> {
+    let (best, goals) = (&record.best, &record.problem.goals);
+    let target = best.target.as_ref()?;
+    let mut block = Block::default();
+    let mut table = Table::new(&[
+        ("TARGET", Align::Left),
+        ("mean", Align::Right),
+        ("5 %", Align::Right),
+        ("95 %", Align::Right),
+        ("largest", Align::Right),
+        ("wanted", Align::Left),
+    ]);
+    let row = |name: &str, spread: &SpreadRecord, wanted: String| {
+        [
+            name.into(),
+            impulse(spread.mean),
+            impulse(spread.low_5),
+            impulse(spread.high_95),
+            impulse(spread.largest),
+            wanted,
+        ]
+    };
+    let hit = target.share_on_target > 0.0;
+    if hit {
+        let wanted = format!(
+            "{} +- {}",
+            impulse_asked(goals.normal_impulse),
+            share_asked(goals.normal_impulse_tolerance)
+        );
+        table.row(row("N* normal, uN.s", &target.normal_impulse, wanted));
+        let limit = goals.tangential_impulse.map_or_else(
+            || "no limit".into(),
+            |limit| format!("at most {}", impulse_asked(limit)),
+        );
+        table.row(row(
+            "f* tangential, uN.s",
+            &target.tangential_impulse,
+            limit,
+        ));
+    }
+    block.table(&table);
+    if hit {
+        block.paragraph(&format!(
+            "{} of {} hit {} first; {}.",
+            share(target.share_on_target),
+            plural(best.shots, "shot"),
+            target.surface,
+            match target.share_sticking {
+                0.0 => "all of these slide".into(),
+                1.0 => "all of these stick".into(),
+                sticking => format!("{} of these stick, the others slide", share(sticking)),
+            }
+        ));
+    } else {
+        block.paragraph(&format!(
+            "NONE of {} hits {} first.",
+            plural(best.shots, "shot"),
+            target.surface
+        ));
+    }
+    if !best.feasible {
+        block.paragraph(
+            "Figures here and below are those of a jet from there, as if the body were not in the way.",
+        );
+    }
+    Some(block)
+}
+
+/// What every secondary surface receives; those that are never hit in one line.
+pub fn surfaces(record: &Record) -> Option<Block> {
+    let best = &record.best;
+    if best.surfaces.is_empty() {
+        return None;
+    }
+    let mut table = Table::new(&[
+        ("OTHER SURFACES, N* in uN.s", Align::Left),
+        ("shots", Align::Right),
+        ("95 %", Align::Right),
+        ("largest", Align::Right),
+        ("may take", Align::Right),
+        ("load", Align::Right),
+        ("hit by", Align::Left),
+    ]);
+    let mut hit: Vec<(&String, &ReceiptRecord, SpreadRecord)> = Vec::new();
+    let mut never: Vec<String> = Vec::new();
+    for (name, receipt) in &best.surfaces {
+        match receipt.normal_impulse {
+            Some(spread) if receipt.share_of_shots > 0.0 => hit.push((name, receipt, spread)),
+            _ => never.push(shown_name(record, name)),
+        }
+    }
+    let load = |receipt: &ReceiptRecord, spread: &SpreadRecord| {
+        receipt.allow.map(|allow| spread.largest / allow)
+    };
+    hit.sort_by(|a, b| {
+        let key = |(_, receipt, _): &(&String, &ReceiptRecord, SpreadRecord)| {
+            (receipt.share_over, receipt.share_of_shots)
+        };
+        key(b)
+            .partial_cmp(&key(a))
+            .unwrap_or(std::cmp::Ordering::Equal)
+    });
+    for (name, receipt, spread) in &hit {
+        table.row([
+            shown_name(record, name),
+            share(receipt.share_of_shots),
+            impulse(spread.high_95),
+            impulse(spread.largest),
+            receipt
+                .allow
+                .map_or_else(|| "any".into(), |allow| significant(allow * 1e6, 3)),
+            load(receipt, spread).map_or_else(
+                || "-".into(),
+                |load| format!("{} %", fixed(load * 100.0, 0)),
+            ),
+            mainly(receipt),
+        ]);
+    }
+    let mut block = if hit.is_empty() {
+        Block::titled("OTHER SURFACES")
+    } else {
+        let mut block = Block::default();
+        block.table(&table);
+        block
+    };
+    if !never.is_empty() {
+        block.hanging(
+            "never hit:  ",
+            &format!("{} ({})", never.join(", "), never_means(best)),
+        );
+    }
+    if hit.iter().any(|(_, receipt, _)| receipt.allow.is_some()) {
+        block.paragraph(
+            "load: largest N* against what it may take; VERDICTS counts the shots that exceed it.",
+        );
+    }
+    Some(block)
+}
+
+/// The target's own surface is secondary outside the patch.
+fn shown_name(record: &Record, name: &str) -> String {
+    match &record.best.target {
+        Some(target) if target.surface == name => format!("{name} off target"),
+        _ => name.into(),
+    }
+}
+
+/// What zero hits among so many shots mean.
+fn never_means(best: &AnswerRecord) -> String {
+    if best.shots == 0 {
+        return "no shot was traced".into();
+    }
+    format!(
+        "each by less than {} % of the shots",
+        significant((300.0 / best.shots as f64).min(100.0), 2)
+    )
+}
+
+/// Which impact of a path it mainly is that hits a surface.
+fn mainly(receipt: &ReceiptRecord) -> String {
+    let counts = &receipt.impacts_per_shot_by_number;
+    let total: f64 = counts.iter().sum();
+    let Some((index, most)) = counts
+        .iter()
+        .enumerate()
+        .max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(&a.0)))
+    else {
+        return String::new();
+    };
+    let by = match index {
+        0 => "direct hit".into(),
+        1 => "1st bounce".into(),
+        2 => "2nd bounce".into(),
+        3 => "3rd bounce".into(),
+        later => format!("{later}th bounce"),
+    };
+    if *most >= total {
+        by
+    } else {
+        format!("{by} {} %", fixed((most / total * 100.0).min(99.0), 0))
+    }
+}

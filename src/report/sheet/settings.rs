@@ -1,0 +1,195 @@
+//! What to set: each setting with its window, the medium, and the pose for a robot.
+
+use super::setting::{SETTINGS, Setting};
+use crate::record::{AnswerRecord, ContactRecord, Record, StatusRecord};
+use crate::report::layout::{Align, Block, Table};
+use crate::report::number::{fixed, plain, share_asked, significant};
+
+/// Settings with their windows, then what is loaded.
+pub fn settings(record: &Record) -> Block {
+    let best = &record.best;
+    let title = match record.status {
+        StatusRecord::Evaluated => "SETTINGS GIVEN",
+        StatusRecord::NoFeasiblePose => "NEAREST MISS",
+        _ if best.passes => "SET THIS",
+        _ => "BEST FOUND",
+    };
+    let mut block = Block::default();
+    let mut table = Table::new(&[
+        (title, Align::Left),
+        ("", Align::Right),
+        ("", Align::Left),
+        ("set within", Align::Left),
+        ("may drift alone", Align::Left),
+        ("until this fails", Align::Left),
+    ]);
+    for setting in SETTINGS.iter().filter(|setting| setting.is_used(record)) {
+        table.row(row(record, setting));
+    }
+    block.table(&table.without_empty_columns());
+    for (label, text) in equipment(record) {
+        block.hanging(&format!("{label:<10} "), &text);
+    }
+    for remark in remarks(record) {
+        block.paragraph(&remark);
+    }
+    block
+}
+
+fn row(record: &Record, setting: &Setting) -> [String; 6] {
+    let shown = setting.shown(record);
+    let (window, until) = match setting.window(record) {
+        Some(window) => {
+            let until = match (&window.down.turns, &window.up.turns) {
+                (None, None) => "(whole range)".into(),
+                (Some(down), Some(up)) if down == up => down.clone(),
+                (Some(down), Some(up)) => format!("{down} below, {up} above"),
+                (Some(down), None) => format!("{down} below"),
+                (None, Some(up)) => format!("{up} above"),
+            };
+            let window = format!("{} to {} {}", shown.low, shown.high, setting.unit);
+            (window, until)
+        }
+        None if setting
+            .range(record)
+            .is_some_and(|range| range.min == range.max) =>
+        {
+            ("held".into(), String::new())
+        }
+        None => (String::new(), String::new()),
+    };
+    let tolerance = setting.tolerance(record).unwrap_or_default();
+    [
+        setting.name.into(),
+        shown.value,
+        setting.unit.into(),
+        tolerance,
+        window,
+        until,
+    ]
+}
+
+/// What is loaded into the machine.
+fn equipment(record: &Record) -> Vec<(&'static str, String)> {
+    let (best, problem) = (&record.best, &record.problem);
+    let size = if problem.size_spread > 0.0 {
+        format!(", size scatter {}", share_asked(problem.size_spread))
+    } else {
+        String::new()
+    };
+    let shot = format!(
+        "{} mm diameter, {} kg/m3, {} mg{size}",
+        plain(problem.shot_radius_m * 2e3),
+        plain(problem.shot_density_kg_m3),
+        significant(problem.shot_mass_kg * 1e6, 3),
+    );
+    let jet = format!(
+        "exit {} mm, half-angle {} deg ({}), speed scatter {}",
+        plain(problem.exit_diameter_m * 1e3),
+        plain(problem.divergence_deg),
+        problem.spread,
+        share_asked(problem.speed_spread),
+    );
+    vec![
+        (
+            "contact",
+            format!("{}: {}", best.contact, coefficients(&best.contact_values)),
+        ),
+        ("shot", shot),
+        ("jet", jet),
+    ]
+}
+
+/// The coefficients of a contact.
+pub fn coefficients(contact: &ContactRecord) -> String {
+    let mut text = format!(
+        "mu_s {}, mu_d {}, restitution {}",
+        friction(contact.mu_s),
+        friction(contact.mu_d),
+        plain(contact.restitution)
+    );
+    if let (Some(speed), Some(exponent)) =
+        (contact.restitution_at_m_s, contact.restitution_exponent)
+    {
+        text += &format!(
+            " at {} m/s, falling with exponent {}",
+            plain(speed),
+            plain(exponent)
+        );
+    }
+    if contact.tangential_restitution != 0.0 {
+        text += &format!(
+            ", tangential restitution {}",
+            plain(contact.tangential_restitution)
+        );
+    }
+    if contact.law != "stick_slip" {
+        text += &format!(" (law: {})", contact.law);
+    }
+    text
+}
+
+fn friction(value: f64) -> String {
+    plain((value * 1e4).round() / 1e4)
+}
+
+fn remarks(record: &Record) -> Vec<String> {
+    let best = &record.best;
+    let mut remarks = vec!["Incidence 90 deg is perpendicular to the target.".to_owned()];
+    if best.shots > 0
+        && SETTINGS
+            .iter()
+            .any(|setting| setting.tolerance(record).is_some())
+    {
+        remarks[0] += " Figures allow for errors `set within`.";
+    }
+    if record.windows.is_empty() {
+        if record.status == StatusRecord::Evaluated && best.feasible {
+            remarks.push("How far settings may drift was not computed for given settings.".into());
+        }
+    } else if !best.passes {
+        remarks.push(
+            "`May drift alone` counts only the verdicts that pass here: it is no way out of FAIL."
+                .into(),
+        );
+    }
+    remarks
+}
+
+/// The pose for a robot, and the clearance.
+pub fn pose(best: &AnswerRecord) -> Option<Block> {
+    let mut block = Block::titled("POSE IN THE COORDINATES OF THE FILE");
+    let vector = |values: &[f64], scale: f64, decimals: usize| {
+        let texts: Vec<String> = values
+            .iter()
+            .map(|value| format!("{:>9}", fixed(value * scale, decimals)))
+            .collect();
+        texts.join(" ")
+    };
+    let pose = &best.pose;
+    block.verbatim(&format!("exit point   {} mm", vector(&pose.exit_m, 1e3, 3)));
+    block.verbatim(&format!("jet axis     {}", vector(&pose.direction, 1.0, 5)));
+    block.verbatim(&format!(
+        "quaternion   {}   (x y z w; takes z to the jet axis)",
+        vector(&pose.quaternion_xyzw, 1.0, 5)
+    ));
+    block.hanging("clearance    ", &clearance(best));
+    Some(block)
+}
+
+fn clearance(best: &AnswerRecord) -> String {
+    let wanted = format!(
+        "at least {} mm wanted",
+        plain(best.clearance_wanted_m * 1e3)
+    );
+    match (best.clearance_m, &best.clearance_surface) {
+        (Some(gap), Some(surface)) if gap >= 0.0 => {
+            format!("{} mm to {surface}, {wanted}", fixed(gap * 1e3, 2))
+        }
+        (Some(gap), Some(surface)) => format!(
+            "NONE: {} mm too far into {surface}, {wanted}",
+            fixed(-gap * 1e3, 2)
+        ),
+        _ => "not checked: the nozzle has no body in the file".into(),
+    }
+}

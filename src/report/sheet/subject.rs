@@ -1,0 +1,78 @@
+//! What a verdict is about, in words.
+
+use crate::record::{AnswerRecord, GoalsRecord, VerdictRecord};
+use crate::report::number::{impulse_asked, share, share_asked};
+
+/// What breaks a goal, as it stands behind its name: `N* off 40 uN.s by > 15 %`.
+pub fn broken_when(subject: &str, goals: &GoalsRecord, answer: &AnswerRecord) -> String {
+    match subject {
+        "miss" => "first hit off target".into(),
+        "normal_impulse" => format!(
+            "N* off {} +- {}",
+            impulse_asked(goals.normal_impulse),
+            share_asked(goals.normal_impulse_tolerance)
+        ),
+        "tangential_impulse" => goals.tangential_impulse.map_or_else(
+            || "f* over its limit".into(),
+            |limit| format!("f* over {}", impulse_asked(limit)),
+        ),
+        surface => answer
+            .surfaces
+            .get(surface)
+            .and_then(|receipt| receipt.allow)
+            .map_or_else(
+                || "over what it may take".into(),
+                |allow| {
+                    let is_target = answer.target.as_ref().is_some_and(|t| t.surface == surface);
+                    let place = if is_target { " off target" } else { "" };
+                    format!("over {}{place}", impulse_asked(allow))
+                },
+            ),
+    }
+}
+
+/// Whose share a verdict counts: the goals on impulses count first hits on target only.
+pub fn counted(subject: &str) -> &'static str {
+    match subject {
+        "normal_impulse" | "tangential_impulse" => "of the hits on target",
+        _ => "of the shots",
+    }
+}
+
+/// `2.01 % of the hits on target break it, 5 % may`.
+pub fn share_against_allowed(verdict: &VerdictRecord) -> String {
+    let counted = counted(&verdict.subject);
+    let allowed = share_asked(verdict.allowed);
+    if verdict.counted == 0 {
+        return format!("there is nothing to count, so it is not met ({allowed} may break it)");
+    }
+    if verdict.share > 0.0 {
+        format!("{} {counted} break it, {allowed} may", share(verdict.share))
+    } else {
+        format!("none {counted} breaks it, {allowed} may")
+    }
+}
+
+/// How much of what is allowed is used up; 1 is the limit.
+pub fn load(verdict: &VerdictRecord) -> f64 {
+    if verdict.counted == 0 {
+        f64::INFINITY
+    } else if verdict.allowed > 0.0 {
+        verdict.share / verdict.allowed
+    } else if verdict.share > 0.0 {
+        f64::INFINITY
+    } else {
+        0.0
+    }
+}
+
+/// The verdicts that fail, worst first.
+pub fn failing(answer: &AnswerRecord) -> Vec<&VerdictRecord> {
+    let mut failing: Vec<&VerdictRecord> = answer
+        .verdicts
+        .iter()
+        .filter(|verdict| !verdict.passes)
+        .collect();
+    failing.sort_by(|a, b| load(b).total_cmp(&load(a)));
+    failing
+}

@@ -1,0 +1,612 @@
+//! The objective, its best speed, its errors, and the samples behind it.
+
+mod common;
+
+use peenpose::evaluate::evaluate;
+use peenpose::impact::Regime;
+use peenpose::jet::{Deviate, Replicates, Samples, Stream};
+use peenpose::objective::{Impulses, Sums, Tally, Terms};
+use peenpose::problem::Problem;
+use peenpose::problem::equipment::Spread;
+use peenpose::problem::goal::{Goals, TangentialImpulse};
+use peenpose::problem::setting::{Choice, Range, Tolerance};
+use peenpose::scene::Walls;
+use peenpose::setup::Setup;
+use peenpose::trace::{PathImpact, Tracer};
+use proptest::prelude::*;
+
+fn setup(length: f64) -> Setup {
+    Setup::new(common::keyway(length), Walls::Exact).unwrap()
+}
+
+fn choice(incidence_deg: f64, azimuth_deg: f64, standoff: f64, contact: usize) -> Choice {
+    Choice {
+        incidence: incidence_deg.to_radians(),
+        azimuth: azimuth_deg.to_radians(),
+        standoff,
+        speed: 10.0,
+        aim_along: 0.0,
+        aim_across: 0.0,
+        contact,
+        static_friction: 0.0,
+    }
+}
+
+/// Settings all over the range: good ones, ones that hit walls, ones that miss.
+fn choices() -> Vec<Choice> {
+    let mut choices = Vec::new();
+    for incidence in [30.0, 45.0, 67.0, 85.0] {
+        for azimuth in [-80.0, 0.0, 35.0] {
+            for (standoff, contact) in [(6e-3, 0), (9e-3, 1), (20e-3, 2)] {
+                choices.push(choice(incidence, azimuth, standoff, contact));
+            }
+        }
+    }
+    choices
+}
+
+/// The least value of J in the range, without derivatives: golden sections.
+fn least_by_golden_sections(tally: &Tally, goals: &Goals, range: Range) -> f64 {
+    let ratio = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let value = |speed: f64| tally.terms(goals, speed).total();
+    let (mut low, mut high) = (range.min, range.max);
+    let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
+    let (mut at_a, mut at_b) = (value(a), value(b));
+    for _ in 0..100 {
+        if at_a < at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - ratio * (high - low);
+            at_a = value(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + ratio * (high - low);
+            at_b = value(b);
+        }
+    }
+    [range.min, range.max, a, b]
+        .map(value)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The best speed is in the range, and no worse than what golden sections and a grid find.
+fn check_best_speed(tally: &Tally, goals: &Goals, range: Range) {
+    let speed = tally.best_speed(goals, range);
+    assert!(range.contains(speed), "{speed}");
+    let least = tally.terms(goals, speed).total();
+    let golden = least_by_golden_sections(tally, goals, range);
+    assert!(
+        (least - golden).abs() <= 1e-9 * golden.abs() + 1e-15,
+        "{least} {golden}"
+    );
+    for step in 0..=200 {
+        let other = tally
+            .terms(goals, range.at(f64::from(step) / 200.0))
+            .total();
+        assert!(
+            least <= other + 1e-12 * other.abs(),
+            "{least} at {speed}, {other}"
+        );
+    }
+}
+
+#[test]
+fn the_best_speed_of_traced_shots_is_the_least_of_j() {
+    for length in [40e-3, 200e-3] {
+        let setup = setup(length);
+        let goals = &setup.problem.goals;
+        let samples = Samples::with_rim(&setup.problem, Stream::Search, 1000);
+        for choice in choices() {
+            let tally = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
+            for (min, max) in [
+                (5.0, 40.0),
+                (0.01, 1000.0),
+                (1.0, 2.0),
+                (30.0, 31.0),
+                (12.0, 12.0),
+            ] {
+                check_best_speed(&tally, goals, Range { min, max });
+            }
+        }
+    }
+}
+
+#[test]
+fn the_best_speed_does_not_need_hits_or_limits() {
+    let mut goals = common::keyway(0.04).goals;
+    let range = Range {
+        min: 5.0,
+        max: 40.0,
+    };
+    let nothing = Tally {
+        shots: 10,
+        weight: 10.0,
+        missed: 10.0,
+        ..Tally::default()
+    };
+    check_best_speed(&nothing, &goals, range);
+    let only_rebounds = Tally {
+        rebound: 3.0,
+        ..nothing
+    };
+    assert_eq!(only_rebounds.best_speed(&goals, range), 5.0);
+    check_best_speed(&only_rebounds, &goals, range);
+    goals.tangential_impulse = None;
+    goals.rebound = None;
+    let hit = Impulses {
+        normal: 4e-6,
+        tangential: 9e-6,
+        weight: 1.0,
+    };
+    let one = Tally {
+        shots: 1,
+        weight: 1.0,
+        hits: vec![hit],
+        ..Tally::default()
+    };
+    // 40 uN s at 4 uN s per m/s.
+    assert!((one.best_speed(&goals, range) - 10.0).abs() < 1e-12);
+}
+
+fn impulses() -> impl Strategy<Value = Impulses> {
+    (0.0..10e-6_f64, 0.0..10e-6_f64, 0.01..2.0_f64).prop_map(|(normal, tangential, weight)| {
+        Impulses {
+            normal,
+            tangential,
+            weight,
+        }
+    })
+}
+
+proptest! {
+    #[test]
+    fn the_best_speed_of_any_tally_is_the_least_of_j(
+        hits in prop::collection::vec(impulses(), 0..600),
+        missed in 0.0..100.0_f64,
+        rebound in prop_oneof![Just(0.0), 1e-9..1e3_f64],
+        limit in prop::option::of(1e-9..1e-3_f64),
+        weights in [0.0..3.0_f64, 0.0..3.0_f64],
+        min in 0.01..20.0_f64,
+        width in 0.0..100.0_f64,
+    ) {
+        let weight = missed + hits.iter().map(|hit| hit.weight).sum::<f64>();
+        prop_assume!(weight > 0.0);
+        let tally = Tally { shots: hits.len() + 1, weight, missed, hits, rebound, rays: 0 };
+        let mut goals = common::keyway(0.04).goals;
+        goals.normal_impulse.weight = weights[0];
+        goals.tangential_impulse =
+            limit.map(|limit| TangentialImpulse { limit, share: 0.05, weight: weights[1] });
+        check_best_speed(&tally, &goals, Range { min, max: min + width });
+    }
+}
+
+#[test]
+fn terms_follow_from_the_impacts_as_defined() {
+    // By hand, shot by shot, from the definition of the objective.
+    for choice in choices() {
+        let setup = setup(40e-3);
+        let problem = &setup.problem;
+        let goals = &problem.goals;
+        let limit = goals.tangential_impulse.unwrap();
+        let rebound = goals.rebound.unwrap();
+        let samples = Samples::new(problem, Stream::Fresh(3), 500);
+        let tracer = Tracer::new(&setup, &choice, choice.speed);
+        let (mut normal, mut tangential, mut harm, mut hits) = (0.0, 0.0, 0.0, 0.0);
+        for deviate in &samples.deviates {
+            let mut path: Vec<PathImpact> = Vec::new();
+            tracer.follow(deviate, |impact| path.push(*impact));
+            assert!(
+                path.iter()
+                    .enumerate()
+                    .all(|(index, impact)| impact.number == index + 1)
+            );
+            if let Some(first) = path.first().filter(|first| first.on_target) {
+                hits += 1.0;
+                normal += (first.normal_impulse / goals.normal_impulse.target - 1.0).powi(2);
+                tangential += (first.tangential_impulse / limit.limit - 1.0)
+                    .max(0.0)
+                    .powi(2);
+            }
+            for impact in path.iter().filter(|impact| !impact.on_target) {
+                harm += (impact.normal_impulse / rebound.allow).powi(2);
+            }
+        }
+        let shots = samples.deviates.len() as f64;
+        let share = |sum: f64| if hits > 0.0 { sum / hits } else { 0.0 };
+        let expected = Terms {
+            normal_impulse: goals.normal_impulse.weight * share(normal),
+            tangential_impulse: limit.weight * share(tangential),
+            rebound: rebound.weight * harm / shots,
+            miss: goals.miss.weight * (shots - hits) / shots,
+        };
+        // Traced at this speed, and at another one with the impulses scaled.
+        for traced_at in [choice.speed, 1.0] {
+            let tally = Tally::trace(&setup, &choice, traced_at, &samples.deviates);
+            let found = tally.terms(goals, choice.speed);
+            for part in [
+                |t: &Terms| t.normal_impulse,
+                |t: &Terms| t.tangential_impulse,
+                |t: &Terms| t.rebound,
+                |t: &Terms| t.miss,
+                Terms::total,
+            ] {
+                let (found, expected) = (part(&found), part(&expected));
+                assert!(
+                    (found - expected).abs() <= 1e-9 * expected + 1e-15,
+                    "{found} {expected}"
+                );
+            }
+            let sum = found.normal_impulse + found.tangential_impulse + found.rebound + found.miss;
+            assert_eq!(found.total(), sum);
+        }
+    }
+}
+
+#[test]
+fn an_evaluation_counts_what_every_surface_receives() {
+    let setup = setup(40e-3);
+    let goals = &setup.problem.goals;
+    for choice in [choice(45.0, 35.0, 9e-3, 1), choice(35.0, 80.0, 15e-3, 0)] {
+        let found = evaluate(
+            &setup,
+            &choice,
+            &Replicates::new(&setup.problem, 7, 32 * 100),
+        );
+        let tracer = Tracer::new(&setup, &choice, choice.speed);
+        let mut paths: Vec<Vec<PathImpact>> = Vec::new();
+        for number in 0..32 {
+            let samples = Samples::new(&setup.problem, Stream::Fresh(7 + number), 100);
+            for deviate in &samples.deviates {
+                let mut path = Vec::new();
+                tracer.follow(deviate, |impact| path.push(*impact));
+                paths.push(path);
+            }
+        }
+        assert_eq!(found.shots, paths.len());
+        assert!((found.ends.values().sum::<f64>() - 1.0).abs() < 1e-12);
+        let count =
+            |holds: &dyn Fn(&[PathImpact]) -> bool| paths.iter().filter(|path| holds(path)).count();
+        let first = |path: &[PathImpact]| path.first().copied().filter(|first| first.on_target);
+        let target = &found.target;
+        assert_eq!(target.hits, count(&|path| first(path).is_some()));
+        let off = |impulse: f64| (impulse / goals.normal_impulse.target - 1.0).abs() > 0.15;
+        let is_off = |path: &[PathImpact]| first(path).is_some_and(|i| off(i.normal_impulse));
+        assert_eq!(target.off_target, count(&is_off));
+        let sticks = |path: &[PathImpact]| first(path).is_some_and(|i| i.regime == Regime::Stick);
+        assert_eq!(target.sticking, count(&sticks));
+        for (index, receipt) in found.surfaces.iter().enumerate() {
+            let on_it = |i: &PathImpact| !i.on_target && i.surface as usize == index;
+            let is_over = |i: &PathImpact| on_it(i) && i.normal_impulse > 10e-6;
+            assert_eq!(receipt.shots, count(&|path| path.iter().any(on_it)));
+            assert_eq!(receipt.over, count(&|path| path.iter().any(is_over)));
+            for number in 1..=6 {
+                let with = |impact: &dyn Fn(&PathImpact) -> bool| {
+                    let impacts = paths.iter().flatten();
+                    impacts.filter(|i| i.number == number && impact(i)).count()
+                };
+                let at = |counts: &[usize]| counts.get(number - 1).copied().unwrap_or(0);
+                assert_eq!(at(&receipt.impacts_by_number), with(&on_it));
+                assert_eq!(at(&receipt.over_by_number), with(&is_over));
+            }
+            let mut impulses: Vec<f64> = paths
+                .iter()
+                .flatten()
+                .copied()
+                .filter(on_it)
+                .map(|impact| impact.normal_impulse)
+                .collect();
+            impulses.sort_unstable_by(f64::total_cmp);
+            assert_eq!(
+                receipt.normal_impulse.largest,
+                impulses.last().copied().unwrap_or(0.0)
+            );
+            let below = impulses.partition_point(|&i| i < receipt.normal_impulse.high) as f64;
+            let share = below / impulses.len().max(1) as f64;
+            assert!(
+                impulses.len() < 100 || (share - 0.95).abs() < 0.02,
+                "{share}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_reported_error_is_the_scatter_of_independent_evaluations() {
+    let setup = setup(40e-3);
+    // One with many kinds of events, one where a few per cent miss, one near the optimum.
+    for choice in [
+        choice(45.0, 35.0, 9e-3, 1),
+        choice(40.0, 80.0, 15e-3, 0),
+        choice(67.0, 0.0, 8e-3, 2),
+    ] {
+        let evaluations: Vec<_> = (0..30)
+            .map(|number| {
+                evaluate(
+                    &setup,
+                    &choice,
+                    &Replicates::new(&setup.problem, 100 + number, 2048),
+                )
+            })
+            .collect();
+        let total = |number: usize| evaluations[number].terms.total();
+        let mean = (0..30).map(total).sum::<f64>() / 30.0;
+        let scatter = ((0..30).map(|n| (total(n) - mean).powi(2)).sum::<f64>() / 29.0).sqrt();
+        let squares: f64 = evaluations.iter().map(|e| e.standard_error.powi(2)).sum();
+        let reported = (squares / 30.0).sqrt();
+        // With 29 degrees of freedom the scatter itself is uncertain by 13 %.
+        let ratio = reported / scatter;
+        assert!((0.6..1.6).contains(&ratio), "{choice:?}: {ratio}");
+    }
+}
+
+/// J of independent streams of samples: mean and its standard error.
+fn mean_objective(setup: &Setup, choice: &Choice, draw: impl Fn(u32) -> Samples) -> (f64, f64) {
+    const STREAMS: u32 = 32;
+    let goals = &setup.problem.goals;
+    let sums: Vec<Sums> = (0..STREAMS)
+        .map(|number| {
+            let tally = Tally::trace(setup, choice, choice.speed, &draw(number).deviates);
+            tally.sums(goals, choice.speed)
+        })
+        .collect();
+    let totals: Vec<f64> = sums.iter().map(|sums| sums.terms(goals).total()).collect();
+    let mean = totals.iter().sum::<f64>() / f64::from(STREAMS);
+    let squares: f64 = totals.iter().map(|total| (total - mean).powi(2)).sum();
+    let error = (squares / f64::from(STREAMS * (STREAMS - 1))).sqrt();
+    let pooled = sums.iter().fold(Sums::default(), |all, one| all.plus(one));
+    (pooled.terms(goals).total(), error)
+}
+
+#[test]
+fn rim_shots_estimate_the_same_objective() {
+    let mut problem = common::keyway(40e-3);
+    for tolerance in [
+        Tolerance::default(),
+        Tolerance {
+            incidence: 0.03,
+            azimuth: 0.03,
+            standoff: 1e-3,
+            speed: 0.03,
+            restitution: 0.1,
+            ..Tolerance::default()
+        },
+    ] {
+        problem.tolerance = tolerance;
+        let setup = Setup::new(problem.clone(), Walls::Exact).unwrap();
+        for choice in [
+            choice(67.0, 0.0, 8e-3, 2),
+            choice(45.0, 35.0, 9e-3, 1),
+            choice(40.0, 80.0, 15e-3, 0),
+        ] {
+            let problem = &setup.problem;
+            let (plain, plain_error) = mean_objective(&setup, &choice, |number| {
+                Samples::new(problem, Stream::Fresh(number), 2048)
+            });
+            let (rim, rim_error) = mean_objective(&setup, &choice, |number| {
+                Samples::with_rim(problem, Stream::Fresh(number), 2048)
+            });
+            let error = plain_error.hypot(rim_error);
+            assert!(
+                (plain - rim).abs() < 4.0 * error,
+                "{plain} {rim} +- {error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn rim_weights_average_to_one() {
+    let mut problem = common::keyway(40e-3);
+    problem.tolerance.incidence = 0.03;
+    let weights: Vec<f64> = weights_of(&Samples::with_rim(&problem, Stream::Search, 1 << 15));
+    let mean = weights.iter().sum::<f64>() / weights.len() as f64;
+    assert!((mean - 1.0).abs() < 0.01, "{mean}");
+    assert!(weights.iter().all(|&weight| weight > 0.0 && weight <= 2.0));
+    // Every second shot is drawn to the rim, and stands for less.
+    let average = |first: usize| {
+        let chosen = weights.iter().skip(first).step_by(2);
+        chosen.sum::<f64>() / (weights.len() / 2) as f64
+    };
+    assert!(
+        average(1) < 0.9 * average(0),
+        "{} {}",
+        average(0),
+        average(1)
+    );
+    // Without anything that has a rim all shots are alike.
+    problem.tolerance = Tolerance::default();
+    problem.jet.exit_diameter = 0.0;
+    problem.jet.divergence = 0.0;
+    let weights = weights_of(&Samples::with_rim(&problem, Stream::Search, 64));
+    assert!(weights.iter().all(|&weight| weight == 1.0));
+}
+
+fn weights_of(samples: &Samples) -> Vec<f64> {
+    samples
+        .deviates
+        .iter()
+        .map(|deviate| deviate.weight)
+        .collect()
+}
+
+#[test]
+fn samples_are_pure_functions_of_their_number() {
+    let problem = common::keyway(40e-3);
+    for draw in [Samples::new, Samples::with_rim] {
+        let long = draw(&problem, Stream::Fresh(5), 70_000).deviates;
+        let short = draw(&problem, Stream::Fresh(5), 1000).deviates;
+        assert_eq!(long[..1000], short);
+        assert_ne!(draw(&problem, Stream::Fresh(6), 1000).deviates, short);
+        assert_ne!(draw(&problem, Stream::Search, 1000).deviates, short);
+        // The sequence does not start again after 2^16 points.
+        assert_ne!(long[1 << 16..][..1000], long[..1000]);
+    }
+}
+
+fn mean(samples: &Samples, value: impl Fn(&Deviate) -> f64) -> f64 {
+    let weighted = samples
+        .deviates
+        .iter()
+        .map(|deviate| deviate.weight * value(deviate));
+    let weight: f64 = samples.deviates.iter().map(|deviate| deviate.weight).sum();
+    weighted.sum::<f64>() / weight
+}
+
+/// Both kinds of samples must have these moments, the second kind by its weights.
+fn with_both(problem: &Problem, check: impl Fn(&Samples)) {
+    check(&Samples::new(problem, Stream::Fresh(0), 1 << 14));
+    check(&Samples::with_rim(problem, Stream::Fresh(0), 1 << 16));
+}
+
+fn near(found: f64, expected: f64, slack: f64) {
+    assert!((found - expected).abs() <= slack, "{found}, not {expected}");
+}
+
+#[test]
+fn directions_fill_the_cone_uniformly_in_solid_angle() {
+    let mut problem = common::keyway(40e-3);
+    for half_angle in [0.5_f64, 4.0, 60.0].map(f64::to_radians) {
+        problem.jet.divergence = half_angle;
+        with_both(&problem, |samples| {
+            let versine = 1.0 - half_angle.cos();
+            for deviate in &samples.deviates {
+                let [x, y, z] = deviate.cone;
+                near(x * x + y * y + z * z, 1.0, 1e-14);
+                assert!(1.0 - z <= versine * (1.0 + 1e-9));
+            }
+            // 1 - cos is uniform from 0 to its largest value.
+            near(mean(samples, |d| (1.0 - d.cone[2]) / versine), 0.5, 0.01);
+            near(
+                mean(samples, |d| ((1.0 - d.cone[2]) / versine).powi(2)),
+                1.0 / 3.0,
+                0.01,
+            );
+            let sine = half_angle.sin();
+            near(mean(samples, |d| d.cone[0] / sine), 0.0, 0.01);
+            near(mean(samples, |d| d.cone[1] / sine), 0.0, 0.01);
+            near(
+                mean(samples, |d| d.cone[0] * d.cone[1] / (sine * sine)),
+                0.0,
+                0.01,
+            );
+            // Where in the disc a shot starts tells nothing about its direction.
+            let radius = 0.75e-3;
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                near(
+                    mean(samples, |d| d.cone[i] * d.exit[j] / (sine * radius)),
+                    0.0,
+                    0.01,
+                );
+            }
+        });
+    }
+}
+
+#[test]
+fn a_gaussian_cone_is_denser_inside_and_cut_at_its_edge() {
+    let mut problem = common::keyway(40e-3);
+    problem.jet.spread = Spread::Gaussian;
+    let half_angle = problem.jet.divergence;
+    with_both(&problem, |samples| {
+        let angle = |deviate: &Deviate| deviate.cone[0].hypot(deviate.cone[1]).asin();
+        for deviate in &samples.deviates {
+            assert!(angle(deviate) <= half_angle * (1.0 + 1e-9));
+        }
+        // Shares inside one and 1.5 standard deviations of half the half-angle.
+        let inside = |deviations: f64| 1.0 - (-0.5 * deviations * deviations).exp();
+        for deviations in [0.5, 1.0, 1.5] {
+            let share = mean(samples, |d| {
+                f64::from(u8::from(angle(d) < deviations * half_angle / 2.0))
+            });
+            near(share, inside(deviations) / inside(2.0), 0.01);
+        }
+        near(mean(samples, |d| d.cone[0] / half_angle), 0.0, 0.01);
+    });
+}
+
+#[test]
+fn the_exit_disc_is_filled_uniformly() {
+    let problem = common::keyway(40e-3);
+    with_both(&problem, |samples| {
+        let radius = problem.jet.exit_diameter / 2.0;
+        let square = |d: &Deviate| (d.exit[0].powi(2) + d.exit[1].powi(2)) / radius.powi(2);
+        assert!(
+            samples
+                .deviates
+                .iter()
+                .all(|deviate| square(deviate) <= 1.0 + 1e-12)
+        );
+        near(mean(samples, square), 0.5, 0.01);
+        near(mean(samples, |d| square(d).powi(2)), 1.0 / 3.0, 0.01);
+        near(mean(samples, |d| (d.exit[0] / radius).powi(2)), 0.25, 0.01);
+        near(
+            mean(samples, |d| d.exit[0] * d.exit[1] / radius.powi(2)),
+            0.0,
+            0.01,
+        );
+    });
+}
+
+#[test]
+fn scatter_is_normal_and_cut_at_two_deviations() {
+    let mut problem = common::keyway(40e-3);
+    problem.shot.size_spread = 0.02;
+    // Variance of a normal deviate cut at two: 1 - 4 phi(2) / (2 Phi(2) - 1).
+    let variance = 1.0 - 4.0 * 0.053_990_966_513_188 / 0.954_499_736_103_642;
+    with_both(&problem, |samples| {
+        let speed = |d: &Deviate| (d.speed - 1.0) / 0.05;
+        let size = |d: &Deviate| (d.mass.cbrt() - 1.0) / 0.02;
+        for deviate in &samples.deviates {
+            assert!(speed(deviate).abs() <= 2.0 + 1e-9 && size(deviate).abs() <= 2.0 + 1e-9);
+        }
+        near(mean(samples, speed), 0.0, 0.02);
+        near(mean(samples, |d| speed(d).powi(2)), variance, 0.02);
+        near(mean(samples, size), 0.0, 0.02);
+        near(mean(samples, |d| size(d).powi(2)), variance, 0.02);
+        near(mean(samples, |d| speed(d) * size(d)), 0.0, 0.02);
+        let largest = samples.deviates.iter().map(speed).fold(0.0, f64::max);
+        assert!(largest > 1.95, "{largest}");
+    });
+}
+
+#[test]
+fn set_up_errors_fill_their_box_uniformly() {
+    let mut problem = common::keyway(40e-3);
+    problem.jet.speed_spread = 0.0;
+    problem.tolerance = Tolerance {
+        incidence: 0.03,
+        azimuth: 0.02,
+        standoff: 1e-3,
+        aim_along: 2e-3,
+        aim_across: 3e-3,
+        speed: 0.03,
+        restitution: 0.1,
+        friction: 0.2,
+    };
+    with_both(&problem, |samples| {
+        let errors: [fn(&Deviate) -> f64; 8] = [
+            |d| d.incidence[0].atan2(d.incidence[1]) / 0.03,
+            |d| d.azimuth[0].atan2(d.azimuth[1]) / 0.02,
+            |d| d.standoff / 1e-3,
+            |d| d.aim[0] / 2e-3,
+            |d| d.aim[1] / 3e-3,
+            |d| (d.speed - 1.0) / 0.03,
+            |d| d.restitution / 0.1,
+            |d| (d.friction - 1.0) / 0.2,
+        ];
+        for (index, error) in errors.iter().enumerate() {
+            assert!(
+                samples
+                    .deviates
+                    .iter()
+                    .all(|d| error(d).abs() <= 1.0 + 1e-9)
+            );
+            // A weighted mean over eight crowded dimensions is uncertain.
+            near(mean(samples, error), 0.0, 0.05);
+            near(mean(samples, |d| error(d).powi(2)), 1.0 / 3.0, 0.05);
+            for other in &errors[..index] {
+                near(mean(samples, |d| error(d) * other(d)), 0.0, 0.05);
+            }
+        }
+    });
+}

@@ -1,0 +1,240 @@
+//! The technique sheet of kept results against kept texts. `UPDATE_SHEETS=1 cargo test --test sheet`
+//! writes the texts anew; look at the difference before it is kept.
+
+use std::path::{Path, PathBuf};
+
+use peenpose::record::{AnswerRecord, Record, StatusRecord};
+use peenpose::report::sheet;
+
+const NAMES: [&str; 6] = [
+    "keyway",
+    "long_keyway",
+    "plate",
+    "given_fails",
+    "given_collides",
+    "no_room",
+];
+
+fn data(name: &str, extension: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/data/sheets")
+        .join(name)
+        .with_extension(extension)
+}
+
+fn record(name: &str) -> Record {
+    let text = std::fs::read_to_string(data(name, "json")).unwrap();
+    Record::from_json(&text).unwrap()
+}
+
+/// What holds for every sheet.
+fn assert_well_formed(text: &str) {
+    for line in text.lines() {
+        assert!(line.chars().count() <= 92, "too long: {line}\n{text}");
+        assert_eq!(line, line.trim_end(), "space at the end:\n{text}");
+        assert!(line.is_ascii(), "not plain: {line}");
+    }
+    for word in text.split(|c: char| !c.is_alphanumeric()) {
+        assert!(!["NaN", "inf", "None", "Some"].contains(&word), "{text}");
+    }
+    let digits = |word: &str| word.chars().filter(char::is_ascii_digit).count();
+    let numbers = text
+        .lines()
+        .filter(|line| {
+            !line.contains("peenpose") && !line.contains("--set") && !line.contains("sha256")
+        })
+        .flat_map(str::split_whitespace)
+        .filter(|word| word.parse::<f64>().is_ok());
+    for number in numbers {
+        assert!(digits(number) <= 9, "too many digits: {number}\n{text}");
+    }
+    assert!(text.ends_with(" s\n") && !text.contains("\n\n\n"), "{text}");
+    assert!(
+        ["PASS", "FAIL", "NO FEASIBLE POSE"]
+            .iter()
+            .any(|verdict| text.contains(&format!("verdict      {verdict}"))),
+        "{text}"
+    );
+    assert!(text.contains("limited by   "));
+}
+
+#[test]
+fn sheets_are_as_they_were() {
+    for name in NAMES {
+        let text = sheet(&record(name));
+        let path = data(name, "txt");
+        if std::env::var_os("UPDATE_SHEETS").is_some() {
+            std::fs::write(&path, &text).unwrap();
+        }
+        let kept = std::fs::read_to_string(&path).unwrap();
+        assert!(text == kept, "{name} has changed to\n{text}");
+    }
+}
+
+#[test]
+fn sheets_are_well_formed() {
+    for name in NAMES {
+        assert_well_formed(&sheet(&record(name)));
+    }
+}
+
+#[test]
+fn sheets_do_not_depend_on_anything_but_the_record() {
+    let record = record("keyway");
+    let again = Record::from_json(&record.to_json().unwrap()).unwrap();
+    assert_eq!(sheet(&record), sheet(&again));
+}
+
+#[test]
+fn only_the_last_line_tells_the_wall_time() {
+    let first = record("keyway");
+    let mut second = first.clone();
+    second.work.seconds = 1234.5;
+    let lines = |record| {
+        let text = sheet(record);
+        let kept: Vec<String> = text.lines().map(str::to_owned).collect();
+        kept[..kept.len() - 1].to_vec()
+    };
+    assert_eq!(lines(&first), lines(&second));
+}
+
+#[test]
+fn the_first_lines_tell_what_to_set_whether_it_passes_and_what_limits_it() {
+    let text = sheet(&record("keyway"));
+    let head: Vec<&str> = text.lines().take(15).collect();
+    let head = head.join("\n");
+    for needed in [
+        "PASS",
+        "limited by",
+        "incidence",
+        "azimuth",
+        "standoff",
+        "speed",
+        "oiled",
+    ] {
+        assert!(head.contains(needed), "{needed} is not in\n{head}");
+    }
+}
+
+/// Applies a change to the best answer and to the same among the choices.
+fn change(record: &mut Record, change: impl Fn(&mut AnswerRecord)) {
+    change(&mut record.best);
+    change(&mut record.choices[0]);
+}
+
+#[test]
+fn long_names_do_not_break_the_columns() {
+    let mut record = record("given_fails");
+    let long = format!("housing.{}", "a_very_long_region_name_".repeat(5));
+    record.problem.title = "A long title ".repeat(20);
+    record.problem.file = format!("{}/part.yaml", "deep/".repeat(40));
+    change(&mut record, |answer| {
+        answer.contact = "a contact with a long name".into();
+        let receipt = answer.surfaces.remove("hub.bore").unwrap();
+        answer.surfaces.insert(long.clone(), receipt);
+        let verdict = answer.verdicts.iter_mut().find(|v| v.subject == "hub.bore");
+        verdict.unwrap().subject = long.clone();
+        answer.clearance_surface = Some(long.clone());
+    });
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    let joined: String = text.split_whitespace().collect();
+    assert!(joined.contains(&long));
+}
+
+#[test]
+fn a_verdict_that_the_shots_do_not_decide_is_marked() {
+    let mut record = record("keyway");
+    change(&mut record, |answer| answer.verdicts[1].certain = false);
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    assert!(text.contains("PASS near"), "{text}");
+    assert!(
+        text.contains("too near to be certain: normal_impulse"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_contact_that_passes_is_named_when_the_best_does_not() {
+    let mut record = record("long_keyway");
+    record.choices[2].passes = true;
+    assert!(sheet(&record).contains("but dry passes every verdict"));
+}
+
+#[test]
+fn a_search_that_ended_early_says_so() {
+    let mut record = record("keyway");
+    record.status = StatusRecord::Interrupted;
+    assert!(sheet(&record).contains("INTERRUPTED"));
+    record.status = StatusRecord::BudgetSpent;
+    assert!(sheet(&record).contains("BUDGET SPENT"));
+}
+
+#[test]
+fn a_jet_that_misses_altogether_is_told_without_numbers() {
+    let mut record = record("given_fails");
+    change(&mut record, |answer| {
+        if let Some(target) = &mut answer.target {
+            target.share_on_target = 0.0;
+            target.share_sticking = 0.0;
+        }
+        for verdict in &mut answer.verdicts {
+            if verdict.subject.ends_with("impulse") {
+                verdict.counted = 0;
+                verdict.share = 0.0;
+                verdict.interval_95 = [0.0, 1.0];
+                verdict.passes = false;
+            }
+        }
+    });
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    assert!(
+        text.contains("NONE of 65 536 shots hits hub.floor first"),
+        "{text}"
+    );
+    assert!(text.contains("nothing counted"), "{text}");
+}
+
+#[test]
+fn sticking_that_makes_friction_irrelevant_is_said_in_so_many_words() {
+    let mut record = record("keyway");
+    assert!(sheet(&record).contains("With damp and dry every shot sticks on first impact"));
+    record.choices.remove(0);
+    record.best = record.choices[0].clone();
+    let text = sheet(&record);
+    assert!(
+        text.contains(
+            "Every shot sticks on first impact: friction makes no difference to the target"
+        ),
+        "{text}"
+    );
+    // Contacts that slide are no proof of it.
+    for choice in &mut record.choices {
+        if let Some(target) = &mut choice.target {
+            target.share_sticking = 0.5;
+        }
+    }
+    assert!(!sheet(&record).contains("friction makes no difference"));
+}
+
+#[test]
+fn windows_are_rounded_inwards_and_keep_their_setting_inside() {
+    let mut record = record("keyway");
+    let window = &mut record.windows[0];
+    window.down.to = 67.911;
+    window.up.to = 67.928;
+    let text = sheet(&record);
+    let row = text
+        .lines()
+        .find(|line| line.contains("  incidence "))
+        .unwrap();
+    assert!(
+        row.contains("67.915") && row.contains("67.911 to 67.928 deg"),
+        "{row}"
+    );
+    record.windows[0].up.to = 75.987;
+    let text = sheet(&record);
+    assert!(text.contains("67.92 to 75.98 deg"), "{text}");
+}
