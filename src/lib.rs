@@ -127,3 +127,8 @@ pub mod validity;
 
 pub mod record;
 pub mod report;
+
+/// The example of the README, which must run as well.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
