@@ -277,7 +277,8 @@ impl Spread {
             *values.select_nth_unstable_by(place, f64::total_cmp).1
         };
         Self {
-            mean,
+            // The sum's rounding must not put the mean above every value.
+            mean: mean.min(largest),
             low: quantile(0.05),
             high: quantile(0.95),
             largest,

@@ -208,6 +208,13 @@ pub fn parse(dimension: Dimension, text: &str) -> Result<f64, UnitFault> {
     }
 }
 
+/// An angle in degrees for people and files, rounded to 1e-10 deg: 60 deg that became radians
+/// comes back as 60.
+pub fn degrees(radians: f64) -> f64 {
+    const DIGITS: f64 = 1e10;
+    (radians.to_degrees() * DIGITS).round() / DIGITS
+}
+
 /// Reads a bare number in decimal notation; neither `1_000` nor `0x10` nor `inf` is one.
 pub fn parse_number(text: &str) -> Option<f64> {
     match split_number(text.trim())? {

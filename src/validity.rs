@@ -1,7 +1,8 @@
 //! What the model leaves out, and how much that could matter at the answer.
 
 use crate::impact::Restitution;
-use crate::problem::setting::Choice;
+use crate::jet::Pose;
+use crate::problem::setting::{Choice, Setting};
 use crate::setup::Setup;
 
 /// Something that the model leaves out or that the user should know, with its number.
@@ -36,6 +37,7 @@ pub fn notes(setup: &Setup, choice: &Choice) -> Vec<Note> {
                 .into(),
         });
     }
+    notes.extend(nearest_within_tolerance(setup, choice));
     notes.extend(setup.scene.warnings().iter().map(|warning| Note {
         name: "mesh",
         value: 0.0,
@@ -55,6 +57,53 @@ fn shot_size(setup: &Setup) -> Note {
             radius * 1e3
         ),
     }
+}
+
+/// How near the nozzle comes to the part at the corners of the tolerance box, when that is nearer
+/// than it may: the answer keeps the clearance only as it is set.
+fn nearest_within_tolerance(setup: &Setup, choice: &Choice) -> Option<Note> {
+    let tolerance = &setup.problem.tolerance;
+    let nozzle = &setup.problem.nozzle;
+    let errors = [
+        (Setting::Incidence, tolerance.incidence),
+        (Setting::Azimuth, tolerance.azimuth),
+        (Setting::Standoff, tolerance.standoff),
+        (Setting::AimAlong, tolerance.aim_along),
+        (Setting::AimAcross, tolerance.aim_across),
+    ];
+    let mut corners = vec![*choice];
+    for (setting, error) in errors.into_iter().filter(|(_, error)| *error > 0.0) {
+        let both = |corner: &Choice| {
+            let value = setting.of(corner);
+            [
+                setting.with(corner, value - error),
+                setting.with(corner, value + error),
+            ]
+        };
+        corners = corners.iter().flat_map(both).collect();
+    }
+    let gap = |corner: &Choice| {
+        let pose = Pose::new(&setup.target.frame, corner);
+        let scene = &setup.scene;
+        scene.clearance(nozzle, &pose.exit, &pose.direction, nozzle.clearance)
+    };
+    let nearest = corners.iter().filter_map(gap);
+    let (gap, surface) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let surface = &setup.scene.surfaces()[surface as usize];
+    Some(Note {
+        name: "clearance_within_tolerance",
+        value: gap,
+        text: format!(
+            "within the setup tolerance the nozzle comes {} {surface}, where {:.2} mm are wanted: \
+             the clearance holds only for a nozzle that is set exactly",
+            if gap < 0.0 {
+                format!("{:.2} mm too far into", -gap * 1e3)
+            } else {
+                format!("within {:.2} mm of", gap * 1e3)
+            },
+            nozzle.clearance * 1e3,
+        ),
+    })
 }
 
 fn gravity(choice: &Choice) -> Note {

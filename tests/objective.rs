@@ -247,15 +247,11 @@ fn an_evaluation_counts_what_every_surface_receives() {
     let setup = setup(40e-3);
     let goals = &setup.problem.goals;
     for choice in [choice(45.0, 35.0, 9e-3, 1), choice(35.0, 80.0, 15e-3, 0)] {
-        let found = evaluate(
-            &setup,
-            &choice,
-            &Replicates::new(&setup.problem, 7, 32 * 100),
-        );
+        let fresh = Replicates::new(&setup.problem, 7, 32 * 100);
+        let found = evaluate(&setup, &choice, &fresh);
         let tracer = Tracer::new(&setup, &choice, choice.speed);
         let mut paths: Vec<Vec<PathImpact>> = Vec::new();
-        for number in 0..32 {
-            let samples = Samples::new(&setup.problem, Stream::Fresh(7 + number), 100);
+        for samples in &fresh.sets {
             for deviate in &samples.deviates {
                 let mut path = Vec::new();
                 tracer.follow(deviate, |impact| path.push(*impact));

@@ -10,6 +10,7 @@ use crate::jet::Pose;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use crate::solve::Answer;
+use crate::units::degrees;
 use crate::verdict::{Subject, Verdict};
 
 /// Settings for one contact and what they do.
@@ -253,8 +254,8 @@ impl ContactRecord {
 impl SettingsRecord {
     fn new(choice: &Choice) -> Self {
         Self {
-            incidence_deg: choice.incidence.to_degrees(),
-            azimuth_deg: choice.azimuth.to_degrees(),
+            incidence_deg: degrees(choice.incidence),
+            azimuth_deg: degrees(choice.azimuth),
             standoff_m: choice.standoff,
             speed_m_s: choice.speed,
             aim_along_m: choice.aim_along,

@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::window::key_and_unit;
 use crate::problem::equipment::Spread;
-use crate::problem::setting::Range;
+use crate::problem::setting::{Range, Setting};
 use crate::problem::{Problem, Source};
+use crate::units::degrees;
 
 /// The problem behind a result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -105,7 +107,7 @@ impl QuestionRecord {
             shot_mass_kg: problem.shot.mass(),
             size_spread: problem.shot.size_spread,
             exit_diameter_m: problem.jet.exit_diameter,
-            divergence_deg: problem.jet.divergence.to_degrees(),
+            divergence_deg: degrees(problem.jet.divergence),
             spread: match problem.jet.spread {
                 Spread::Uniform => "uniform".into(),
                 Spread::Gaussian => "gaussian".into(),
@@ -119,8 +121,8 @@ impl QuestionRecord {
                 rebound: goals.rebound.map(|goal| goal.allow),
             },
             tolerance: ToleranceRecord {
-                incidence_deg: tolerance.incidence.to_degrees(),
-                azimuth_deg: tolerance.azimuth.to_degrees(),
+                incidence_deg: degrees(tolerance.incidence),
+                azimuth_deg: degrees(tolerance.azimuth),
                 standoff_m: tolerance.standoff,
                 aim_along_m: tolerance.aim_along,
                 aim_across_m: tolerance.aim_across,
@@ -137,19 +139,17 @@ impl QuestionRecord {
 }
 
 fn ranges(problem: &Problem) -> Vec<RangeRecord> {
-    let settings = &problem.settings;
-    let range = |setting: &str, Range { min, max }: Range, scale: f64| RangeRecord {
-        setting: setting.into(),
-        min: min * scale,
-        max: max * scale,
+    let range = |setting: Setting| {
+        let Range { min, max } = problem.settings.range(setting)?;
+        let (key, shown) = key_and_unit(setting);
+        Some(RangeRecord {
+            setting: key,
+            min: shown(min),
+            max: shown(max),
+        })
     };
-    let degrees = 1_f64.to_degrees();
-    vec![
-        range("incidence_deg", settings.incidence, degrees),
-        range("azimuth_deg", settings.azimuth, degrees),
-        range("standoff_m", settings.standoff, 1.0),
-        range("speed_m_s", settings.speed, 1.0),
-        range("aim_along_m", settings.aim_along, 1.0),
-        range("aim_across_m", settings.aim_across, 1.0),
-    ]
+    Setting::OF_THE_NOZZLE
+        .into_iter()
+        .filter_map(range)
+        .collect()
 }

@@ -6,6 +6,7 @@ use super::answer::subject_name;
 use crate::problem::setting::Setting;
 use crate::setup::Setup;
 use crate::solve::{Drift, Turn, Window};
+use crate::units::degrees;
 
 /// How far one setting may drift alone before a verdict turns; deg for angles, else SI.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,24 +33,30 @@ pub struct DriftRecord {
 impl WindowRecord {
     /// The record of a window.
     pub fn new(setup: &Setup, window: &Window) -> Self {
-        let (unit, scale) = match window.setting {
-            Setting::Incidence | Setting::Azimuth => ("deg", 1_f64.to_degrees()),
-            Setting::Speed => ("m_s", 1.0),
-            Setting::Standoff | Setting::AimAlong | Setting::AimAcross => ("m", 1.0),
-            Setting::StaticFriction => ("", 1.0),
-        };
+        let (key, shown) = key_and_unit(window.setting);
         let drift = |drift: &Drift| DriftRecord {
-            to: drift.to * scale,
-            within: drift.within * scale,
+            to: shown(drift.to),
+            within: shown(drift.within),
             turns: drift.turns.map(|turn| match turn {
                 Turn::Verdict(subject) => subject_name(setup, subject),
                 Turn::Clearance => "clearance".into(),
             }),
         };
         Self {
-            setting: format!("{}_{unit}", window.setting.name()),
+            setting: key,
             down: drift(&window.down),
             up: drift(&window.up),
         }
     }
+}
+
+/// The key of a setting with its unit, and how an SI value is written in that unit.
+pub(super) fn key_and_unit(setting: Setting) -> (String, fn(f64) -> f64) {
+    let (unit, shown): (_, fn(f64) -> f64) = match setting {
+        Setting::Incidence | Setting::Azimuth => ("_deg", degrees),
+        Setting::Speed => ("_m_s", |value| value),
+        Setting::Standoff | Setting::AimAlong | Setting::AimAcross => ("_m", |value| value),
+        Setting::StaticFriction => ("", |value| value),
+    };
+    (format!("{}{unit}", setting.name()), shown)
 }

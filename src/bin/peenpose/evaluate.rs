@@ -16,13 +16,14 @@ use peenpose::validity;
 use peenpose::verdict::Verdict;
 
 use crate::args::EvaluateArgs;
-use crate::output::{self, Failure};
+use crate::output::{self, Failure, quoted};
 use crate::solve::use_threads;
 
 /// Evaluates settings and reports what they do.
 pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     use_threads(args.threads)?;
+    output::prepare(args.out.as_deref())?;
     let (mut setup, source) = Setup::load(&args.file)?;
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
@@ -266,9 +267,9 @@ fn command(args: &EvaluateArgs, setup: &Setup, choice: &Choice) -> String {
     let contact = &setup.problem.contacts[choice.contact].name;
     let mut command = format!(
         "peenpose evaluate {} --set incidence={}deg --set azimuth={}deg --set standoff={}m --set speed={}m/s",
-        args.file.display(),
-        choice.incidence.to_degrees(),
-        choice.azimuth.to_degrees(),
+        quoted(&args.file.display().to_string()),
+        units::degrees(choice.incidence),
+        units::degrees(choice.azimuth),
         choice.standoff,
         choice.speed,
     );
@@ -285,7 +286,9 @@ fn command(args: &EvaluateArgs, setup: &Setup, choice: &Choice) -> String {
     }
     command
         + &format!(
-            " --set contact={contact} --shots {} --seed {}",
-            args.shots, setup.problem.seed
+            " --set {} --shots {} --seed {}",
+            quoted(&format!("contact={contact}")),
+            args.shots,
+            setup.problem.seed
         )
 }

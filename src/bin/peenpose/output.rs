@@ -65,6 +65,27 @@ pub fn record(record: &Record, json: bool, out: Option<&Path>) -> Result<ExitCod
     })
 }
 
+/// Finds out before the work whether results can be written into a folder.
+pub fn prepare(out: Option<&Path>) -> Result<(), Failure> {
+    let Some(folder) = out else {
+        return Ok(());
+    };
+    std::fs::create_dir_all(folder)
+        .and_then(|()| temporary().tempfile_in(folder))
+        .map(drop)
+        .map_err(|error| Failure::from(format!("cannot write into {}: {error}", folder.display())))
+}
+
+/// A word of a command that a shell reads as one.
+pub fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
 /// Writes a file in one go: whoever looks sees the old file or the new one.
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
     let path = folder.join(name);

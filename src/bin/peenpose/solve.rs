@@ -10,13 +10,14 @@ use peenpose::units::{self, Dimension};
 use peenpose::validity;
 
 use crate::args::SolveArgs;
-use crate::output::{self, Failure};
+use crate::output::{self, Failure, quoted};
 use crate::progress::Watcher;
 
 /// Solves a problem file and reports the answer.
 pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     use_threads(args.threads)?;
+    output::prepare(args.out.as_deref())?;
     let (mut setup, source) = Setup::load(&args.file)?;
     if let Some(accuracy) = &args.accuracy {
         setup.problem.accuracy = accuracy_of(accuracy)?;
@@ -58,7 +59,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
 fn command(args: &SolveArgs, setup: &Setup) -> String {
     format!(
         "peenpose solve {} --accuracy '{} %' --seed {}",
-        args.file.display(),
+        quoted(&args.file.display().to_string()),
         setup.problem.accuracy * 100.0,
         setup.problem.seed
     )
