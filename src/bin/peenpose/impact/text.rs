@@ -1,7 +1,7 @@
 //! One impact and the tables as text.
 
 use peenpose::impact::zohdi::{self, Row};
-use peenpose::impact::{Law, Oblique, Outcome, Regime};
+use peenpose::impact::{Law, Oblique, Outcome};
 
 use super::Table;
 use super::json::{EnergiesJson, TableJson, VelocitiesJson, to_json};
