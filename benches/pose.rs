@@ -52,17 +52,22 @@ fn rays(criterion: &mut Criterion) {
     let blind = choice(63.0, 0.0, 8e-3, 48.0);
     for (name, setup, choice) in [
         (
-            "keyway exact",
+            "keyway 40 mm, 666 facets",
+            setup("keyway.yaml", facets(1.0)),
+            choice(78.0, 0.0, 8e-3, 9.4),
+        ),
+        (
+            "keyway 200 mm, exact",
             setup("keyway-long.yaml", Walls::Exact),
             steep,
         ),
         (
-            "keyway 700 facets",
+            "keyway 200 mm, 666 facets",
             setup("keyway-long.yaml", facets(1.0)),
             steep,
         ),
         (
-            "blind keyway 14588 facets",
+            "blind keyway, 14588 facets",
             setup("keyway-blind.yaml", Walls::Exact),
             blind,
         ),

@@ -81,10 +81,20 @@ impl Shear {
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
         let w = b[0] * a[1] - b[1] * a[0];
-        let outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
         let determinant = u + v + w;
+        if determinant == 0.0 {
+            return None;
+        }
+        let least = if determinant > 0.0 {
+            u.min(v).min(w)
+        } else {
+            -u.max(v).max(w)
+        };
+        if least < CLEARLY_OUTSIDE * determinant.abs() {
+            return None;
+        }
         let front = determinant > 0.0;
-        if determinant == 0.0 || outside && beyond(corners, [u, v, w], determinant, margin(front)) {
+        if least < 0.0 && beyond(corners, [u, v, w], determinant, margin(front)) {
             return None;
         }
         let t = (u * a[2] + v * b[2] + w * c[2]) / determinant;
@@ -92,16 +102,15 @@ impl Shear {
     }
 }
 
+/// Barycentric coordinate of a point that lies beyond an edge by more than the margin of any triangle
+/// that is higher than a million margins.
+const CLEARLY_OUTSIDE: f64 = -1e-6;
+
 /// Whether a point of a triangle's plane, given by its barycentric coordinates times
 /// `determinant`, lies beyond an edge by more than `margin`.
 #[inline]
 fn beyond(corners: &[Point3<f64>; 3], weights: [f64; 3], determinant: f64, margin: f64) -> bool {
-    // Far enough for any triangle that is higher than a million margins.
-    const CLEARLY: f64 = -1e-6;
     let shares = weights.map(|weight| weight / determinant);
-    if shares.iter().any(|&share| share < CLEARLY) {
-        return true;
-    }
     let [a, b, c] = *corners;
     let twice_area = (b - a).cross(&(c - a)).norm();
     let opposite = [c - b, a - c, b - a];
