@@ -13,8 +13,8 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhLeafCost};
 
 use super::LIFT;
 use super::mesh::{Mesh, Triangle};
-use super::prism::Start;
 use super::ray::{Crossing, Ray, Spot};
+use super::start::Start;
 use super::triangle::{Shear, lies_on};
 
 /// A mesh that is ready for rays.

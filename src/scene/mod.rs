@@ -5,6 +5,7 @@
 
 mod clearance;
 mod facets;
+mod form;
 pub mod mesh;
 pub mod mesh_file;
 mod part;
@@ -12,6 +13,7 @@ pub mod patch;
 mod prism;
 pub mod profile;
 pub mod ray;
+mod start;
 pub mod tessellate;
 mod triangle;
 

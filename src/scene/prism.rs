@@ -2,8 +2,10 @@
 
 use nalgebra::{Point2, Point3, Rotation3, Vector2, Vector3};
 
-use super::profile::{Curve, Profile};
+use super::form::Form;
+use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
+use super::start::Start;
 use crate::problem::part::{Ends, Place};
 
 /// A cross-section drawn along z from 0 to a length, somewhere in the scene.
@@ -22,24 +24,6 @@ pub struct Prism {
 struct Wall {
     form: Form,
     surface: u32,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Form {
-    Plane {
-        from: Point2<f64>,
-        tangent: Vector2<f64>,
-        length: f64,
-    },
-    Cylinder {
-        centre: Point2<f64>,
-        radius: f64,
-        /// +1 when free space is inside the circle.
-        side: f64,
-        /// The arc is where (p - centre) . towards >= reach.
-        towards: Vector2<f64>,
-        reach: f64,
-    },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -105,116 +89,99 @@ impl Prism {
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
-        let local = if self.moved {
-            Ray {
-                origin: Point3::from(self.rotation.inverse() * (ray.origin.coords - self.shift)),
-                direction: self.rotation.inverse() * ray.direction,
-            }
-        } else {
-            *ray
-        };
+        let local = self.to_own_frame(ray);
         let start = Start {
             piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
             front: leaving.map(|spot| spot.front),
         };
-        let mut best: Option<(Crossing, Vector3<f64>)> = None;
-        let mut nearest = limit;
-        let (origin, direction) = (local.origin.xy(), local.direction.xy());
+        let mut nearest = Nearest {
+            reach: limit,
+            found: None,
+        };
         for (index, wall) in self.walls.iter().enumerate() {
-            let piece = index as u32;
-            let mut on_it = start.piece == Some(piece);
-            if !on_it && start.front.is_some() && self.lies_on(wall, &local.origin) {
-                let front = wall.form.front(&origin);
-                let approach = direction.dot(&front);
-                if start.enters(approach) {
-                    if nearest > 0.0 {
-                        nearest = 0.0;
-                        best = Some((
-                            Crossing {
-                                distance: 0.0,
-                                front: approach < 0.0,
-                                piece,
-                                surface: wall.surface,
-                            },
-                            Vector3::new(front.x, front.y, 0.0),
-                        ));
-                    }
-                    continue;
-                }
-                on_it = true;
-            }
-            for t in wall.form.roots(&origin, &direction, on_it) {
-                // NaN, for no crossing, is neither ahead nor nearer.
-                let counts = t > 0.0 && t < nearest;
-                if !counts {
-                    continue;
-                }
-                let z = local.origin.z + t * local.direction.z;
-                let point = origin + direction * t;
-                if z < -self.slack
-                    || z > self.length + self.slack
-                    || !wall.form.spans(&point, self.slack)
-                {
-                    continue;
-                }
-                let front = wall.form.front(&point);
-                let approach = direction.dot(&front);
-                let farther = if start.sees(approach < 0.0) {
-                    0.0
-                } else {
-                    // Seen from behind, it ends exactly where it ends.
-                    if z < 0.0 || z > self.length || !wall.form.spans(&point, 0.0) {
-                        continue;
-                    }
-                    self.slack
-                };
-                if t + farther >= nearest {
-                    continue;
-                }
-                nearest = t + farther;
-                best = Some((
-                    Crossing {
-                        distance: t,
-                        front: approach < 0.0,
-                        piece,
-                        surface: wall.surface,
-                    },
-                    Vector3::new(front.x, front.y, 0.0),
-                ));
-            }
+            self.cross_wall(index as u32, wall, &local, &start, &mut nearest);
         }
         for (index, cap) in self.caps.iter().enumerate() {
             let piece = (self.walls.len() + index) as u32;
-            if start.piece == Some(piece) {
-                continue;
-            }
-            let approach = local.direction.z * cap.facing;
-            let height = cap.z - local.origin.z;
-            let on_it = start.front.is_some() && height.abs() <= self.slack && self.holds(origin);
-            let t = if on_it {
-                if !start.enters(approach) {
-                    continue;
-                }
-                0.0
-            } else {
-                height / local.direction.z
-            };
-            let counts = (on_it || t > 0.0) && t < nearest;
-            if !counts || !self.holds(origin + direction * t) {
-                continue;
-            }
-            nearest = t;
-            best = Some((
-                Crossing {
-                    distance: t,
-                    front: approach < 0.0,
-                    piece,
-                    surface: cap.surface,
-                },
-                Vector3::new(0.0, 0.0, cap.facing),
-            ));
+            self.cross_cap(piece, cap, &local, &start, &mut nearest);
         }
-        best.map(|(crossing, normal)| (crossing, self.rotation * normal))
+        let (crossing, normal) = nearest.found?;
+        Some((crossing, self.rotation * normal))
+    }
+
+    fn to_own_frame(&self, ray: &Ray) -> Ray {
+        if !self.moved {
+            return *ray;
+        }
+        let back = self.rotation.inverse();
+        Ray {
+            origin: Point3::from(back * (ray.origin.coords - self.shift)),
+            direction: back * ray.direction,
+        }
+    }
+
+    /// Takes the crossing with a wall if it is the nearest.
+    #[inline]
+    fn cross_wall(&self, piece: u32, wall: &Wall, ray: &Ray, start: &Start, nearest: &mut Nearest) {
+        let (origin, direction) = (ray.origin.xy(), ray.direction.xy());
+        let surface = wall.surface;
+        let mut on_it = start.piece == Some(piece);
+        if !on_it && start.front.is_some() && self.lies_on(wall, &ray.origin) {
+            let front = wall.form.front(&origin);
+            let approach = direction.dot(&front);
+            if start.enters(approach) {
+                nearest.take(0.0, 0.0, approach, flat(front), piece, surface);
+                return;
+            }
+            on_it = true;
+        }
+        for t in wall.form.roots(&origin, &direction, on_it) {
+            // NaN, for no crossing, is neither ahead nor nearer.
+            let counts = t > 0.0 && t < nearest.reach;
+            if !counts {
+                continue;
+            }
+            let z = ray.origin.z + t * ray.direction.z;
+            let point = origin + direction * t;
+            let spans = |slack: f64| {
+                z >= -slack && z <= self.length + slack && wall.form.spans(&point, slack)
+            };
+            if !spans(self.slack) {
+                continue;
+            }
+            let front = wall.form.front(&point);
+            let approach = direction.dot(&front);
+            let is_seen = start.sees(approach < 0.0);
+            // Seen from behind, it ends exactly where it ends, and yields to one seen at an edge.
+            if is_seen || spans(0.0) {
+                let farther = if is_seen { 0.0 } else { self.slack };
+                nearest.take(t, farther, approach, flat(front), piece, surface);
+            }
+        }
+    }
+
+    /// Takes the crossing with a cap if it is the nearest.
+    fn cross_cap(&self, piece: u32, cap: &Cap, ray: &Ray, start: &Start, nearest: &mut Nearest) {
+        if start.piece == Some(piece) {
+            return;
+        }
+        let origin = ray.origin.xy();
+        let approach = ray.direction.z * cap.facing;
+        let height = cap.z - ray.origin.z;
+        let starts_on_it =
+            start.front.is_some() && height.abs() <= self.slack && self.holds(origin);
+        let t = if !starts_on_it {
+            height / ray.direction.z
+        } else if start.enters(approach) {
+            0.0
+        } else {
+            return;
+        };
+        let counts = (starts_on_it || t > 0.0) && t < nearest.reach;
+        if counts && self.holds(origin + ray.direction.xy() * t) {
+            let normal = Vector3::new(0.0, 0.0, cap.facing);
+            nearest.take(t, 0.0, approach, normal, piece, cap.surface);
+        }
     }
 
     /// Whether a point counts as one of the wall.
@@ -242,145 +209,41 @@ impl Prism {
     }
 }
 
-/// Where a ray starts, and what it therefore must not hit.
-///
-/// In a corner the start of a rebound lies on more than one wall, and rounding may put it on
-/// either side of those that it did not come from. The shot is known to be on one side of them,
-/// though: a wall on which the start lies is hit at once when the shot heads into it from that
-/// side, and not at all otherwise.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Start {
-    pub piece: Option<u32>,
-    pub front: Option<bool>,
+/// The nearest crossing so far, with the normal on the front there.
+struct Nearest {
+    /// Only nearer crossings are taken.
+    reach: f64,
+    found: Option<(Crossing, Vector3<f64>)>,
 }
 
-impl Start {
-    /// Whether a wall that shows this side is one that the shot can reach without passing through
-    /// another, as far as is known.
+impl Nearest {
+    /// Takes a crossing if it is nearer, counted as `farther` away than it is.
     #[inline]
-    pub fn sees(&self, front: bool) -> bool {
-        self.front.unwrap_or(true) == front
-    }
-
-    /// Whether a shot heads into a wall on which it starts, given the direction's component along
-    /// the wall's front normal.
-    #[inline]
-    pub fn enters(&self, approach: f64) -> bool {
-        approach != 0.0 && self.front == Some(approach < 0.0)
-    }
-}
-
-impl Form {
-    fn of(curve: &Curve) -> Self {
-        match *curve {
-            Curve::Line { from, to } => Self::Plane {
-                from,
-                tangent: (to - from).normalize(),
-                length: (to - from).norm(),
-            },
-            Curve::Arc {
-                centre,
-                radius,
-                start,
-                sweep,
-            } => {
-                let (sin, cos) = (start + sweep / 2.0).sin_cos();
-                let whole = sweep.abs() >= std::f64::consts::TAU * (1.0 - 1e-15);
-                Self::Cylinder {
-                    centre,
-                    radius,
-                    side: sweep.signum(),
-                    towards: Vector2::new(cos, sin),
-                    reach: if whole {
-                        f64::NEG_INFINITY
-                    } else {
-                        radius * (sweep / 2.0).cos()
-                    },
-                }
-            }
+    fn take(
+        &mut self,
+        distance: f64,
+        farther: f64,
+        approach: f64,
+        front_normal: Vector3<f64>,
+        piece: u32,
+        surface: u32,
+    ) {
+        if distance + farther >= self.reach {
+            return;
         }
-    }
-
-    /// Distances at which a line crosses the unbounded plane or cylinder, in order; NaN for none.
-    ///
-    /// A line that starts `on_it` meets a plane nowhere else and a cylinder once more.
-    #[inline]
-    fn roots(&self, origin: &Point2<f64>, direction: &Vector2<f64>, on_it: bool) -> [f64; 2] {
-        match *self {
-            Self::Plane { .. } if on_it => [f64::NAN; 2],
-            Self::Plane { from, tangent, .. } => {
-                let front = perpendicular(tangent);
-                [
-                    (from - origin).dot(&front) / direction.dot(&front),
-                    f64::NAN,
-                ]
-            }
-            Self::Cylinder { centre, radius, .. } => {
-                let offset = origin - centre;
-                let (a, half_b) = (direction.norm_squared(), offset.dot(direction));
-                if on_it {
-                    return [-2.0 * half_b / a, f64::NAN];
-                }
-                let c = (offset.norm() - radius) * (offset.norm() + radius);
-                let discriminant = half_b * half_b - a * c;
-                // Citardauq's form: the root near the start does not suffer from cancellation.
-                let q = -(half_b + discriminant.sqrt().copysign(half_b));
-                let (first, second) = (q / a, c / q);
-                if second < first {
-                    [second, first]
-                } else {
-                    [first, second]
-                }
-            }
-        }
-    }
-
-    /// Whether a point of the unbounded plane or cylinder lies on the wall.
-    #[inline]
-    fn spans(&self, point: &Point2<f64>, slack: f64) -> bool {
-        match *self {
-            Self::Plane {
-                from,
-                tangent,
-                length,
-            } => {
-                let along = (point - from).dot(&tangent);
-                along >= -slack && along <= length + slack
-            }
-            Self::Cylinder {
-                centre,
-                towards,
-                reach,
-                ..
-            } => (point - centre).dot(&towards) >= reach - slack,
-        }
-    }
-
-    /// Whether a point is within `slack` of the wall.
-    #[inline]
-    fn lies_on(&self, point: &Point2<f64>, slack: f64) -> bool {
-        let near = match *self {
-            Self::Plane { from, tangent, .. } => (point - from).perp(&tangent).abs() <= slack,
-            Self::Cylinder { centre, radius, .. } => {
-                let offset = (point - centre).norm_squared() - radius * radius;
-                offset.abs() <= 2.0 * radius * slack
-            }
+        self.reach = distance + farther;
+        let crossing = Crossing {
+            distance,
+            front: approach < 0.0,
+            piece,
+            surface,
         };
-        near && self.spans(point, slack)
-    }
-
-    /// Unit normal on the front, at a point of the wall.
-    #[inline]
-    fn front(&self, point: &Point2<f64>) -> Vector2<f64> {
-        match *self {
-            Self::Plane { tangent, .. } => perpendicular(tangent),
-            Self::Cylinder { centre, side, .. } => (centre - point).normalize() * side,
-        }
+        self.found = Some((crossing, front_normal));
     }
 }
 
-/// A quarter turn counter-clockwise.
+/// A direction of the cross-section in space.
 #[inline]
-fn perpendicular(v: Vector2<f64>) -> Vector2<f64> {
-    Vector2::new(-v.y, v.x)
+fn flat(direction: Vector2<f64>) -> Vector3<f64> {
+    Vector3::new(direction.x, direction.y, 0.0)
 }

@@ -1,0 +1,29 @@
+//! Where a ray starts, and what follows for the surfaces there.
+
+/// Where a ray starts, and what it therefore must not hit.
+///
+/// In a corner the start of a rebound lies on more than one wall, and rounding may put it on
+/// either side of those that it did not come from. The shot is known to be on one side of them,
+/// though: a wall on which the start lies is hit at once when the shot heads into it from that
+/// side, and not at all otherwise.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    pub piece: Option<u32>,
+    pub front: Option<bool>,
+}
+
+impl Start {
+    /// Whether a wall that shows this side is one that the shot can reach without passing through
+    /// another, as far as is known.
+    #[inline]
+    pub fn sees(&self, front: bool) -> bool {
+        self.front.unwrap_or(true) == front
+    }
+
+    /// Whether a shot heads into a wall on which it starts, given the direction's component along
+    /// the wall's front normal.
+    #[inline]
+    pub fn enters(&self, approach: f64) -> bool {
+        approach != 0.0 && self.front == Some(approach < 0.0)
+    }
+}
