@@ -22,7 +22,7 @@ use nalgebra::{Point3, Vector3};
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::Fault;
 use crate::problem::part::Part;
-use part::{BuiltPart, Geometry};
+use part::{BuiltPart, Fronts, Geometry};
 use ray::{Hit, Ray, Spot};
 
 /// Two points nearer than this share of the scene's size count as one.
@@ -194,7 +194,9 @@ impl Scene {
         })
     }
 
-    /// The point of a surface nearest to a given point, and the unit normal on the front there.
+    /// The point of a surface nearest to a given point, and the unit normal there towards free space:
+    /// on the front, or for an open mesh, whose winding tells nothing, on the side that is more
+    /// enclosed.
     pub fn nearest_on_surface(
         &self,
         to: &Point3<f64>,
@@ -215,11 +217,37 @@ impl Scene {
             direction: -facet_normal,
         };
         let wall = self.parts[part as usize].first_crossing(&ray, None, false, f64::INFINITY);
-        let normal = match wall {
+        let front = match wall {
             Some((crossing, front)) if crossing.surface == surface && crossing.front => front,
             _ => facet_normal,
         };
+        let normal = match self.parts[part as usize].fronts {
+            Fronts::Free => front,
+            Fronts::Solid => -front,
+            Fronts::Unknown => self.enclosed_side(&nearest.point, &front),
+        };
         Some((nearest.point, normal))
+    }
+
+    /// Of the two sides of a surface the one from which more directions meet the scene; the front
+    /// when the other has not clearly more.
+    fn enclosed_side(&self, point: &Point3<f64>, front: &Vector3<f64>) -> Vector3<f64> {
+        const DIRECTIONS: usize = 256;
+        let height = 1e-4 * self.size;
+        let met = |side: Vector3<f64>| {
+            let origin = point + side * height;
+            let hits = (0..DIRECTIONS).filter(|&index| {
+                let direction = spiral_direction(index, DIRECTIONS);
+                let direction = direction * direction.dot(&side).signum();
+                self.first_hit(&Ray { origin, direction }, None).is_some()
+            });
+            hits.count()
+        };
+        if met(-front) > met(*front) + DIRECTIONS / 8 {
+            -front
+        } else {
+            *front
+        }
     }
 }
 
@@ -230,4 +258,13 @@ fn farthest_coordinate(geometries: &[Geometry]) -> f64 {
     vertices.fold(0.0, |largest: f64, vertex| {
         largest.max(vertex.coords.amax())
     })
+}
+
+/// One of `count` directions that are spread evenly over the sphere along a golden spiral.
+fn spiral_direction(index: usize, count: usize) -> Vector3<f64> {
+    const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+    let z = 1.0 - (2.0 * index as f64 + 1.0) / count as f64;
+    let (sin, cos) = (GOLDEN_ANGLE * index as f64).sin_cos();
+    let radius = (1.0 - z * z).sqrt();
+    Vector3::new(radius * cos, radius * sin, z)
 }

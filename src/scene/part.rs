@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::Walls;
 use super::facets::Facets;
 use super::mesh::Mesh;
-use super::mesh_file;
+use super::mesh_file::{self, MeshWarning};
 use super::prism::Prism;
 use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
@@ -18,7 +18,33 @@ use crate::problem::part::{Ends, Part, Shape};
 pub(super) struct BuiltPart {
     /// Its triangles: for distances, for the target patch, and for rays where there is no prism.
     pub facets: Facets,
+    /// What the fronts of its surfaces say about where the free space is.
+    pub fronts: Fronts,
     prism: Option<Prism>,
+}
+
+/// What the fronts of a part's surfaces say about where the free space is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fronts {
+    /// Free space is in front.
+    Free,
+    /// A closed mesh that is inside out: free space is behind.
+    Solid,
+    /// An open mesh, whose winding nobody had to care about.
+    Unknown,
+}
+
+impl Fronts {
+    fn of(warnings: &[MeshWarning]) -> Self {
+        let noticed = |is: fn(&MeshWarning) -> bool| warnings.iter().any(is);
+        if noticed(|warning| matches!(warning, MeshWarning::InsideOut { .. })) {
+            Self::Solid
+        } else if noticed(|warning| matches!(warning, MeshWarning::OpenEdges { .. })) {
+            Self::Unknown
+        } else {
+            Self::Free
+        }
+    }
 }
 
 /// The geometry of a part before its surfaces are numbered.
@@ -26,6 +52,7 @@ pub(super) struct Geometry {
     pub mesh: Mesh,
     /// What the reader of a mesh file noticed.
     pub warnings: Vec<String>,
+    fronts: Fronts,
     prism: Option<(Profile, f64, Ends)>,
 }
 
@@ -35,7 +62,8 @@ const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
 impl Geometry {
     /// The geometry of a part in its place.
     pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
-        let (mesh, warnings, prism) = match &part.shape {
+        let mut warnings = Vec::new();
+        let (mesh, prism) = match &part.shape {
             Shape::Keyway(keyway) => prismatic(
                 Profile::keyway(keyway),
                 keyway.length,
@@ -52,23 +80,25 @@ impl Geometry {
                 length,
                 ends,
             } => prismatic(Profile::outline(profile), *length, *ends, walls),
-            Shape::Box { min, max } => (tessellate::block(*min, *max), Vec::new(), None),
+            Shape::Box { min, max } => (tessellate::block(*min, *max), None),
             Shape::Mesh {
                 path,
                 metres_per_unit,
                 regions,
             } => {
-                let (mesh, warnings) =
+                let (mesh, found) =
                     mesh_file::read(path, *metres_per_unit, regions).map_err(|fault| {
                         Fault::at_key(format!("scene.{}.mesh", part.name), fault.to_string())
                     })?;
-                let named = |warning| format!("part `{}`: {warning}", part.name);
-                (mesh, warnings.iter().map(named).collect(), None)
+                warnings = found;
+                (mesh, None)
             }
         };
+        let named = |warning| format!("part `{}`: {warning}", part.name);
         Ok(Self {
             mesh: tessellate::placed(mesh, &part.place),
-            warnings,
+            fronts: Fronts::of(&warnings),
+            warnings: warnings.iter().map(named).collect(),
             prism,
         })
     }
@@ -77,6 +107,7 @@ impl Geometry {
     pub fn build(self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
         BuiltPart {
             facets: Facets::new(self.mesh, surface_base, slack),
+            fronts: self.fronts,
             prism: self.prism.map(|(profile, length, ends)| {
                 Prism::new(&profile, length, ends, &part.place, surface_base, slack)
             }),
@@ -84,17 +115,17 @@ impl Geometry {
     }
 }
 
-type Built = (Mesh, Vec<String>, Option<(Profile, f64, Ends)>);
+type Built = (Mesh, Option<(Profile, f64, Ends)>);
 
 fn prismatic(profile: Profile, length: f64, ends: Ends, walls: Walls) -> Built {
     match walls {
         Walls::Exact => {
             let mesh = tessellate::prism(&profile, length, ends, CHORD_ANGLE);
-            (mesh, Vec::new(), Some((profile, length, ends)))
+            (mesh, Some((profile, length, ends)))
         }
         Walls::Facets { chord_angle } => {
             let mesh = tessellate::prism(&profile, length, ends, chord_angle);
-            (mesh, Vec::new(), None)
+            (mesh, None)
         }
     }
 }
