@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use crate::impact::{Contact, Sphere};
+use crate::impact::Contact;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
 use crate::problem::part::{Part, Target};
@@ -91,14 +91,6 @@ impl Setup {
             target,
             surfaces,
         })
-    }
-
-    /// The mean shot.
-    pub fn sphere(&self) -> Sphere {
-        Sphere {
-            radius: self.problem.shot.radius,
-            density: self.problem.shot.density,
-        }
     }
 }
 

@@ -14,6 +14,8 @@ pub struct Tracer<'a> {
     aim: Aim,
     contact: Contact,
     speed: f64,
+    /// Of the mean shot, kg.
+    mass: f64,
 }
 
 /// One impact of a path.
@@ -64,6 +66,7 @@ impl<'a> Tracer<'a> {
             aim: Aim::new(choice),
             contact,
             speed,
+            mass: setup.problem.shot.mass(),
         }
     }
 
@@ -86,7 +89,7 @@ impl<'a> Tracer<'a> {
     ) -> (End, usize) {
         let setup = self.setup;
         let limits = setup.problem.paths;
-        let mass = setup.problem.shot.mass() * deviate.mass;
+        let mass = self.mass * deviate.mass;
         let mut ray = start;
         let mut velocity = ray.direction * (self.speed * deviate.speed);
         let mut rolling = Vector3::zeros();

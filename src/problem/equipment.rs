@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::impact::Contact;
+use crate::impact::{Contact, Sphere};
 use crate::problem::setting::Range;
 
 /// The shot: solid spheres.
@@ -19,7 +19,11 @@ pub struct Shot {
 impl Shot {
     /// Mass of a sphere of the mean radius, kg.
     pub fn mass(&self) -> f64 {
-        4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3) * self.density
+        Sphere {
+            radius: self.radius,
+            density: self.density,
+        }
+        .mass()
     }
 }
 
