@@ -1,16 +1,18 @@
 //! What a choice of settings does, measured on shots that nothing was tuned on.
 
+mod ledger;
+
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::impact::Regime;
-use crate::jet::{Replicates, Samples};
-use crate::objective::{Sums, Tallier, Tally, Terms};
+use crate::jet::Replicates;
+use crate::objective::{Hits, Sums, Terms};
 use crate::problem::goal::Goals;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
-use crate::trace::{End, PathImpact, Tracer};
+use crate::trace::End;
+use ledger::{Ledger, SurfaceSums};
 
 /// What a choice of settings does, with its statistical errors.
 #[derive(Clone, Debug)]
@@ -80,10 +82,10 @@ pub struct Spread {
 
 /// Evaluates `choice` on fresh shots.
 pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluation {
-    let replicates: Vec<Replicate> = fresh
+    let replicates: Vec<Ledger> = fresh
         .sets
         .par_iter()
-        .map(|samples| Replicate::trace(setup, choice, samples))
+        .map(|samples| Ledger::of(setup, choice, samples))
         .collect();
     let shots = fresh.shots();
     let goals = &setup.problem.goals;
@@ -135,93 +137,6 @@ fn jackknife(sums: &[Sums], terms: impl Fn(&Sums) -> Terms) -> (Terms, Terms, f6
     (pooled(None), errors, error(Terms::total))
 }
 
-/// The shots of one scrambling.
-struct Replicate {
-    tally: Tally,
-    sticking: usize,
-    surfaces: Vec<SurfaceSums>,
-    ends: BTreeMap<End, usize>,
-}
-
-#[derive(Clone, Default)]
-struct SurfaceSums {
-    shots: usize,
-    over: usize,
-    impacts_by_number: Vec<usize>,
-    over_by_number: Vec<usize>,
-    normal_impulses: Vec<f64>,
-}
-
-impl Replicate {
-    fn trace(setup: &Setup, choice: &Choice, samples: &Samples) -> Self {
-        let tracer = Tracer::new(setup, choice, choice.speed);
-        let mut ends = BTreeMap::new();
-        let mut sticking = 0;
-        let mut surfaces = vec![SurfaceSums::default(); setup.surfaces.len()];
-        let mut tallier = Tallier::new(setup, choice.speed, samples.deviates.len());
-        let mut path: Vec<PathImpact> = Vec::new();
-        for deviate in &samples.deviates {
-            path.clear();
-            let (end, rays) = tracer.follow(deviate, |impact| path.push(*impact));
-            *ends.entry(end).or_insert(0) += 1;
-            tallier.add_shot(&path, rays);
-            sticking += usize::from(
-                path.first()
-                    .is_some_and(|first| first.on_target && first.regime == Regime::Stick),
-            );
-            for (index, impact) in path.iter().enumerate() {
-                if impact.on_target {
-                    continue;
-                }
-                let surface = impact.surface as usize;
-                let earlier = &path[..index];
-                let again = |over: bool| {
-                    earlier.iter().any(|other| {
-                        !other.on_target
-                            && other.surface == impact.surface
-                            && (!over || is_over(setup, other))
-                    })
-                };
-                surfaces[surface].add(impact, is_over(setup, impact), again);
-            }
-        }
-        Self {
-            tally: tallier.finish(),
-            sticking,
-            surfaces,
-            ends,
-        }
-    }
-}
-
-/// Whether an impact exceeds what its surface may take.
-fn is_over(setup: &Setup, impact: &PathImpact) -> bool {
-    let allow = setup.surfaces[impact.surface as usize].allow;
-    allow.is_some_and(|allow| impact.normal_impulse > allow)
-}
-
-impl SurfaceSums {
-    /// Adds an impact; `again(over)` tells whether the shot had hit the surface before (with an
-    /// impact over what it may take).
-    fn add(&mut self, impact: &PathImpact, over: bool, again: impl Fn(bool) -> bool) {
-        count_at(&mut self.impacts_by_number, impact.number);
-        self.normal_impulses.push(impact.normal_impulse);
-        self.shots += usize::from(!again(false));
-        if over {
-            count_at(&mut self.over_by_number, impact.number);
-            self.over += usize::from(!again(true));
-        }
-    }
-}
-
-/// Counts one more at a 1-based place.
-fn count_at(counts: &mut Vec<usize>, number: usize) {
-    if counts.len() < number {
-        counts.resize(number, 0);
-    }
-    counts[number - 1] += 1;
-}
-
 fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {
     into.resize(into.len().max(counts.len()), 0);
     for (total, count) in into.iter_mut().zip(counts) {
@@ -243,10 +158,13 @@ fn receipt<'a>(parts: impl Iterator<Item = &'a SurfaceSums>) -> SurfaceReceipt {
     receipt
 }
 
-fn target_receipt(goals: &Goals, speed: f64, replicates: &[Replicate]) -> TargetReceipt {
-    let impulses = || replicates.iter().flat_map(|r| &r.tally.hits);
-    let normal: Vec<f64> = impulses().map(|hit| hit.normal * speed).collect();
-    let tangential: Vec<f64> = impulses().map(|hit| hit.tangential * speed).collect();
+fn target_receipt(goals: &Goals, speed: f64, replicates: &[Ledger]) -> TargetReceipt {
+    let at_speed = |of: fn(&Hits) -> &Vec<f64>| -> Vec<f64> {
+        let all = replicates.iter().flat_map(|ledger| of(&ledger.tally.hits));
+        all.map(|impulse| impulse * speed).collect()
+    };
+    let normal = at_speed(|hits| &hits.normal);
+    let tangential = at_speed(|hits| &hits.tangential);
     let goal = goals.normal_impulse;
     let off = |n: &&f64| (**n / goal.target - 1.0).abs() > goal.tolerance;
     let over = |f: &&f64| {

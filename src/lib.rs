@@ -107,6 +107,7 @@
 
 // In reading order: a module builds on those above it.
 
+pub mod precision;
 pub mod units;
 
 pub mod impact;

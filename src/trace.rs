@@ -1,12 +1,21 @@
 //! Shots through the scene: from the exit, through every impact, to where the path ends.
 
+#[cfg(test)]
+mod tests;
+mod volley;
+
+pub(crate) use volley::{Volley, Witness, truth};
+
 use nalgebra::{Point3, Vector3};
 
-use crate::impact::{Contact, Regime, rebound};
+use crate::impact::{Contact, Friction, Regime, Restitution, rebound};
 use crate::jet::{Aim, Deviate};
+use crate::precision::{Real, Triple, dot, unit};
 use crate::problem::setting::Choice;
+use crate::scene::lanes::LANES;
 use crate::scene::ray::{Ray, Spot};
 use crate::setup::Setup;
+use volley::fire;
 
 /// Traces the shots of one choice of settings.
 pub struct Tracer<'a> {
@@ -16,6 +25,15 @@ pub struct Tracer<'a> {
     speed: f64,
     /// Of the mean shot, kg.
     mass: f64,
+    has_deflectors: bool,
+    /// The contact, when it is the same on every surface and at every speed.
+    only_contact: Option<OnlyContact>,
+}
+
+/// A contact that is the same everywhere.
+struct OnlyContact {
+    restitution: f64,
+    friction: Friction,
 }
 
 /// One impact of a path.
@@ -55,13 +73,26 @@ pub enum End {
 }
 
 /// Hits on deflectors that one flight may have before it counts as caught between them.
-const MOST_DEFLECTIONS: usize = 100;
+const MOST_DEFLECTIONS: u32 = 100;
 
 impl<'a> Tracer<'a> {
     /// A tracer of shots that leave the exit at `speed` (m/s) times their own factor.
     pub fn new(setup: &'a Setup, choice: &Choice, speed: f64) -> Self {
         let contact = setup.problem.contacts[choice.contact].at(choice.static_friction);
+        let has_one = setup
+            .surfaces
+            .iter()
+            .all(|surface| surface.contact.is_none());
+        let only_contact = match contact.restitution {
+            Restitution::Constant(restitution) if has_one => Some(OnlyContact {
+                restitution,
+                friction: Friction::of(&contact),
+            }),
+            _ => None,
+        };
         Self {
+            has_deflectors: setup.surfaces.iter().any(|surface| surface.deflector),
+            only_contact,
             setup,
             aim: Aim::new(choice),
             contact,
@@ -94,7 +125,7 @@ impl<'a> Tracer<'a> {
         let mut velocity = ray.direction * (self.speed * deviate.speed);
         let mut rolling = Vector3::zeros();
         let mut leaving: Option<Spot> = None;
-        let least_energy = limits.least_energy * energy(&velocity, &rolling);
+        let least_energy = limits.least_energy * energy(velocity.into(), rolling.into());
         let (mut number, mut deflections, mut rays) = (0, 0, 0);
         loop {
             rays += 1;
@@ -102,8 +133,7 @@ impl<'a> Tracer<'a> {
                 return (End::Left, rays);
             };
             let surface = &setup.surfaces[hit.surface as usize];
-            let contact = surface.contact.unwrap_or(self.contact);
-            let contact = perturbed(contact, deviate);
+            let contact = self.contact_with(hit.surface as usize, deviate);
             let Some(after) = rebound(&contact, &velocity, &rolling, &hit.normal) else {
                 return (End::Left, rays);
             };
@@ -127,24 +157,46 @@ impl<'a> Tracer<'a> {
             if after.departure == 0.0 {
                 return (End::Stays, rays);
             }
-            if energy(&velocity, &rolling) < least_energy {
+            if energy(velocity.into(), rolling.into()) < least_energy {
                 return (End::Spent, rays);
             }
-            if number == limits.impacts || deflections == MOST_DEFLECTIONS {
+            if number == limits.impacts || deflections == MOST_DEFLECTIONS as usize {
                 return (End::Limit, rays);
             }
             ray = Ray {
                 origin: hit.point,
-                direction: velocity.normalize(),
+                direction: unit(velocity.into()).into(),
             };
             leaving = Some(hit.spot);
         }
     }
+
+    /// Fires shots in volleys and tells the witness about them; `end_volley` is told the shots of
+    /// each volley and the rays that they took together.
+    pub(crate) fn fire<R: Real, W: Witness<R>>(
+        &self,
+        shots: &[Deviate],
+        witness: &mut W,
+        mut end_volley: impl FnMut(&mut W, &[Deviate], usize),
+    ) {
+        let mut volley = Volley::none();
+        for shots in shots.chunks(LANES) {
+            let rays = fire(self, &mut volley, shots, witness);
+            end_volley(witness, shots, rays);
+        }
+    }
+
+    /// The contact of a shot with a surface, when restitution and friction are not exactly known.
+    fn contact_with(&self, surface: usize, deviate: &Deviate) -> Contact {
+        let contact = self.setup.surfaces[surface].contact.unwrap_or(self.contact);
+        perturbed(contact, deviate)
+    }
 }
 
 /// Kinetic energy per unit mass of a solid sphere, translation and rotation, J/kg.
-fn energy(velocity: &Vector3<f64>, rolling: &Vector3<f64>) -> f64 {
-    0.5 * velocity.norm_squared() + 0.2 * rolling.norm_squared()
+#[inline(always)]
+fn energy<R: Real>(velocity: Triple<R>, rolling: Triple<R>) -> R {
+    R::of(0.5) * dot(velocity, velocity) + R::of(0.2) * dot(rolling, rolling)
 }
 
 /// The contact that a shot meets when restitution and friction are not exactly known.

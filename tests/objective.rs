@@ -141,7 +141,7 @@ fn the_best_speed_does_not_need_hits_or_limits() {
     let one = Tally {
         shots: 1,
         weight: 1.0,
-        hits: vec![hit],
+        hits: [hit].into_iter().collect(),
         ..Tally::default()
     };
     // 40 uN s at 4 uN s per m/s.
@@ -171,7 +171,7 @@ proptest! {
     ) {
         let weight = missed + hits.iter().map(|hit| hit.weight).sum::<f64>();
         prop_assume!(weight > 0.0);
-        let tally = Tally { shots: hits.len() + 1, weight, missed, hits, rebound, rays: 0 };
+        let tally = Tally { shots: hits.len() + 1, weight, missed, hits: hits.into_iter().collect(), rebound, rays: 0 };
         let mut goals = common::keyway(0.04).goals;
         goals.normal_impulse.weight = weights[0];
         goals.tangential_impulse =

@@ -1,40 +1,49 @@
-//! How much tangential impulse a contact gives.
+//! How a contact limits the tangential impulse.
 
+use super::collision::Coefficients;
 use super::contact::Contact;
-use super::law::{Law, Regime};
+use super::law::Law;
+use crate::precision::Real;
 
-/// Friction of one impact.
-pub(super) struct Friction {
-    /// Tangential impulse per unit mass over the slip speed; finite even without slip.
-    pub per_slip: f64,
-    pub regime: Regime,
+/// The friction of a contact, free of the law's name.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Friction {
+    /// Impulse per unit mass and slip speed that stops the slip.
+    pub stick_share: f64,
+    /// The contact sticks while the impulse that stops the slip is at most this share of N*.
+    pub holds: f64,
+    /// Otherwise the impulse is this share of N*.
+    pub slides: f64,
+    /// R^2 m/I when friction changes the spin, else 0.
+    pub spin: f64,
 }
 
 impl Friction {
-    /// The friction of a contact with `normal_impulse` and `slip_speed`, both in m/s.
-    #[inline]
-    pub fn of(contact: &Contact, normal_impulse: f64, slip_speed: f64) -> Self {
-        let stick_share = contact.law.stopping_share() * (1.0 + contact.tangential_restitution);
-        let stick_impulse = stick_share * slip_speed;
-        let slip_impulse = contact.dynamic_friction * normal_impulse;
-        let holds = match contact.law {
-            // Eq. 22.
-            Law::StickSlip | Law::Irrotational => {
-                stick_impulse <= contact.static_friction * normal_impulse
-            }
-            Law::Kinetic => stick_impulse <= slip_impulse,
-            Law::AlwaysSlip => false,
-        };
-        if holds || slip_speed == 0.0 {
-            Self {
-                per_slip: stick_share,
-                regime: Regime::Stick,
-            }
-        } else {
-            Self {
-                per_slip: slip_impulse / slip_speed,
-                regime: Regime::Slip,
-            }
+    pub fn of(contact: &Contact) -> Self {
+        Self {
+            stick_share: contact.law.stopping_share() * (1.0 + contact.tangential_restitution),
+            holds: match contact.law {
+                // Eq. 22.
+                Law::StickSlip | Law::Irrotational => contact.static_friction,
+                Law::Kinetic => contact.dynamic_friction,
+                // No impulse is that small.
+                Law::AlwaysSlip => -1.0,
+            },
+            slides: contact.dynamic_friction,
+            // 5/2 for a solid sphere.
+            spin: if contact.law.spins() { 2.5 } else { 0.0 },
+        }
+    }
+
+    /// With E at the speed of an impact, in the precision that it is computed in.
+    #[inline(always)]
+    pub fn at<R: Real>(&self, restitution: f64) -> Coefficients<R> {
+        Coefficients {
+            restitution: R::of(restitution),
+            stick_share: R::of(self.stick_share),
+            holds: R::of(self.holds),
+            slides: R::of(self.slides),
+            spin: R::of(self.spin),
         }
     }
 }

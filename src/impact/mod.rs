@@ -23,6 +23,7 @@
 //! # Ok::<(), peenpose::impact::ContactFault>(())
 //! ```
 
+mod collision;
 mod contact;
 mod friction;
 mod law;
@@ -33,7 +34,8 @@ pub use contact::{Contact, ContactFault, Restitution};
 pub use law::{Law, Regime};
 pub use oblique::{Energy, Oblique, Outcome};
 
-use friction::Friction;
+pub(crate) use collision::{Coefficients, collide};
+pub(crate) use friction::Friction;
 use nalgebra::Vector3;
 
 /// A solid homogeneous sphere.
@@ -143,27 +145,24 @@ pub fn rebound(
     if normal_speed >= 0.0 {
         return None;
     }
-    // Velocity of the contact point, v_t + w x r with r = -R n.
-    let slip = velocity - normal * normal_speed + normal.cross(rolling);
-    let slip_speed = slip.norm();
-    // Eq. 10.
-    let restitution = contact.restitution.at(-normal_speed);
-    let normal_impulse = -(1.0 + restitution) * normal_speed;
-    let friction = Friction::of(contact, normal_impulse, slip_speed);
-    let tangential = slip * friction.per_slip;
-    // Eqs. 8, 17 and 14; the sphere's moment of inertia makes the factor R^2 m/I = 5/2.
-    let velocity_after = velocity + normal * normal_impulse - tangential;
-    let rolling_after = if contact.law.spins() {
-        rolling + normal.cross(&tangential) * 2.5
-    } else {
-        *rolling
-    };
+    let contact = Friction::of(contact).at(contact.restitution.at(-normal_speed));
+    let after = collide(
+        &contact,
+        (*velocity).into(),
+        (*rolling).into(),
+        (*normal).into(),
+        normal_speed,
+    );
     Some(Rebound {
-        normal: normal_impulse,
-        tangential: friction.per_slip * slip_speed,
-        regime: friction.regime,
-        departure: -restitution * normal_speed,
-        velocity: velocity_after,
-        rolling: rolling_after,
+        normal: after.normal,
+        tangential: after.tangential,
+        regime: if after.sticks {
+            Regime::Stick
+        } else {
+            Regime::Slip
+        },
+        departure: after.departure,
+        velocity: after.velocity.into(),
+        rolling: after.rolling.into(),
     })
 }

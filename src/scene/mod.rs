@@ -6,6 +6,7 @@
 mod clearance;
 mod facets;
 mod form;
+pub mod lanes;
 pub mod mesh;
 pub mod mesh_file;
 mod part;
@@ -19,9 +20,11 @@ mod triangle;
 
 use nalgebra::{Point3, Vector3};
 
+use crate::precision::{Real, along, scaled};
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::Fault;
 use crate::problem::part::Part;
+use lanes::{Hits, Rays, components, padded, put};
 use part::{BuiltPart, Fronts, Geometry};
 use ray::{Hit, Ray, Spot};
 
@@ -152,6 +155,25 @@ impl Scene {
             });
         }
         hit
+    }
+
+    /// What many rays meet first; the same as [`Self::first_hit`] for each of them in f64.
+    #[inline(always)]
+    pub fn first_hits<R: Real>(&self, rays: &Rays<R>, hits: &mut Hits<R>) {
+        let count = padded(rays.count);
+        hits.distance[..count].fill(R::INFINITY);
+        for (index, part) in (0..).zip(&self.parts) {
+            part.cross(index, rays, hits);
+        }
+        let lift = R::of(LIFT * SLACK * R::COARSENESS * self.size);
+        for i in 0..count {
+            let side = if hits.spots.front[i] { R::ONE } else { -R::ONE };
+            let normal = scaled(components(&hits.normal, i), side);
+            let (origin, direction) = (components(&rays.origin, i), components(&rays.direction, i));
+            let point = along(along(origin, direction, hits.distance[i]), normal, lift);
+            put(&mut hits.normal, i, normal);
+            put(&mut hits.point, i, point);
+        }
     }
 
     /// Distance between the nozzle's body and the nearest surface, and that surface; negative when

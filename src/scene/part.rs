@@ -4,12 +4,14 @@ use nalgebra::Vector3;
 
 use super::Walls;
 use super::facets::Facets;
+use super::lanes::{Hits, Rays, put};
 use super::mesh::Mesh;
 use super::mesh_file::{self, MeshWarning};
 use super::prism::Prism;
 use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
 use super::tessellate;
+use crate::precision::Real;
 use crate::problem::fault::Fault;
 use crate::problem::part::{Ends, Part, Shape};
 
@@ -145,6 +147,43 @@ impl BuiltPart {
             None => self
                 .facets
                 .first_crossing(ray, leaving, on_this_part, limit),
+        }
+    }
+
+    /// Takes the first crossings that are nearer than what the rays have hit so far; `index` is
+    /// that of this part. Normals are those on the fronts.
+    #[inline(always)]
+    pub fn cross<R: Real>(&self, index: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
+        match &self.prism {
+            Some(prism) => prism.cross(index, rays, hits),
+            None => self.cross_facets(index, rays, hits),
+        }
+    }
+
+    fn cross_facets<R: Real>(&self, index: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
+        for i in 0..rays.count {
+            let leaving = rays.leaving.as_ref().map(|spots| spots.at(i));
+            let on_it = leaving.is_some_and(|spot| spot.part == index);
+            let limit = hits.distance[i].wide();
+            let crossing = self
+                .facets
+                .first_crossing(&rays.at(i), leaving, on_it, limit);
+            let Some((crossing, normal)) = crossing else {
+                continue;
+            };
+            hits.distance[i] = R::of(crossing.distance);
+            hits.surface[i] = crossing.surface;
+            put(
+                &mut hits.normal,
+                i,
+                [normal.x, normal.y, normal.z].map(R::of),
+            );
+            let spot = Spot {
+                part: index,
+                piece: crossing.piece,
+                front: crossing.front,
+            };
+            hits.spots.set(i, spot);
         }
     }
 }

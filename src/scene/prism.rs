@@ -1,8 +1,10 @@
 //! Rays against prismatic parts, exact: the walls are planes and cylinders, not facets.
 
-use nalgebra::{Point2, Point3, Rotation3, Vector2, Vector3};
+mod many;
 
-use super::form::Form;
+use nalgebra::{Matrix3, Point3, Vector3};
+
+use super::form::{Extent, Flight, Form, Meeting};
 use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
 use super::start::Start;
@@ -11,19 +13,14 @@ use crate::problem::part::{Ends, Place};
 /// A cross-section drawn along z from 0 to a length, somewhere in the scene.
 #[derive(Clone, Debug)]
 pub struct Prism {
-    walls: Vec<Wall>,
+    walls: Vec<Form>,
     caps: Vec<Cap>,
-    length: f64,
-    slack: f64,
-    rotation: Rotation3<f64>,
+    /// Of each wall, then of each cap.
+    surfaces: Vec<u32>,
+    extent: Extent<f64>,
+    rotation: Matrix3<f64>,
     shift: Vector3<f64>,
     moved: bool,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Wall {
-    form: Form,
-    surface: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +28,6 @@ struct Cap {
     z: f64,
     /// Component of the normal on the front along z.
     facing: f64,
-    surface: u32,
 }
 
 impl Prism {
@@ -45,35 +41,31 @@ impl Prism {
         surface_base: u32,
         slack: f64,
     ) -> Self {
-        let walls = profile
-            .pieces
-            .iter()
-            .map(|piece| Wall {
-                form: Form::of(&piece.curve),
-                surface: surface_base + piece.surface,
-            })
-            .collect();
-        let mut next_surface = surface_base + profile.surfaces.len() as u32;
+        let pieces = &profile.pieces;
         let mut caps = Vec::new();
-        for (closed, z, facing) in [
-            (ends.near_closed, 0.0, 1.0),
-            (ends.far_closed, length, -1.0),
-        ] {
-            if closed {
-                caps.push(Cap {
-                    z,
-                    facing,
-                    surface: next_surface,
-                });
-                next_surface += 1;
-            }
+        if ends.near_closed {
+            caps.push(Cap {
+                z: 0.0,
+                facing: 1.0,
+            });
         }
+        if ends.far_closed {
+            caps.push(Cap {
+                z: length,
+                facing: -1.0,
+            });
+        }
+        let of_caps = profile.surfaces.len()..profile.surfaces.len() + caps.len();
+        let of_walls = pieces.iter().map(|piece| piece.surface);
         Self {
-            walls,
+            walls: pieces.iter().map(|piece| Form::of(&piece.curve)).collect(),
             caps,
-            length,
-            slack,
-            rotation: place.rotation.to_rotation_matrix(),
+            surfaces: of_walls
+                .chain(of_caps.map(|surface| surface as u32))
+                .map(|surface| surface_base + surface)
+                .collect(),
+            extent: Extent { length, slack },
+            rotation: *place.rotation.to_rotation_matrix().matrix(),
             shift: place.shift,
             moved: *place != Place::default(),
         }
@@ -81,7 +73,8 @@ impl Prism {
 
     /// The first crossing of a ray nearer than `limit`, and the front normal there.
     ///
-    /// `leaving` is the spot that the ray starts from when it lies on this part.
+    /// `leaving` is the spot that the ray starts from; `on_this_part` says whether it is on this
+    /// prism.
     pub fn first_crossing(
         &self,
         ray: &Ray,
@@ -94,18 +87,29 @@ impl Prism {
             piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
             front: leaving.map(|spot| spot.front),
         };
-        let mut nearest = Nearest {
-            reach: limit,
-            found: None,
+        let mut nearest = Nearest::within(limit);
+        for (piece, wall) in (0..).zip(&self.walls) {
+            let flight = Flight {
+                origin: local.origin.into(),
+                direction: local.direction.into(),
+                from_here: start.piece == Some(piece),
+                on_front: start.front.unwrap_or(true),
+            };
+            let meeting = match leaving {
+                Some(_) => wall.meet::<true>(&flight, &self.extent),
+                None => wall.meet::<false>(&flight, &self.extent),
+            };
+            nearest.take(piece, &meeting);
+        }
+        self.cross_caps(&local, &start, &mut nearest);
+        let Nearest { best, piece, cap } = nearest;
+        let crossing = Crossing {
+            distance: best.distance,
+            front: best.front,
+            piece: piece?,
+            surface: self.surfaces[piece? as usize],
         };
-        for (index, wall) in self.walls.iter().enumerate() {
-            self.cross_wall(index as u32, wall, &local, &start, &mut nearest);
-        }
-        for (index, cap) in self.caps.iter().enumerate() {
-            let piece = (self.walls.len() + index) as u32;
-            self.cross_cap(piece, cap, &local, &start, &mut nearest);
-        }
-        let (crossing, normal) = nearest.found?;
+        let normal = Vector3::new(best.normal[0], best.normal[1], cap);
         Some((crossing, self.rotation * normal))
     }
 
@@ -113,137 +117,92 @@ impl Prism {
         if !self.moved {
             return *ray;
         }
-        let back = self.rotation.inverse();
         Ray {
-            origin: Point3::from(back * (ray.origin.coords - self.shift)),
-            direction: back * ray.direction,
+            origin: Point3::from(self.rotation.transpose() * (ray.origin.coords - self.shift)),
+            direction: self.rotation.transpose() * ray.direction,
         }
     }
 
-    /// Takes the crossing with a wall if it is the nearest.
-    #[inline]
-    fn cross_wall(&self, piece: u32, wall: &Wall, ray: &Ray, start: &Start, nearest: &mut Nearest) {
-        let (origin, direction) = (ray.origin.xy(), ray.direction.xy());
-        let surface = wall.surface;
-        let mut on_it = start.piece == Some(piece);
-        if !on_it && start.front.is_some() && self.lies_on(wall, &ray.origin) {
-            let front = wall.form.front(&origin);
-            let approach = direction.dot(&front);
-            if start.enters(approach) {
-                nearest.take(0.0, 0.0, approach, flat(front), piece, surface);
-                return;
-            }
-            on_it = true;
-        }
-        for t in wall.form.roots(&origin, &direction, on_it) {
-            // NaN, for no crossing, is neither ahead nor nearer.
-            let counts = t > 0.0 && t < nearest.reach;
-            if !counts {
+    /// Takes the crossing with a cap where it is the nearest.
+    fn cross_caps(&self, ray: &Ray, start: &Start, nearest: &mut Nearest) {
+        for (piece, cap) in (self.walls.len() as u32..).zip(&self.caps) {
+            if start.piece == Some(piece) {
                 continue;
             }
-            let z = ray.origin.z + t * ray.direction.z;
-            let point = origin + direction * t;
-            let spans = |slack: f64| {
-                z >= -slack && z <= self.length + slack && wall.form.spans(&point, slack)
+            let origin = ray.origin.xy();
+            let approach = ray.direction.z * cap.facing;
+            let height = cap.z - ray.origin.z;
+            let starts_on_it = start.front.is_some()
+                && height.abs() <= self.extent.slack
+                && self.holds(origin.into());
+            if starts_on_it && !start.enters(approach) {
+                continue;
+            }
+            let distance = if starts_on_it {
+                0.0
+            } else {
+                height / ray.direction.z
             };
-            if !spans(self.slack) {
-                continue;
+            let ahead = (starts_on_it || distance > 0.0) && distance < nearest.best.rank;
+            if ahead && self.holds((origin + ray.direction.xy() * distance).into()) {
+                let meeting = Meeting {
+                    distance,
+                    rank: distance,
+                    front: approach < 0.0,
+                    normal: [0.0; 2],
+                };
+                nearest.take(piece, &meeting);
+                nearest.cap = cap.facing;
             }
-            let front = wall.form.front(&point);
-            let approach = direction.dot(&front);
-            let is_seen = start.sees(approach < 0.0);
-            // Seen from behind, it ends exactly where it ends, and yields to one seen at an edge.
-            if is_seen || spans(0.0) {
-                let farther = if is_seen { 0.0 } else { self.slack };
-                nearest.take(t, farther, approach, flat(front), piece, surface);
-            }
         }
-    }
-
-    /// Takes the crossing with a cap if it is the nearest.
-    fn cross_cap(&self, piece: u32, cap: &Cap, ray: &Ray, start: &Start, nearest: &mut Nearest) {
-        if start.piece == Some(piece) {
-            return;
-        }
-        let origin = ray.origin.xy();
-        let approach = ray.direction.z * cap.facing;
-        let height = cap.z - ray.origin.z;
-        let starts_on_it =
-            start.front.is_some() && height.abs() <= self.slack && self.holds(origin);
-        let t = if !starts_on_it {
-            height / ray.direction.z
-        } else if start.enters(approach) {
-            0.0
-        } else {
-            return;
-        };
-        let counts = (starts_on_it || t > 0.0) && t < nearest.reach;
-        if counts && self.holds(origin + ray.direction.xy() * t) {
-            let normal = Vector3::new(0.0, 0.0, cap.facing);
-            nearest.take(t, 0.0, approach, normal, piece, cap.surface);
-        }
-    }
-
-    /// Whether a point counts as one of the wall.
-    fn lies_on(&self, wall: &Wall, point: &Point3<f64>) -> bool {
-        let within = -self.slack..=self.length + self.slack;
-        wall.form.lies_on(&point.xy(), self.slack) && within.contains(&point.z)
     }
 
     /// Whether the closed cross-section holds a point: it lies on the outline, or a ray from it
     /// leaves an odd number of times.
-    fn holds(&self, point: Point2<f64>) -> bool {
+    fn holds(&self, point: [f64; 2]) -> bool {
         let mut walls = self.walls.iter();
-        if walls.any(|wall| wall.form.lies_on(&point, self.slack)) {
+        if walls.any(|wall| wall.lies_on(point, self.extent.slack)) {
             return true;
         }
         // No outline that anybody draws has a line in this direction.
-        let direction = Vector2::new(0.827_132, 0.561_983);
-        let crossings = self.walls.iter().flat_map(|wall| {
-            let roots = wall.form.roots(&point, &direction, false);
-            roots
-                .into_iter()
-                .filter(move |&t| t > 0.0 && wall.form.spans(&(point + direction * t), 0.0))
-        });
-        crossings.count() % 2 == 1
+        let direction = [0.827_132, 0.561_983];
+        let crossings = self
+            .walls
+            .iter()
+            .map(|wall| wall.crossings(point, direction));
+        crossings.sum::<usize>() % 2 == 1
     }
 }
 
-/// The nearest crossing so far, with the normal on the front there.
+/// The nearest crossing so far.
 struct Nearest {
-    /// Only nearer crossings are taken.
-    reach: f64,
-    found: Option<(Crossing, Vector3<f64>)>,
+    best: Meeting<f64>,
+    piece: Option<u32>,
+    /// Component along z of the normal on the front; not 0 on a cap.
+    cap: f64,
 }
 
 impl Nearest {
-    /// Takes a crossing if it is nearer, counted as `farther` away than it is.
-    #[inline]
-    fn take(
-        &mut self,
-        distance: f64,
-        farther: f64,
-        approach: f64,
-        front_normal: Vector3<f64>,
-        piece: u32,
-        surface: u32,
-    ) {
-        if distance + farther >= self.reach {
-            return;
+    /// None yet; only nearer ones than `limit` count.
+    fn within(limit: f64) -> Self {
+        Self {
+            best: Meeting {
+                distance: limit,
+                rank: limit,
+                front: true,
+                normal: [0.0; 2],
+            },
+            piece: None,
+            cap: 0.0,
         }
-        self.reach = distance + farther;
-        let crossing = Crossing {
-            distance,
-            front: approach < 0.0,
-            piece,
-            surface,
-        };
-        self.found = Some((crossing, front_normal));
     }
-}
 
-/// A direction of the cross-section in space.
-#[inline]
-fn flat(direction: Vector2<f64>) -> Vector3<f64> {
-    Vector3::new(direction.x, direction.y, 0.0)
+    /// Takes a crossing if it is nearer.
+    #[inline]
+    fn take(&mut self, piece: u32, meeting: &Meeting<f64>) {
+        if meeting.rank < self.best.rank {
+            self.best = *meeting;
+            self.piece = Some(piece);
+        }
+    }
 }

@@ -1,0 +1,142 @@
+//! What every surface receives from one set of shots, written down impact by impact.
+
+use std::collections::BTreeMap;
+
+use crate::jet::Samples;
+use crate::objective::{Score, Tally};
+use crate::problem::setting::Choice;
+use crate::scene::lanes::LANES;
+use crate::setup::Setup;
+use crate::trace::{End, Tracer, Volley, Witness};
+
+/// What became of the shots of one scrambling.
+pub(super) struct Ledger {
+    pub tally: Tally,
+    /// First hits on target that stick.
+    pub sticking: usize,
+    /// One for each surface of the scene.
+    pub surfaces: Vec<SurfaceSums>,
+    pub ends: BTreeMap<End, usize>,
+}
+
+/// What a surface received off target.
+#[derive(Clone, Default)]
+pub(super) struct SurfaceSums {
+    /// Shots that hit it.
+    pub shots: usize,
+    /// Shots with an impact over what it may take.
+    pub over: usize,
+    pub impacts_by_number: Vec<usize>,
+    pub over_by_number: Vec<usize>,
+    /// N*, N s.
+    pub normal_impulses: Vec<f64>,
+}
+
+impl Ledger {
+    /// Traces the shots of a choice of settings.
+    pub fn of(setup: &Setup, choice: &Choice, samples: &Samples) -> Self {
+        let shots = &samples.deviates;
+        let mut clerk = Clerk {
+            setup,
+            score: Score::new(setup, choice.speed, shots.len()),
+            sticking: 0,
+            surfaces: vec![SurfaceSums::default(); setup.surfaces.len()],
+            ends: BTreeMap::new(),
+            seen: Marks::new(setup.surfaces.len()),
+            seen_over: Marks::new(setup.surfaces.len()),
+        };
+        let tracer = Tracer::new(setup, choice, choice.speed);
+        tracer.fire(shots, &mut clerk, |clerk, shots, rays| {
+            clerk
+                .score
+                .end_volley(shots.iter().map(|shot| shot.weight), rays);
+            clerk.seen.clear();
+            clerk.seen_over.clear();
+        });
+        Self {
+            tally: clerk.score.finish(),
+            sticking: clerk.sticking,
+            surfaces: clerk.surfaces,
+            ends: clerk.ends,
+        }
+    }
+}
+
+/// Writes a ledger.
+struct Clerk<'a> {
+    setup: &'a Setup,
+    score: Score<f64>,
+    sticking: usize,
+    surfaces: Vec<SurfaceSums>,
+    ends: BTreeMap<End, usize>,
+    /// The surfaces that each shot of the volley has hit off target.
+    seen: Marks,
+    /// Those on which it has exceeded what they may take.
+    seen_over: Marks,
+}
+
+impl Witness<f64> for Clerk<'_> {
+    fn impacts(&mut self, volley: &Volley<f64>) {
+        self.score.impacts(volley);
+        for i in (0..volley.rays.count).filter(|&i| volley.impacts.counts[i] != 0.0) {
+            let number = volley.number[i] as usize;
+            if self.score.is_on_target(i) {
+                self.sticking += usize::from(number == 1 && volley.impacts.sticks[i] != 0.0);
+                continue;
+            }
+            let (shot, surface) = (volley.shot[i] as usize, volley.hits.surface[i] as usize);
+            let normal_impulse = volley.impacts.normal[i];
+            let allow = self.setup.surfaces[surface].allow;
+            let sums = &mut self.surfaces[surface];
+            count_at(&mut sums.impacts_by_number, number);
+            sums.normal_impulses.push(normal_impulse);
+            sums.shots += usize::from(self.seen.mark(shot, surface));
+            if allow.is_some_and(|allow| normal_impulse > allow) {
+                count_at(&mut sums.over_by_number, number);
+                sums.over += usize::from(self.seen_over.mark(shot, surface));
+            }
+        }
+    }
+
+    fn ends(&mut self, _: usize, end: End, _: usize) {
+        *self.ends.entry(end).or_insert(0) += 1;
+    }
+}
+
+/// Counts one more at a 1-based place.
+fn count_at(counts: &mut Vec<usize>, number: usize) {
+    if counts.len() < number {
+        counts.resize(number, 0);
+    }
+    counts[number - 1] += 1;
+}
+
+/// A mark for each shot of a volley and each surface.
+struct Marks {
+    bits: Vec<u64>,
+    words: usize,
+}
+
+impl Marks {
+    fn new(surfaces: usize) -> Self {
+        let words = surfaces.div_ceil(u64::BITS as usize);
+        Self {
+            bits: vec![0; words * LANES],
+            words,
+        }
+    }
+
+    fn clear(&mut self) {
+        self.bits.fill(0);
+    }
+
+    /// Sets a mark; tells whether it is new.
+    fn mark(&mut self, shot: usize, surface: usize) -> bool {
+        let bits = u64::BITS as usize;
+        let word = &mut self.bits[shot * self.words + surface / bits];
+        let bit = 1 << (surface % bits);
+        let is_new = *word & bit == 0;
+        *word |= bit;
+        is_new
+    }
+}

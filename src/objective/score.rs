@@ -1,0 +1,171 @@
+//! Impacts of a volley, added up as they happen.
+
+use super::hits::Hits;
+use super::tally::Tally;
+use crate::precision::Real;
+use crate::scene::lanes::{LANES, Lane, components, padded};
+use crate::scene::patch::Patch;
+use crate::setup::Setup;
+use crate::trace::{End, Volley, Witness, truth};
+
+/// Builds a [`Tally`] from volleys of shots.
+pub(crate) struct Score<R> {
+    tally: Tally,
+    /// Launch speed, m/s.
+    speed: f64,
+    /// What (N*)^2 on a surface costs.
+    harm: Vec<R>,
+    target: Target<R>,
+    /// Whether the last impact of each shot in flight was on target.
+    on_target: Lane<R>,
+    /// Whether each shot of the volley has hit the target first.
+    hit_target: [bool; LANES],
+}
+
+/// The target patch in the precision of the flight.
+#[derive(Clone, Copy)]
+struct Target<R> {
+    surface: u32,
+    low: [R; 3],
+    high: [R; 3],
+}
+
+impl<R: Real> Target<R> {
+    fn of(patch: &Patch) -> Self {
+        let everywhere = [-f64::INFINITY, f64::INFINITY].map(|bound| [bound; 3]);
+        let [low, high] = patch
+            .within
+            .map_or(everywhere, |(low, high)| [low.into(), high.into()]);
+        Self {
+            surface: patch.surface,
+            low: low.map(R::of),
+            high: high.map(R::of),
+        }
+    }
+
+    #[inline(always)]
+    fn holds(&self, point: [R; 3]) -> bool {
+        let mut inside = true;
+        for axis in 0..3 {
+            inside &= (self.low[axis] <= point[axis]) & (point[axis] <= self.high[axis]);
+        }
+        inside
+    }
+}
+
+impl<R: Real> Score<R> {
+    /// For so many shots that leave at a launch speed, m/s.
+    pub fn new(setup: &Setup, speed: f64, shots: usize) -> Self {
+        let harm = setup.surfaces.iter().map(|limits| {
+            let cost = |allow: f64| limits.weight / (allow * allow);
+            R::of(limits.allow.map_or(0.0, cost))
+        });
+        Self {
+            tally: Tally {
+                hits: Hits::with_capacity(shots),
+                ..Tally::default()
+            },
+            speed,
+            harm: harm.collect(),
+            target: Target::of(&setup.target),
+            on_target: [R::ZERO; LANES],
+            hit_target: [false; LANES],
+        }
+    }
+
+    /// Whether the last impact of a shot in flight was on target.
+    pub fn is_on_target(&self, index: usize) -> bool {
+        self.on_target[index] != R::ZERO
+    }
+
+    /// Closes a volley whose shots stand for `weights` and took `rays` rays together.
+    #[inline(always)]
+    pub fn end_volley(&mut self, weights: impl ExactSizeIterator<Item = f64>, rays: usize) {
+        self.tally.shots += weights.len();
+        self.tally.rays += rays;
+        let (mut all, mut missed) = (0.0, 0.0);
+        for (weight, hit) in weights.zip(&mut self.hit_target) {
+            all += weight;
+            missed += if *hit { 0.0 } else { weight };
+            *hit = false;
+        }
+        self.tally.weight += all;
+        self.tally.missed += missed;
+    }
+
+    /// The tally of all volleys.
+    pub fn finish(self) -> Tally {
+        self.tally
+    }
+
+    #[inline(always)]
+    fn add_hits_on_target(&mut self, volley: &Volley<R>, is_first: &Lane<R>) {
+        let (mut normal, mut tangential, mut weight) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let per_speed = 1.0 / self.speed;
+        let mut count = 0;
+        for i in 0..volley.rays.count {
+            let hit = is_first[i] != R::ZERO;
+            normal[count] = volley.impacts.normal[i].wide() * per_speed;
+            tangential[count] = volley.impacts.tangential[i].wide() * per_speed;
+            weight[count] = volley.weight[i].wide();
+            self.hit_target[volley.shot[i] as usize % LANES] |= hit;
+            count += usize::from(hit);
+        }
+        let hits = &mut self.tally.hits;
+        hits.normal.extend_from_slice(&normal[..count]);
+        hits.tangential.extend_from_slice(&tangential[..count]);
+        hits.weight.extend_from_slice(&weight[..count]);
+    }
+}
+
+impl<R: Real> Witness<R> for Score<R> {
+    #[inline(always)]
+    fn impacts(&mut self, volley: &Volley<R>) {
+        let count = volley.rays.count;
+        let (mut harm, mut on_surface) = ([R::ZERO; LANES], [R::ZERO; LANES]);
+        for i in 0..count {
+            let surface = volley.hits.surface[i];
+            harm[i] = self.harm[surface as usize];
+            on_surface[i] = truth(surface == self.target.surface);
+        }
+        let target = self.target;
+        let (mut on_target, mut is_first) = ([R::ZERO; LANES], [R::ZERO; LANES]);
+        let mut rebound = [R::ZERO; LANES];
+        for i in 0..padded(count) {
+            let inside = target.holds(components(&volley.hits.point, i));
+            let hit = inside & (on_surface[i] != R::ZERO);
+            let counts = volley.impacts.counts[i] != R::ZERO;
+            let first = counts & hit & (volley.number[i] == R::ONE);
+            let normal = volley.impacts.normal[i];
+            let cost = volley.weight[i] * harm[i] * normal * normal;
+            on_target[i] = truth(hit);
+            is_first[i] = truth(first);
+            rebound[i] = if counts & !hit { cost } else { R::ZERO };
+        }
+        self.on_target = on_target;
+        self.tally.rebound += sum(&rebound, count) / (self.speed * self.speed);
+        if sum(&is_first, count) > 0.0 {
+            self.add_hits_on_target(volley, &is_first);
+        }
+    }
+
+    #[inline(always)]
+    fn ends(&mut self, _: usize, _: End, _: usize) {}
+}
+
+/// The sum of the first `count` numbers, in a fixed order that compilers can work on side by side.
+#[inline(always)]
+fn sum<R: Real>(values: &Lane<R>, count: usize) -> f64 {
+    const PARTS: usize = 8;
+    let mut parts = [0.0; PARTS];
+    let (whole, rest) = values[..count].as_chunks::<PARTS>();
+    for chunk in whole {
+        for part in 0..PARTS {
+            parts[part] += chunk[part].wide();
+        }
+    }
+    for (part, value) in parts.iter_mut().zip(rest) {
+        *part += value.wide();
+    }
+    parts.iter().sum()
+}

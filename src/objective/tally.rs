@@ -1,0 +1,140 @@
+//! What the objective needs to know of the shots of one pose, and the best speed for them.
+
+use super::hits::{Hits, Moments, moments};
+use super::score::Score;
+use super::{Sums, Terms};
+use crate::jet::Deviate;
+use crate::precision::Real;
+use crate::problem::goal::Goals;
+use crate::problem::setting::{Choice, Range};
+use crate::setup::Setup;
+use crate::trace::Tracer;
+
+/// What the objective needs to know of the shots of one pose, per unit of launch speed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// Number of shots.
+    pub shots: usize,
+    /// What those shots stand for together.
+    pub weight: f64,
+    /// What those whose first hit is not on the target stand for.
+    pub missed: f64,
+    /// The first hits on target.
+    pub hits: Hits,
+    /// Sum over shots and impacts on secondary surfaces of weight (N*/N_allow)^2, per (m/s)^2.
+    pub rebound: f64,
+    /// Number of rays cast.
+    pub rays: usize,
+}
+
+impl Tally {
+    /// Traces shots that leave at `speed` times their own factor, m/s.
+    pub fn trace(setup: &Setup, choice: &Choice, speed: f64, shots: &[Deviate]) -> Self {
+        Self::trace_in::<f64>(setup, choice, speed, shots)
+    }
+
+    /// The same with paths in another precision.
+    pub fn trace_in<R: Real>(
+        setup: &Setup,
+        choice: &Choice,
+        speed: f64,
+        shots: &[Deviate],
+    ) -> Self {
+        let mut score = Score::<R>::new(setup, speed, shots.len());
+        let tracer = Tracer::new(setup, choice, speed);
+        tracer.fire(shots, &mut score, |score, shots, rays| {
+            score.end_volley(shots.iter().map(|shot| shot.weight), rays);
+        });
+        score.finish()
+    }
+
+    /// The terms at a launch speed, m/s.
+    pub fn terms(&self, goals: &Goals, speed: f64) -> Terms {
+        self.sums(goals, speed).terms(goals)
+    }
+
+    /// The sums behind the terms at a launch speed, m/s.
+    pub fn sums(&self, goals: &Goals, speed: f64) -> Sums {
+        Sums {
+            weight: self.weight,
+            missed: self.missed,
+            normal: self.normal_moments(goals, speed).square,
+            tangential: self.tangential_moments(goals, speed).square,
+            rebound: self.rebound * speed * speed,
+        }
+    }
+
+    /// The speed in `range` that makes J least on these paths.
+    ///
+    /// On fixed paths J is convex and piecewise quadratic in the speed: its slope is continuous
+    /// and rises, so Newton steps inside a shrinking bracket end at the exact minimum.
+    pub fn best_speed(&self, goals: &Goals, range: Range) -> f64 {
+        let (mut low, mut high) = (range.min, range.max);
+        let mut speed = range.at(0.5);
+        for _ in 0..MOST_NEWTON_STEPS {
+            let (slope, curvature) = self.slope_and_curvature(goals, speed);
+            if slope > 0.0 {
+                high = speed;
+            } else {
+                low = speed;
+            }
+            if slope == 0.0 || curvature == 0.0 {
+                break;
+            }
+            let newton = speed - slope / curvature;
+            let next = if newton > low && newton < high {
+                newton
+            } else if slope > 0.0 && newton <= range.min {
+                range.min
+            } else if slope < 0.0 && newton >= range.max {
+                range.max
+            } else {
+                0.5 * (low + high)
+            };
+            let settled = (next - speed).abs() <= 4.0 * f64::EPSILON * speed;
+            speed = next;
+            if settled {
+                break;
+            }
+        }
+        speed
+    }
+
+    fn slope_and_curvature(&self, goals: &Goals, speed: f64) -> (f64, f64) {
+        let normal = self.normal_moments(goals, speed);
+        let tangential = self.tangential_moments(goals, speed);
+        let normal_weight = goals.normal_impulse.weight;
+        let tangential_weight = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
+        let hits = if self.hits.is_empty() {
+            1.0
+        } else {
+            self.weight - self.missed
+        };
+        let rebound = self.rebound / self.weight;
+        let of_hits = |part: fn(&Moments) -> f64| {
+            (normal_weight * part(&normal) + tangential_weight * part(&tangential)) / hits
+        };
+        (
+            2.0 * (of_hits(|moments| moments.slope) + rebound * speed),
+            2.0 * (of_hits(|moments| moments.curvature) + rebound),
+        )
+    }
+
+    fn normal_moments(&self, goals: &Goals, speed: f64) -> Moments {
+        let Hits { normal, weight, .. } = &self.hits;
+        moments(normal, weight, goals.normal_impulse.target, speed, false)
+    }
+
+    fn tangential_moments(&self, goals: &Goals, speed: f64) -> Moments {
+        let Hits {
+            tangential, weight, ..
+        } = &self.hits;
+        goals
+            .tangential_impulse
+            .map_or_else(Moments::default, |goal| {
+                moments(tangential, weight, goal.limit, speed, true)
+            })
+    }
+}
+
+const MOST_NEWTON_STEPS: usize = 100;

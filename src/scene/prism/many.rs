@@ -1,0 +1,216 @@
+//! Many rays at once against a prism: wall by wall, all rays against each.
+
+use nalgebra::Vector3;
+
+use super::{Nearest, Prism};
+use crate::precision::{Real, dot};
+use crate::scene::form::{Extent, Flight, Form, Wall};
+use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
+use crate::scene::ray::{Ray, Spot};
+use crate::scene::start::Start;
+
+/// What the rays have met so far.
+struct Best<R> {
+    distance: Lane<R>,
+    rank: Lane<R>,
+    /// Twice the index of the wall or cap, plus 1 on its front; negative for none on this prism.
+    code: Lane<R>,
+    /// Normals on the fronts, in the frame of the prism.
+    normal: [Lane<R>; 3],
+}
+
+/// Where the rays are in the frame of the prism, and which of its walls they start from.
+struct Flights<'a, R> {
+    count: usize,
+    origin: &'a [Lane<R>; 3],
+    direction: &'a [Lane<R>; 3],
+    /// Index of the wall or cap; negative for none of this prism.
+    piece: Lane<R>,
+    on_front: [bool; LANES],
+}
+
+impl Prism {
+    /// Takes the first crossings that are nearer than what the rays have hit so far; `part` is the
+    /// index of this part in the scene. Normals are those on the fronts.
+    #[inline(always)]
+    pub fn cross<R: Real>(&self, part: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
+        let (origin, direction);
+        let mut flights = Flights {
+            count: rays.count,
+            origin: &rays.origin,
+            direction: &rays.direction,
+            piece: [-R::ONE; LANES],
+            on_front: [true; LANES],
+        };
+        if self.moved {
+            let shift = self.shift.map(|x| -x);
+            origin = self.turned(&shifted(&rays.origin, &shift, rays.count), rays.count, true);
+            direction = self.turned(&rays.direction, rays.count, true);
+            flights.origin = &origin;
+            flights.direction = &direction;
+        }
+        let mut best = Best {
+            distance: hits.distance,
+            rank: hits.distance,
+            code: [-R::ONE; LANES],
+            normal: [[R::ZERO; LANES]; 3],
+        };
+        if let Some(spots) = &rays.leaving {
+            for i in 0..padded(rays.count) {
+                let here = spots.part[i] == part;
+                let piece = R::of(f64::from(spots.piece[i]));
+                flights.piece[i] = if here { piece } else { -R::ONE };
+            }
+            flights.on_front = spots.front;
+            self.cross_walls::<R, true>(&flights, &mut best);
+        } else {
+            self.cross_walls::<R, false>(&flights, &mut best);
+        }
+        if !self.caps.is_empty() {
+            self.cross_caps_one_by_one(rays.leaving.is_some(), &flights, &mut best);
+        }
+        if self.moved {
+            best.normal = self.turned(&best.normal, rays.count, false);
+        }
+        self.record(part, rays.count, &best, hits);
+    }
+
+    #[inline(always)]
+    fn cross_walls<R: Real, const LEAVES: bool>(&self, flights: &Flights<R>, best: &mut Best<R>) {
+        let extent = Extent {
+            length: R::of(self.extent.length),
+            slack: R::of(self.extent.slack * R::COARSENESS),
+        };
+        let mut piece = R::ZERO;
+        for wall in &self.walls {
+            match wall {
+                Form::Plane(plane) => {
+                    best.take::<_, LEAVES>(flights, piece, &plane.with(), &extent);
+                }
+                Form::Cylinder(cylinder) => {
+                    best.take::<_, LEAVES>(flights, piece, &cylinder.with(), &extent);
+                }
+            }
+            piece = piece + R::ONE;
+        }
+    }
+
+    fn cross_caps_one_by_one<R: Real>(
+        &self,
+        leaves: bool,
+        flights: &Flights<R>,
+        best: &mut Best<R>,
+    ) {
+        for i in 0..flights.count {
+            let ray = Ray {
+                origin: components(flights.origin, i).map(Real::wide).into(),
+                direction: components(flights.direction, i).map(Real::wide).into(),
+            };
+            let piece = flights.piece[i].wide();
+            let start = Start {
+                piece: (piece >= 0.0).then_some(piece as u32),
+                front: leaves.then_some(flights.on_front[i]),
+            };
+            let mut nearest = Nearest::within(best.rank[i].wide());
+            self.cross_caps(&ray, &start, &mut nearest);
+            let Some(piece) = nearest.piece else { continue };
+            best.distance[i] = R::of(nearest.best.distance);
+            best.rank[i] = best.distance[i];
+            best.code[i] = R::of(f64::from(2 * piece + u32::from(nearest.best.front)));
+            put(&mut best.normal, i, [R::ZERO, R::ZERO, R::of(nearest.cap)]);
+        }
+    }
+
+    fn record<R: Real>(&self, part: u32, count: usize, best: &Best<R>, hits: &mut Hits<R>) {
+        for i in 0..count {
+            if best.code[i] < R::ZERO {
+                continue;
+            }
+            let code = best.code[i].wide() as u32;
+            let spot = Spot {
+                part,
+                piece: code / 2,
+                front: code % 2 == 1,
+            };
+            hits.distance[i] = best.distance[i];
+            hits.surface[i] = self.surfaces[spot.piece as usize];
+            hits.spots.set(i, spot);
+            put(&mut hits.normal, i, components(&best.normal, i));
+        }
+    }
+
+    /// Vectors turned with the prism, or `back` into its frame.
+    #[inline(always)]
+    fn turned<R: Real>(&self, vectors: &[Lane<R>; 3], count: usize, back: bool) -> [Lane<R>; 3] {
+        let matrix = if back {
+            self.rotation.transpose()
+        } else {
+            self.rotation
+        };
+        let element = |row: usize, column: usize| R::of(matrix[(row, column)]);
+        let row = |row: usize| [element(row, 0), element(row, 1), element(row, 2)];
+        let (first, second, third) = (row(0), row(1), row(2));
+        let mut turned = [[R::ZERO; LANES]; 3];
+        for i in 0..padded(count) {
+            let vector = components(vectors, i);
+            let components = [dot(first, vector), dot(second, vector), dot(third, vector)];
+            put(&mut turned, i, components);
+        }
+        turned
+    }
+}
+
+/// Points moved by a shift.
+#[inline(always)]
+fn shifted<R: Real>(points: &[Lane<R>; 3], shift: &Vector3<f64>, count: usize) -> [Lane<R>; 3] {
+    let mut moved = *points;
+    for (lane, &by) in moved.iter_mut().zip(shift.iter()) {
+        let by = R::of(by);
+        for coordinate in &mut lane[..padded(count)] {
+            *coordinate = *coordinate + by;
+        }
+    }
+    moved
+}
+
+impl<R: Real> Best<R> {
+    /// Takes the meetings with one wall that are nearer.
+    #[inline(always)]
+    fn take<W: Wall<R>, const LEAVES: bool>(
+        &mut self,
+        flights: &Flights<R>,
+        piece: R,
+        wall: &W,
+        extent: &Extent<R>,
+    ) {
+        let double = piece + piece;
+        for i in 0..padded(flights.count) {
+            let flight = Flight {
+                origin: components(flights.origin, i),
+                direction: components(flights.direction, i),
+                from_here: flights.piece[i] == piece,
+                on_front: flights.on_front[i],
+            };
+            let met = wall.meet::<LEAVES>(&flight, extent);
+            let nearer = met.rank < self.rank[i];
+            let code = if met.front { double + R::ONE } else { double };
+            self.distance[i] = if nearer {
+                met.distance
+            } else {
+                self.distance[i]
+            };
+            self.rank[i] = if nearer { met.rank } else { self.rank[i] };
+            self.code[i] = if nearer { code } else { self.code[i] };
+            self.normal[0][i] = if nearer {
+                met.normal[0]
+            } else {
+                self.normal[0][i]
+            };
+            self.normal[1][i] = if nearer {
+                met.normal[1]
+            } else {
+                self.normal[1][i]
+            };
+        }
+    }
+}

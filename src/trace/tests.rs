@@ -1,0 +1,203 @@
+//! Volleys are the paths that are followed one by one, to the last bit.
+
+use std::path::Path;
+
+use super::*;
+use crate::impact::Law;
+use crate::jet::{Samples, Stream};
+use crate::problem;
+use crate::scene::Walls;
+
+/// Every impact of a shot, and how its path ended.
+type Story = (Vec<PathImpact>, Option<(End, usize)>);
+
+struct Scribe {
+    stories: Vec<Story>,
+}
+
+impl Witness<f64> for Scribe {
+    fn impacts(&mut self, volley: &Volley<f64>) {
+        for i in 0..volley.rays.count {
+            if volley.impacts.counts[i] != 0.0 {
+                let story = &mut self.stories[volley.shot[i] as usize];
+                story.0.push(impact_of(volley, i));
+            }
+        }
+    }
+
+    fn ends(&mut self, shot: usize, end: End, rays: usize) {
+        self.stories[shot].1 = Some((end, rays));
+    }
+}
+
+fn impact_of(volley: &Volley<f64>, i: usize) -> PathImpact {
+    let vector = |lanes| Vector3::from(crate::scene::lanes::components(lanes, i));
+    PathImpact {
+        number: volley.number[i] as usize,
+        surface: volley.hits.surface[i],
+        on_target: false,
+        normal_impulse: volley.impacts.normal[i],
+        tangential_impulse: volley.impacts.tangential[i],
+        regime: if volley.impacts.sticks[i] != 0.0 {
+            Regime::Stick
+        } else {
+            Regime::Slip
+        },
+        point: vector(&volley.hits.point).into(),
+        velocity: vector(&volley.velocity),
+        rolling: vector(&volley.rolling),
+    }
+}
+
+fn same_paths(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
+    let tracer = Tracer::new(setup, choice, choice.speed);
+    let mut told: Vec<Story> = Vec::new();
+    let mut scribe = Scribe {
+        stories: vec![Story::default(); LANES],
+    };
+    let mut rays_told = 0;
+    tracer.fire(shots, &mut scribe, |scribe, shots, rays| {
+        let stories = std::mem::replace(&mut scribe.stories, vec![Story::default(); LANES]);
+        told.extend(stories.into_iter().take(shots.len()));
+        rays_told += rays;
+    });
+    let mut rays_followed = 0;
+    for (deviate, (impacts, end)) in shots.iter().zip(&told) {
+        let mut path = Vec::new();
+        let followed = tracer.follow(deviate, |impact| {
+            path.push(PathImpact {
+                on_target: false,
+                ..*impact
+            });
+        });
+        rays_followed += followed.1;
+        assert_eq!(Some(followed), *end, "{choice:?} {deviate:?}");
+        assert_eq!(&path, impacts, "{choice:?} {deviate:?}");
+    }
+    assert_eq!(told.len(), shots.len());
+    assert_eq!(rays_told, rays_followed);
+}
+
+/// Poses all over the settings of a problem, with every contact.
+fn poses(setup: &Setup, count: u32) -> impl Iterator<Item = Choice> + '_ {
+    let settings = &setup.problem.settings;
+    (0..count).map(move |index| {
+        let share = |axis| f64::from(sobol_burley::sample(index, axis, 5));
+        Choice {
+            incidence: settings.incidence.at(share(0)),
+            azimuth: settings.azimuth.at(share(1)),
+            standoff: settings.standoff.at(share(2)),
+            speed: settings.speed.at(share(3)),
+            aim_along: 0.0,
+            aim_across: 0.0,
+            contact: settings.contact[index as usize % settings.contact.len()],
+            static_friction: 0.2,
+        }
+    })
+}
+
+fn shipped(file: &str, walls: Walls) -> Setup {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    let reading = problem::read(&folder.join(file)).expect("it can be read");
+    let problem = reading.problem.expect("it has no faults");
+    Setup::new(problem, walls).expect("its scene has no faults")
+}
+
+#[test]
+fn shipped_problems() {
+    let facets = Walls::Facets { chord_angle: 0.05 };
+    for (file, walls) in [
+        ("keyway.yaml", Walls::Exact),
+        ("keyway.yaml", facets),
+        ("keyway-long.yaml", Walls::Exact),
+        ("keyway-blind.yaml", Walls::Exact),
+        ("plate.yaml", Walls::Exact),
+    ] {
+        let setup = shipped(file, walls);
+        let samples = Samples::with_rim(&setup.problem, Stream::Search, 300);
+        for choice in poses(&setup, 12) {
+            same_paths(&setup, &choice, &samples.deviates);
+        }
+    }
+}
+
+#[test]
+fn laws_and_contacts_of_all_kinds() {
+    let mut setup = shipped("keyway.yaml", Walls::Exact);
+    let samples = Samples::new(&setup.problem, Stream::Search, 200);
+    for law in Law::ALL {
+        for contact in &mut setup.problem.contacts {
+            contact.contact.law = law;
+            contact.contact.tangential_restitution = 0.3;
+        }
+        for choice in poses(&setup, 6) {
+            same_paths(&setup, &choice, &samples.deviates);
+        }
+    }
+    for contact in &mut setup.problem.contacts {
+        contact.contact.restitution = Restitution::Falling {
+            reference: 0.5,
+            speed: 3.0,
+            exponent: 0.25,
+        };
+    }
+    for choice in poses(&setup, 6) {
+        same_paths(&setup, &choice, &samples.deviates);
+    }
+}
+
+#[test]
+fn surfaces_that_differ() {
+    let mut setup = shipped("keyway-long.yaml", Walls::Exact);
+    let samples = Samples::new(&setup.problem, Stream::Search, 200);
+    let contact = Contact::new(0.8, 0.7, 0.9).expect("a legal contact");
+    setup.surfaces[3].contact = Some(contact);
+    for choice in poses(&setup, 6) {
+        same_paths(&setup, &choice, &samples.deviates);
+    }
+    setup.surfaces[3].deflector = true;
+    setup.surfaces[1].contact = Some(Contact {
+        restitution: Restitution::Constant(0.0),
+        ..contact
+    });
+    for choice in poses(&setup, 6) {
+        same_paths(&setup, &choice, &samples.deviates);
+    }
+}
+
+#[test]
+fn parts_that_are_moved_and_closed() {
+    let text = "
+format: 1
+lengths_in: mm
+scene:
+  pot:
+    bore: { diameter: 20 mm, length: 30 mm, ends: { far: closed } }
+    place: { at: [5, -3, 7], rotate: [40 deg, 20 deg, 70 deg] }
+  pin:
+    bore: { diameter: 3 mm, length: 12 mm, ends: { near: closed, far: closed } }
+    place: { at: [5, -3, 7], rotate: [30 deg, 20 deg, 70 deg] }
+  block: { box: { min: [20, 20, 20], max: [40, 40, 40] } }
+target: { surface: pot.far }
+shot: { radius: 0.2 mm, density: 7800 kg/m3, size_spread: 5 % }
+jet: { exit_diameter: 3 mm, divergence: 20 deg, speed_spread: 5 % }
+contacts: { dry: { mu_s: 0.3, mu_d: 0.25, restitution: 0.6 } }
+settings:
+  incidence: [30 deg, 85 deg]
+  azimuth: [-180 deg, 180 deg]
+  standoff: [3 mm, 15 mm]
+  speed: [5 m/s, 40 m/s]
+goals: { normal_impulse: { target: 1 uN.s }, rebound: { allow: 1 uN.s } }
+paths: { impacts: 12, least_energy: 0.01 % }
+";
+    let reading = problem::read_text(text, Path::new("pot.yaml")).expect("it can be read");
+    let problem = reading
+        .problem
+        .unwrap_or_else(|| panic!("{:?}", reading.faults));
+    let setup = Setup::new(problem, Walls::Exact);
+    let setup = setup.unwrap_or_else(|faults| panic!("{faults:?}"));
+    let samples = Samples::new(&setup.problem, Stream::Search, 300);
+    for choice in poses(&setup, 40) {
+        same_paths(&setup, &choice, &samples.deviates);
+    }
+}

@@ -1,0 +1,334 @@
+//! Shots that fly side by side, impact after impact.
+//!
+//! The same paths as [`Tracer`](super::Tracer) follows one by one, to the last bit in f64, many
+//! times faster.
+
+use multiversion::multiversion;
+use nalgebra::Vector3;
+
+use super::{End, MOST_DEFLECTIONS, Tracer, energy};
+use crate::impact::{Coefficients, Friction, collide};
+use crate::jet::Deviate;
+use crate::precision::{Real, Triple, dot, unit};
+use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
+
+/// Up to [`LANES`] shots in flight, side by side.
+pub(crate) struct Volley<R> {
+    /// Their rays to the next impacts.
+    pub rays: Rays<R>,
+    /// What these meet.
+    pub hits: Hits<R>,
+    /// What the impacts there do.
+    pub impacts: Impacts<R>,
+    /// Index of each shot among those that were fired together.
+    pub shot: [u32; LANES],
+    /// How many impacts it has had; hits on deflectors do not count.
+    pub number: Lane<R>,
+    /// What it stands for.
+    pub weight: Lane<R>,
+    /// Velocity of the centre, m/s.
+    pub velocity: [Lane<R>; 3],
+    /// R w, m/s.
+    pub rolling: [Lane<R>; 3],
+    mass: Lane<R>,
+    least_energy: Lane<R>,
+    /// The chosen contact as this shot meets it, when it is the same everywhere.
+    restitution: Lane<R>,
+    holds: Lane<R>,
+    slides: Lane<R>,
+}
+
+/// What impacts do, side by side; what is true is 1, what is not 0. (With numbers of one size
+/// throughout, compilers see that loops over them can be worked on several at once.)
+pub(crate) struct Impacts<R> {
+    /// N*, N s.
+    pub normal: Lane<R>,
+    /// f*, N s.
+    pub tangential: Lane<R>,
+    pub sticks: Lane<R>,
+    /// Whether there is one that counts: a surface is hit, and it is no deflector.
+    pub counts: Lane<R>,
+    deflected: Lane<R>,
+    /// Why the flight ends here; see [`fate`].
+    fate: Lane<R>,
+}
+
+/// When paths end for their number of impacts.
+struct Rules<R> {
+    most_impacts: R,
+    /// With so few the rest of the hits were on deflectors: the shot is caught between them.
+    too_few_impacts: R,
+}
+
+/// Is told what happens to the shots of a volley.
+pub(crate) trait Witness<R> {
+    /// All shots in flight have come to their next impact, or left.
+    fn impacts(&mut self, volley: &Volley<R>);
+
+    /// A shot's path has ended after so many rays.
+    fn ends(&mut self, shot: usize, end: End, rays: usize);
+}
+
+/// Fires `deviates` together, at most [`LANES`]; returns the number of rays.
+#[multiversion(targets(
+    "x86_64+avx+avx2+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+bmi1+bmi2+fma",
+    "x86_64+avx+avx2+bmi1+bmi2+fma"
+))]
+pub(crate) fn fire<R: Real, W: Witness<R>>(
+    tracer: &Tracer,
+    volley: &mut Volley<R>,
+    deviates: &[Deviate],
+    witness: &mut W,
+) -> usize {
+    volley.load(tracer, deviates);
+    volley.fly(tracer, deviates, witness)
+}
+
+/// Why a flight ends, as numbers that are computed side by side.
+mod fate {
+    use super::End;
+    use crate::precision::Real;
+
+    pub const GOES_ON: f64 = 0.0;
+    pub const LEFT: f64 = 1.0;
+    pub const STAYS: f64 = 2.0;
+    pub const SPENT: f64 = 3.0;
+    pub const LIMIT: f64 = 4.0;
+
+    pub fn end<R: Real>(fate: R) -> Option<End> {
+        match fate.wide() {
+            LEFT => Some(End::Left),
+            STAYS => Some(End::Stays),
+            SPENT => Some(End::Spent),
+            LIMIT => Some(End::Limit),
+            _ => None,
+        }
+    }
+}
+
+impl<R: Real> Volley<R> {
+    pub fn none() -> Self {
+        let zeros = [R::ZERO; LANES];
+        Self {
+            rays: Rays::none(),
+            hits: Hits::none(),
+            impacts: Impacts {
+                normal: zeros,
+                tangential: zeros,
+                sticks: zeros,
+                counts: zeros,
+                deflected: zeros,
+                fate: zeros,
+            },
+            shot: [0; LANES],
+            number: zeros,
+            weight: zeros,
+            velocity: [zeros; 3],
+            rolling: [zeros; 3],
+            mass: zeros,
+            least_energy: zeros,
+            restitution: zeros,
+            holds: zeros,
+            slides: zeros,
+        }
+    }
+
+    /// Puts shots at the exit.
+    #[inline(always)]
+    fn load(&mut self, tracer: &Tracer, deviates: &[Deviate]) {
+        let frame = &tracer.setup.target.frame;
+        self.rays.count = deviates.len().min(LANES);
+        self.rays.leaving = None;
+        for (i, deviate) in deviates.iter().take(LANES).enumerate() {
+            let ray = tracer.aim.shot(frame, deviate);
+            put(&mut self.rays.origin, i, narrow(&ray.origin.coords));
+            put(&mut self.rays.direction, i, narrow(&ray.direction));
+            let velocity = ray.direction * (tracer.speed * deviate.speed);
+            put(&mut self.velocity, i, narrow(&velocity));
+            put(&mut self.rolling, i, [R::ZERO; 3]);
+            self.shot[i] = i as u32;
+            self.number[i] = R::ZERO;
+            self.weight[i] = R::of(deviate.weight);
+            self.mass[i] = R::of(tracer.mass * deviate.mass);
+            if let Some(contact) = &tracer.only_contact {
+                let (restitution, factor) =
+                    (contact.restitution + deviate.restitution, deviate.friction);
+                self.restitution[i] = R::of(restitution.clamp(0.0, 1.0));
+                self.holds[i] = R::of(contact.friction.holds * factor);
+                self.slides[i] = R::of(contact.friction.slides * factor);
+            }
+        }
+        let share = R::of(tracer.setup.problem.paths.least_energy);
+        for i in 0..padded(self.rays.count) {
+            self.least_energy[i] = share * energy(components(&self.velocity, i), [R::ZERO; 3]);
+        }
+    }
+
+    #[inline(always)]
+    fn fly<W: Witness<R>>(
+        &mut self,
+        tracer: &Tracer,
+        deviates: &[Deviate],
+        witness: &mut W,
+    ) -> usize {
+        let most_impacts = tracer.setup.problem.paths.impacts as f64;
+        let (mut rays, mut flights) = (0, 0);
+        while self.rays.count > 0 {
+            rays += self.rays.count;
+            flights += 1;
+            let rules = Rules {
+                most_impacts: R::of(most_impacts),
+                too_few_impacts: R::of(f64::from(flights) - f64::from(MOST_DEFLECTIONS)),
+            };
+            tracer.setup.scene.first_hits(&self.rays, &mut self.hits);
+            if tracer.has_deflectors {
+                self.mark_deflections(tracer);
+            }
+            match &tracer.only_contact {
+                Some(only) => self.collide(&only.friction.at(only.restitution), &rules),
+                None => self.collide_one_by_one(tracer, deviates, &rules),
+            }
+            witness.impacts(self);
+            self.end_paths(flights, witness);
+            self.leave();
+        }
+        rays
+    }
+
+    /// Marks the hits that belong to the flight.
+    fn mark_deflections(&mut self, tracer: &Tracer) {
+        for i in 0..self.rays.count {
+            let surface = self.hits.surface[i] as usize;
+            self.impacts.deflected[i] = truth(tracer.setup.surfaces[surface].deflector);
+        }
+    }
+
+    /// Lets the shots rebound from surfaces with one contact.
+    #[inline(always)]
+    fn collide(&mut self, only: &Coefficients<R>, rules: &Rules<R>) {
+        for i in 0..padded(self.rays.count) {
+            let contact = Coefficients {
+                restitution: self.restitution[i],
+                holds: self.holds[i],
+                slides: self.slides[i],
+                ..*only
+            };
+            self.rebound(i, &contact, rules);
+        }
+    }
+
+    /// Lets the shots rebound where contacts differ.
+    fn collide_one_by_one(&mut self, tracer: &Tracer, deviates: &[Deviate], rules: &Rules<R>) {
+        for i in 0..self.rays.count {
+            let normal = components(&self.hits.normal, i);
+            let normal_speed = dot(components(&self.velocity, i), normal);
+            let surface = self.hits.surface[i] as usize;
+            let contact = tracer.contact_with(surface, &deviates[self.shot[i] as usize]);
+            let restitution = contact.restitution.at(-normal_speed.wide());
+            let contact = Friction::of(&contact).at(restitution);
+            self.rebound(i, &contact, rules);
+        }
+    }
+
+    /// Lets one shot rebound, and decides what becomes of it.
+    #[inline(always)]
+    fn rebound(&mut self, i: usize, contact: &Coefficients<R>, rules: &Rules<R>) {
+        let normal = components(&self.hits.normal, i);
+        let velocity = components(&self.velocity, i);
+        let rolling = components(&self.rolling, i);
+        let normal_speed = dot(velocity, normal);
+        let after = collide(contact, velocity, rolling, normal, normal_speed);
+        let met = (self.hits.distance[i] < R::INFINITY) & (normal_speed < R::ZERO);
+        let counts = met & (self.impacts.deflected[i] == R::ZERO);
+        let number = self.number[i] + truth(counts);
+        let spent = energy(after.velocity, after.rolling) < self.least_energy[i];
+        let last = (number == rules.most_impacts) | (number == rules.too_few_impacts);
+        let mut fate = if last { fate::LIMIT } else { fate::GOES_ON };
+        fate = if spent { fate::SPENT } else { fate };
+        fate = if after.departure == R::ZERO {
+            fate::STAYS
+        } else {
+            fate
+        };
+        fate = if met { fate } else { fate::LEFT };
+        self.impacts.normal[i] = self.mass[i] * after.normal;
+        self.impacts.tangential[i] = self.mass[i] * after.tangential;
+        self.impacts.sticks[i] = truth(after.sticks);
+        self.impacts.counts[i] = truth(counts);
+        self.impacts.fate[i] = R::of(fate);
+        self.number[i] = number;
+        put(&mut self.velocity, i, after.velocity);
+        put(&mut self.rolling, i, after.rolling);
+    }
+
+    /// Drops the shots whose paths have ended; the others stay in order.
+    #[inline(always)]
+    fn end_paths<W: Witness<R>>(&mut self, flights: u32, witness: &mut W) {
+        let mut kept = [0_u8; LANES];
+        let mut count = 0;
+        for i in 0..self.rays.count {
+            kept[count] = i as u8;
+            match fate::end(self.impacts.fate[i]) {
+                Some(end) => witness.ends(self.shot[i] as usize, end, flights as usize),
+                None => count += 1,
+            }
+        }
+        if count == self.rays.count {
+            return;
+        }
+        self.rays.count = count;
+        let kept = &kept[..count];
+        for vectors in [&mut self.velocity, &mut self.rolling, &mut self.hits.point] {
+            vectors.iter_mut().for_each(|lane| keep(lane, kept));
+        }
+        for lane in [
+            &mut self.number,
+            &mut self.weight,
+            &mut self.mass,
+            &mut self.least_energy,
+            &mut self.restitution,
+            &mut self.holds,
+            &mut self.slides,
+        ] {
+            keep(lane, kept);
+        }
+        keep(&mut self.shot, kept);
+        keep(&mut self.hits.spots.part, kept);
+        keep(&mut self.hits.spots.piece, kept);
+        keep(&mut self.hits.spots.front, kept);
+    }
+
+    /// The rays on which the shots leave the surfaces that they have hit.
+    #[inline(always)]
+    fn leave(&mut self) {
+        self.rays.origin = self.hits.point;
+        self.rays.leaving = Some(self.hits.spots.clone());
+        for i in 0..padded(self.rays.count) {
+            put(
+                &mut self.rays.direction,
+                i,
+                unit(components(&self.velocity, i)),
+            );
+        }
+    }
+}
+
+/// 1 for what is true, 0 for what is not.
+#[inline(always)]
+pub(crate) fn truth<R: Real>(holds: bool) -> R {
+    if holds { R::ONE } else { R::ZERO }
+}
+
+/// A vector in the precision of the flight.
+#[inline(always)]
+fn narrow<R: Real>(vector: &Vector3<f64>) -> Triple<R> {
+    [R::of(vector.x), R::of(vector.y), R::of(vector.z)]
+}
+
+/// Brings the kept lanes to the front.
+#[inline(always)]
+fn keep<T: Copy>(lane: &mut [T; LANES], kept: &[u8]) {
+    for (to, &from) in kept.iter().enumerate() {
+        lane[to] = lane[from as usize % LANES];
+    }
+}
