@@ -34,9 +34,21 @@ impl Hits {
         }
     }
 
+    /// Adds other hits behind these.
+    pub fn append(&mut self, mut others: Self) {
+        self.normal.append(&mut others.normal);
+        self.tangential.append(&mut others.tangential);
+        self.weight.append(&mut others.weight);
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.normal.len()
+    }
+
+    /// The largest tangential impulse, N s per m/s; 0 without hits.
+    pub fn most_tangential(&self) -> f64 {
+        self.tangential.iter().copied().fold(0.0, f64::max)
     }
 
     /// Whether there are none.
@@ -69,9 +81,6 @@ pub(super) struct Moments {
     pub curvature: f64,
 }
 
-/// Partial sums that are kept side by side; the result does not depend on the machine.
-const PARTS: usize = 16;
-
 /// The moments of impulses over `unit` at a launch speed. With `only_excess` those hits count for
 /// which gain speed > 1.
 #[multiversion(targets(
@@ -85,29 +94,52 @@ pub(super) fn moments(
     speed: f64,
     only_excess: bool,
 ) -> Moments {
-    let mut square = [0.0; PARTS];
-    let mut slope = [0.0; PARTS];
-    let mut curvature = [0.0; PARTS];
-    let mut add = |impulses: &[f64], weights: &[f64]| {
-        for (part, (impulse, weight)) in impulses.iter().zip(weights).enumerate().take(PARTS) {
-            let gain = impulse / unit;
-            let excess = gain * speed - 1.0;
-            let counts = !only_excess | (excess > 0.0);
-            let weight = if counts { *weight } else { 0.0 };
-            square[part] += weight * excess * excess;
-            slope[part] += weight * excess * gain;
-            curvature[part] += weight * gain * gain;
-        }
-    };
+    let mut sums = PartialSums::default();
+    let per_unit = 1.0 / unit;
     let (whole, rest) = impulses.as_chunks::<PARTS>();
     let (whole_weights, rest_weights) = weights.as_chunks::<PARTS>();
     for (impulses, weights) in whole.iter().zip(whole_weights) {
-        add(impulses, weights);
+        sums.add(impulses, weights, per_unit, speed, only_excess);
     }
-    add(rest, rest_weights);
+    let (mut impulses, mut weights) = ([0.0; PARTS], [0.0; PARTS]);
+    impulses[..rest.len()].copy_from_slice(rest);
+    weights[..rest_weights.len()].copy_from_slice(rest_weights);
+    sums.add(&impulses, &weights, per_unit, speed, only_excess);
     Moments {
-        square: square.iter().sum(),
-        slope: slope.iter().sum(),
-        curvature: curvature.iter().sum(),
+        square: sums.square.iter().sum(),
+        slope: sums.slope.iter().sum(),
+        curvature: sums.curvature.iter().sum(),
+    }
+}
+
+/// Sums that are kept side by side, so that the result does not depend on the machine.
+#[derive(Default)]
+struct PartialSums {
+    square: [f64; PARTS],
+    slope: [f64; PARTS],
+    curvature: [f64; PARTS],
+}
+
+const PARTS: usize = 16;
+
+impl PartialSums {
+    #[inline(always)]
+    fn add(
+        &mut self,
+        impulses: &[f64; PARTS],
+        weights: &[f64; PARTS],
+        per_unit: f64,
+        speed: f64,
+        only_excess: bool,
+    ) {
+        for part in 0..PARTS {
+            let gain = impulses[part] * per_unit;
+            let excess = gain * speed - 1.0;
+            let counts = !only_excess | (excess > 0.0);
+            let weight = if counts { weights[part] } else { 0.0 };
+            self.square[part] += weight * excess * excess;
+            self.slope[part] += weight * excess * gain;
+            self.curvature[part] += weight * gain * gain;
+        }
     }
 }

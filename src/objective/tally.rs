@@ -48,6 +48,20 @@ impl Tally {
         score.finish()
     }
 
+    /// The tally of several sets of shots together.
+    pub fn join(parts: Vec<Self>) -> Self {
+        let mut all = Self::default();
+        for part in parts {
+            all.shots += part.shots;
+            all.weight += part.weight;
+            all.missed += part.missed;
+            all.hits.append(part.hits);
+            all.rebound += part.rebound;
+            all.rays += part.rays;
+        }
+        all
+    }
+
     /// The terms at a launch speed, m/s.
     pub fn terms(&self, goals: &Goals, speed: f64) -> Terms {
         self.sums(goals, speed).terms(goals)
@@ -71,8 +85,12 @@ impl Tally {
     pub fn best_speed(&self, goals: &Goals, range: Range) -> f64 {
         let (mut low, mut high) = (range.min, range.max);
         let mut speed = range.at(0.5);
+        let smooth = self.smooth_slope(goals, speed);
+        let most_tangential = self.hits.most_tangential();
         for _ in 0..MOST_NEWTON_STEPS {
-            let (slope, curvature) = self.slope_and_curvature(goals, speed);
+            let excess = self.excess_slope(goals, speed, most_tangential);
+            let slope = smooth.at(speed) + excess.value;
+            let curvature = smooth.rise + excess.rise;
             if slope > 0.0 {
                 high = speed;
             } else {
@@ -100,24 +118,39 @@ impl Tally {
         speed
     }
 
-    fn slope_and_curvature(&self, goals: &Goals, speed: f64) -> (f64, f64) {
+    /// Half the slope of the terms that are quadratic in the speed.
+    fn smooth_slope(&self, goals: &Goals, speed: f64) -> Slope {
         let normal = self.normal_moments(goals, speed);
-        let tangential = self.tangential_moments(goals, speed);
-        let normal_weight = goals.normal_impulse.weight;
-        let tangential_weight = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
-        let hits = if self.hits.is_empty() {
+        let rebound = self.rebound / self.weight;
+        let weight = goals.normal_impulse.weight / self.weight_of_hits();
+        Slope {
+            speed,
+            value: weight * normal.slope + rebound * speed,
+            rise: weight * normal.curvature + rebound,
+        }
+    }
+
+    /// Half the slope of the term that starts where impulses exceed their limit.
+    fn excess_slope(&self, goals: &Goals, speed: f64, most_tangential: f64) -> Slope {
+        let exceeds = |limit: f64| most_tangential * speed > limit;
+        let goal = goals.tangential_impulse.filter(|goal| exceeds(goal.limit));
+        goal.map_or_else(Slope::default, |goal| {
+            let moments = self.tangential_moments(goals, speed);
+            let weight = goal.weight / self.weight_of_hits();
+            Slope {
+                speed,
+                value: weight * moments.slope,
+                rise: weight * moments.curvature,
+            }
+        })
+    }
+
+    fn weight_of_hits(&self) -> f64 {
+        if self.hits.is_empty() {
             1.0
         } else {
             self.weight - self.missed
-        };
-        let rebound = self.rebound / self.weight;
-        let of_hits = |part: fn(&Moments) -> f64| {
-            (normal_weight * part(&normal) + tangential_weight * part(&tangential)) / hits
-        };
-        (
-            2.0 * (of_hits(|moments| moments.slope) + rebound * speed),
-            2.0 * (of_hits(|moments| moments.curvature) + rebound),
-        )
+        }
     }
 
     fn normal_moments(&self, goals: &Goals, speed: f64) -> Moments {
@@ -134,6 +167,22 @@ impl Tally {
             .map_or_else(Moments::default, |goal| {
                 moments(tangential, weight, goal.limit, speed, true)
             })
+    }
+}
+
+/// Half the slope of a part of J in the speed, and how that rises.
+#[derive(Clone, Copy, Debug, Default)]
+struct Slope {
+    /// Where it is known, m/s.
+    speed: f64,
+    value: f64,
+    rise: f64,
+}
+
+impl Slope {
+    /// Elsewhere, where it rises evenly.
+    fn at(&self, speed: f64) -> f64 {
+        self.value + self.rise * (speed - self.speed)
     }
 }
 

@@ -24,7 +24,16 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 /// The least J on any set of shots is on average below the least true J, and the true J of the
 /// settings found is above it. So the gap between the two bounds how far these settings are from
 /// the best ones.
-pub(super) fn unsettled(searches: &[Search], answers: &[Answer], accuracy: f64) -> Vec<usize> {
+///
+/// Where the error is too large for that gap to say much, the search goes on as well, until it has
+/// seen as many shots as stand behind the figures.
+pub(super) fn unsettled(
+    searches: &[Search],
+    answers: &[Answer],
+    accuracy: f64,
+    shots: usize,
+    fresh_shots: usize,
+) -> Vec<usize> {
     let fresh = |answer: &Answer| {
         Some((
             answer.evaluation.as_ref()?.terms.total(),
@@ -39,7 +48,8 @@ pub(super) fn unsettled(searches: &[Search], answers: &[Answer], accuracy: f64) 
         let (claimed, (found, error)) = search.best().standing.objective().zip(fresh(answer))?;
         let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
         let gap = found - claimed;
-        Some(in_reach && gap > accuracy * found + CONFIDENCE * error)
+        let is_vague = error > accuracy * found / CONFIDENCE && shots < fresh_shots;
+        Some(in_reach && (is_vague || gap > accuracy * found + CONFIDENCE * error))
     };
     let pairs = searches.iter().zip(answers).enumerate();
     pairs

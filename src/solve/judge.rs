@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use rayon::prelude::*;
+
 use crate::jet::{Deviate, Pose};
 use crate::objective::{Tally, Terms};
 use crate::problem::setting::Choice;
@@ -101,16 +103,28 @@ impl<'a> Judge<'a> {
         let mut choice = *choice;
         let tally = if speed_scales_out(self.setup, choice.contact) {
             // Paths do not depend on the speed; any will do to trace them.
-            let tally = Tally::trace(self.setup, &choice, 1.0, self.shots);
+            let tally = self.trace(&choice, 1.0);
             choice.speed = tally.best_speed(goals, self.setup.problem.settings.speed);
             tally
         } else {
-            Tally::trace(self.setup, &choice, choice.speed, self.shots)
+            self.trace(&choice, choice.speed)
         };
         self.effort.add(1, tally.rays);
         (choice, Standing::Feasible(tally.terms(goals, choice.speed)))
     }
+
+    /// Traces the shots, many of them on all threads.
+    fn trace(&self, choice: &Choice, speed: f64) -> Tally {
+        let tally = |shots: &[Deviate]| Tally::trace(self.setup, choice, speed, shots);
+        if self.shots.len() <= SHARE {
+            return tally(self.shots);
+        }
+        Tally::join(self.shots.par_chunks(SHARE).map(tally).collect())
+    }
 }
+
+/// Shots that one thread traces at a time.
+const SHARE: usize = 2048;
 
 /// Whether the paths stay the same when every speed is multiplied by one factor.
 pub fn speed_scales_out(setup: &Setup, contact: usize) -> bool {

@@ -48,8 +48,9 @@ pub struct Solution {
 pub const ANSWERS: u32 = 0;
 
 const SCREENING_SHOTS: usize = 64;
-/// Up to so many shots every contact is worth its refinement, beyond only those that could win.
-const CHEAP_SHOTS: usize = 4096;
+/// Up to so many shots every contact is refined for itself, beyond only those that could win, the
+/// best one first.
+const CHEAP_SHOTS: usize = 1024;
 /// By how much the shots rise when the last stage was not accurate enough.
 const RISE: usize = 4;
 
@@ -61,17 +62,23 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let answer = |search: &Search| Answer::of(setup, search.best(), &fresh, &effort);
     let mut answers: Vec<Answer> = searches.iter().map(answer).collect();
     let accuracy = setup.problem.accuracy;
-    let mut open = unsettled(&searches, &answers, accuracy);
+    let mut open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         let samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
         let judge = Judge::new(setup, &samples.deviates, &effort, control.stop);
+        refine_in_turn(
+            &mut searches,
+            &open,
+            &judge,
+            &Stage::beyond(shots),
+            accuracy,
+        );
         for index in open {
-            searches[index].refine(&judge, &Stage::beyond(shots), accuracy);
             answers[index] = answer(&searches[index]);
-            tell(control, &effort, &searches);
         }
-        open = unsettled(&searches, &answers, accuracy);
+        tell(control, &effort, &searches);
+        open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);
     }
     answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
     let status = match answers.first() {
@@ -103,14 +110,47 @@ fn descend(setup: &Setup, control: &Control, effort: &Effort) -> (Vec<Search>, u
         .map(|&contact| Search::screen(setup, contact, &judge(SCREENING_SHOTS)))
         .collect();
     for stage in stages {
-        let least = least_objective(&searches);
-        searches
-            .par_iter_mut()
-            .filter(|search| stage.shots <= CHEAP_SHOTS || is_in_reach(search, least))
-            .for_each(|search| search.refine(&judge(stage.shots), stage, setup.problem.accuracy));
+        let judge = judge(stage.shots);
+        let accuracy = setup.problem.accuracy;
+        if stage.shots <= CHEAP_SHOTS {
+            let each = searches.par_iter_mut();
+            each.for_each(|search| search.refine(&judge, stage, accuracy));
+        } else {
+            let least = least_objective(&searches);
+            let could_win = |&index: &usize| is_in_reach(&searches[index], least);
+            let open: Vec<usize> = (0..searches.len()).filter(could_win).collect();
+            refine_in_turn(&mut searches, &open, &judge, stage, accuracy);
+        }
         tell(control, effort, &searches);
     }
     (searches, most_shots)
+}
+
+/// Refines some of the searches, the best one first, so that the others can profit from it.
+fn refine_in_turn(
+    searches: &mut [Search],
+    which: &[usize],
+    judge: &Judge,
+    stage: &Stage,
+    accuracy: f64,
+) {
+    let rank = |search: &Search| search.best().standing.rank();
+    let mut order = which.to_vec();
+    order.sort_by(|&a, &b| rank(&searches[a]).total_cmp(&rank(&searches[b])));
+    let mut leader: Option<usize> = None;
+    for index in order {
+        match leader {
+            None => searches[index].refine(judge, stage, accuracy),
+            Some(leader) => {
+                let leader = searches[leader].clone();
+                searches[index].refine_beside(&leader, judge, stage, accuracy);
+            }
+        }
+        let is_better = |leader: usize| rank(&searches[index]) < rank(&searches[leader]);
+        if leader.is_none_or(is_better) {
+            leader = Some(index);
+        }
+    }
 }
 
 fn tell(control: &Control, effort: &Effort, searches: &[Search]) {

@@ -58,8 +58,8 @@ impl CostFunction for &Descent<'_> {
     }
 }
 
-/// The best point found from `start` with a first simplex of edge `size`, until the values at the
-/// corners differ by less than `accuracy` relative to the best.
+/// The best point found downhill from `start`, until the values at the corners of the simplex
+/// differ by less than a tenth of `accuracy`, relative to the best.
 pub fn polish(
     space: &Space,
     judge: &Judge,
@@ -67,25 +67,20 @@ pub fn polish(
     size: f64,
     accuracy: f64,
 ) -> Candidate {
-    let dimensions = space.dimensions();
-    let scale = start.standing.rank();
-    let mut simplex = vec![start.point.clone()];
-    for axis in 0..dimensions {
-        let mut corner = start.point.clone();
-        // Inwards, so that a start on a bound does not make a flat simplex.
-        corner[axis] += if corner[axis] > 0.5 { -size } else { size };
-        simplex.push(corner);
+    if space.dimensions() == 0 {
+        return start;
     }
+    let start = best_bound(space, judge, start);
+    let scale = start.standing.rank().max(f64::MIN_POSITIVE);
+    let simplex = first_simplex(space, judge, &start, size);
     let descent = Descent {
         space,
         judge,
         best: RefCell::new(start),
     };
-    let solver =
-        NelderMead::new(simplex).with_sd_tolerance(accuracy * scale.max(f64::MIN_POSITIVE));
-    if let Ok(solver) = solver {
-        let executor = Executor::new(&descent, solver)
-            .configure(|state| state.max_iters(ITERATIONS_PER_DIMENSION * dimensions as u64));
+    if let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(SETTLED * accuracy * scale) {
+        let most = ITERATIONS_PER_DIMENSION * space.dimensions() as u64;
+        let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
         // The best point is kept by the cost function; how the run ended does not matter.
         drop(executor.run());
     }
@@ -93,3 +88,55 @@ pub fn polish(
 }
 
 const ITERATIONS_PER_DIMENSION: u64 = 40;
+
+/// A descent ends when J differs by less than this share of the accuracy over its simplex.
+const SETTLED: f64 = 0.1;
+
+/// The start, or a better point where one coordinate is on a bound: that is where the best value of
+/// a setting often is, and from afar a descent creeps towards it.
+fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
+    let mut best = start;
+    for axis in 0..space.dimensions() {
+        for bound in [0.0, 1.0] {
+            if best.point[axis] == bound {
+                continue;
+            }
+            let mut point = best.point.clone();
+            point[axis] = bound;
+            let there = Candidate::at(space, judge, &point);
+            if there.standing.rank() < best.standing.rank() {
+                best = there;
+            }
+        }
+    }
+    best
+}
+
+/// A simplex whose edges are so short that J rises by no more than a moderate share along them:
+/// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
+/// into a narrow valley loses sight of the valley's length.
+fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> Vec<Vec<f64>> {
+    let limit = start.standing.rank() * (1.0 + STEEPEST_EDGE);
+    let corner = |axis: usize| {
+        // Inwards, so that a start on a bound does not make a flat simplex.
+        let towards_middle = if start.point[axis] > 0.5 { -1.0 } else { 1.0 };
+        let mut edge = size;
+        loop {
+            let mut corner = start.point.clone();
+            corner[axis] += towards_middle * edge;
+            let is_shortest = edge <= SHORTEST_EDGE * size;
+            if is_shortest || Candidate::at(space, judge, &corner).standing.rank() <= limit {
+                return corner;
+            }
+            edge *= 0.5;
+        }
+    };
+    let mut simplex = vec![start.point.clone()];
+    simplex.extend((0..space.dimensions()).map(corner));
+    simplex
+}
+
+/// By what share J may rise along an edge of a first simplex.
+const STEEPEST_EDGE: f64 = 0.3;
+/// No edge is shortened to less than this share.
+const SHORTEST_EDGE: f64 = 1.0 / 64.0;

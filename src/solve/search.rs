@@ -12,7 +12,7 @@ pub(super) struct Stage {
     pub shots: usize,
     /// Candidates that go on, for each contact.
     pub candidates: usize,
-    /// Edge of the first simplex, as a share of each range.
+    /// Longest edge of the first simplex, as a share of each range.
     pub size: f64,
 }
 
@@ -20,23 +20,23 @@ pub(super) struct Stage {
 pub(super) const STAGES: [Stage; 4] = [
     Stage {
         shots: 256,
-        candidates: 6,
+        candidates: 4,
         size: 0.4,
     },
     Stage {
         shots: 1024,
-        candidates: 3,
-        size: 0.2,
+        candidates: 2,
+        size: 0.3,
     },
     Stage {
         shots: 4096,
-        candidates: 2,
-        size: 0.08,
+        candidates: 1,
+        size: 0.15,
     },
     Stage {
         shots: 16384,
         candidates: 1,
-        size: 0.03,
+        size: 0.06,
     },
 ];
 
@@ -50,11 +50,8 @@ impl Stage {
     }
 }
 
-/// A descent ends when J differs by less than this share of the accuracy over its simplex. Along the
-/// flat valley a looser end stops far from the best place.
-const SETTLED: f64 = 0.01;
-
 /// The search for one contact.
+#[derive(Clone)]
 pub(super) struct Search {
     space: Space,
     /// Best first.
@@ -113,12 +110,28 @@ impl Search {
             .into_par_iter()
             .map(|start| {
                 let start = Candidate::at(space, judge, &start.point);
-                if space.dimensions() == 0 {
-                    return start;
-                }
-                polish(space, judge, start, stage.size, SETTLED * accuracy)
+                polish(space, judge, start, stage.size, accuracy)
             })
             .collect();
         self.sort();
+    }
+
+    /// Goes on from the best candidate with more shots, or from where another contact is best.
+    ///
+    /// Often friction makes little difference: what is there within half the accuracy of that
+    /// contact's J is taken as it is.
+    pub fn refine_beside(&mut self, leader: &Self, judge: &Judge, stage: &Stage, accuracy: f64) {
+        let other = leader.best();
+        if other.point.len() == self.space.dimensions() {
+            let there = Candidate::at(&self.space, judge, &other.point);
+            let own = Candidate::at(&self.space, judge, &self.best().point);
+            let close_enough = other.standing.rank() * (1.0 + 0.5 * accuracy);
+            self.candidates = vec![there, own];
+            self.sort();
+            if self.best().standing.rank() <= close_enough {
+                return;
+            }
+        }
+        self.refine(judge, stage, accuracy);
     }
 }
