@@ -341,6 +341,8 @@ fn a_problem_without_scatter_has_no_figure_of_it() {
     assert_eq!((run.status, run.messages.as_str()), (0, ""));
     assert!(!run.folder.path().join("out/pose.svg").exists());
     assert!(run.text("pose.csv").lines().count() > 1);
+    assert!(run.out.contains("as good without any one of these effects"));
+    assert!(run.out.contains("(J = 9.6e-13)"), "{}", run.out);
     assert!(
         !run.out.contains("NaN") && !run.out.contains("inf"),
         "{}",

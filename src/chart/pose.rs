@@ -41,7 +41,7 @@ pub struct PoseCurve {
 pub struct PosePoint {
     /// Shots.
     pub shots: usize,
-    /// Time that J takes on one thread, with shots drawn before, s: a median of repeats.
+    /// Time that J takes on one thread, with shots drawn before, s: from a median of repeats.
     pub seconds: f64,
     /// Root mean square of (J - reference) / reference over many sets of so many shots.
     pub error: f64,
@@ -86,6 +86,9 @@ const CHORD_ANGLES: [f64; 3] = [4.0, 1.0, 0.25];
 /// Fewest shots, and by how much they rise from point to point.
 const FEWEST_SHOTS: usize = 16;
 const RISE: usize = 4;
+
+/// Shots in a slice of a longer time.
+const TIMED_SHOTS: usize = 4096;
 
 /// Every way to compute J; those that were reached when the control stops it.
 pub(super) fn curves(
@@ -193,7 +196,7 @@ fn curves_of(
             let squares = sets.iter().map(|set| set[index].mean_squares[level]);
             PosePoint {
                 shots,
-                seconds: timing::seconds(|| way.objective(&samples.deviates[..shots])),
+                seconds: way.seconds(&samples.deviates[..shots]),
                 error: mean(squares).0.sqrt(),
             }
         });
@@ -238,8 +241,11 @@ impl Way<'_> {
         }
     }
 
-    fn objective(&self, shots: &[Deviate]) -> f64 {
-        self.sums(shots).terms(&self.setup.problem.goals).total()
+    fn seconds(&self, shots: &[Deviate]) -> f64 {
+        let slices: Vec<&[Deviate]> = shots.chunks(TIMED_SHOTS).collect();
+        timing::seconds(&slices, |slice| {
+            self.sums(slice).terms(&self.setup.problem.goals)
+        })
     }
 
     fn sums(&self, shots: &[Deviate]) -> Sums {

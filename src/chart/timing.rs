@@ -8,9 +8,14 @@ const LEAST_REPEATS: usize = 5;
 const LEAST_TURNS: usize = 99;
 const LEAST_SECONDS: f64 = 0.01;
 
-/// Median time that some work takes, s.
-pub fn seconds<T>(mut work: impl FnMut() -> T) -> f64 {
-    repeated(LEAST_REPEATS, || timed(&mut work))
+/// Time that some work takes, s: the median of its slices times their number, so that a busy
+/// machine, which stretches long work most, does not tell much.
+pub fn seconds<S: Copy, T>(slices: &[S], work: impl Fn(S) -> T) -> f64 {
+    let mut turns = slices.iter().cycle();
+    let slice = repeated(LEAST_REPEATS.max(slices.len()), || {
+        timed(&mut || turns.next().map(|slice| work(*slice)))
+    });
+    slice * slices.len() as f64
 }
 
 /// Median of the time that some work takes over that of other work, taken in turns.

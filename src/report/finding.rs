@@ -2,7 +2,7 @@
 
 use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches, Walls};
 use crate::report::figure::time;
-use crate::report::number::{count, plain, significant};
+use crate::report::number::{Scale, count, plain};
 use crate::report::series::Series;
 
 /// How the ways to draw shots and to model walls compare, at the middle of all errors seen.
@@ -27,9 +27,10 @@ pub fn of_poses(chart: &Chart) -> String {
         findings.push(format!(
             "the coarsest mesh takes {} times as long as exact walls and changes J by {}",
             plain(rounded(seconds(coarse) / seconds(exact), 2)),
-            match coarse.bias.abs() {
-                bias if bias > 2.0 * coarse.bias_standard_error => share(bias),
-                _ => format!("less than {}", share(2.0 * coarse.bias_standard_error)),
+            match (coarse.bias.abs(), 2.0 * coarse.bias_standard_error) {
+                (0.0, 0.0) => "nothing".into(),
+                (bias, noise) if bias > noise => share(bias),
+                (_, noise) => format!("less than {}", share(noise)),
             },
         ));
     }
@@ -82,7 +83,7 @@ pub fn of_searches(chart: &Chart, searches: &Searches) -> String {
         "Asked for {}, as in the file, the answer is {} above the best known (J = {}) after {}: medians of {} seeds.",
         picked.label,
         share(excess),
-        significant(searches.best_known.objective, 4),
+        objective(searches.best_known.objective),
         rounded_time(seconds),
         count(picked.points.len()),
     )
@@ -90,15 +91,25 @@ pub fn of_searches(chart: &Chart, searches: &Searches) -> String {
 
 /// Which effect matters most for the answer.
 pub fn of_effects(effects: &[Effect]) -> String {
-    let worst = effects.iter().max_by(|a, b| a.regret.total_cmp(&b.regret));
-    worst.map_or_else(String::new, |worst| {
-        format!(
+    let matters = |effect: &&Effect| effect.regret > 2.0 * effect.regret_standard_error;
+    let worst = effects
+        .iter()
+        .filter(matters)
+        .max_by(|a, b| a.regret.total_cmp(&b.regret));
+    match worst {
+        Some(worst) => format!(
             "Without {}, J at the recommended settings changes by {}, and the answer found is {} worse.",
             worst.name,
             signed_share(worst.change),
-            share(worst.regret.max(0.0)),
-        )
-    })
+            share(worst.regret),
+        ),
+        None => "The answer is as good without any one of these effects.".into(),
+    }
+}
+
+/// J with four digits.
+pub fn objective(value: f64) -> String {
+    Scale::for_error(value, 0.0).text(value)
 }
 
 /// Smaller shares, in percent, are not worth their digits.

@@ -6,7 +6,7 @@ use plotters::style::text_anchor::HPos;
 use super::axis::{LogAxis, percent, time};
 use super::plot::{Axes, Plot};
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
-use super::style::{FAINT, GHOST, INK, LABEL, Look, look_of};
+use super::style::{FAINT, GHOST, INK, LABEL, look_of};
 use crate::chart::{Chart, PoseCurve, Sampling, Walls};
 use crate::report::finding;
 use crate::report::number::{count, significant};
@@ -27,7 +27,7 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
         let explanation = format!(
             "Error: root mean square of (J - J0) / J0 at the recommended settings; J0 = {} is known \
              to {} %. Time: median, one thread.",
-            significant(chart.reference.objective, 4),
+            finding::objective(chart.reference.objective),
             significant(noise(chart) * 100.0, 2),
         );
         let sentences = [chart.title.clone(), finding::of_poses(chart), explanation];
@@ -92,7 +92,8 @@ fn panel(chart: &Chart, plot: &Plot, sampling: Sampling, (x, y): (LogAxis, LogAx
         plot.dashes(&[(x.from, noise), (x.to, noise)], GHOST.stroke_width(2))?;
     }
     for (index, curve) in curves(sampling).enumerate() {
-        let look = look(index);
+        // The ways are in the same order in every panel.
+        let look = look_of(index);
         plot.line(&points(curve), look.colour.stroke_width(4))?;
         for point in points(curve) {
             plot.marker(point, look, 9.0)?;
@@ -153,11 +154,6 @@ fn points(curve: &PoseCurve) -> Vec<(f64, f64)> {
     visible.map(|point| (point.seconds, point.error)).collect()
 }
 
-/// The curves of a panel are in the same order in every panel.
-fn look(index: usize) -> Look {
-    look_of(index)
-}
-
 fn legend(chart: &Chart, area: &Area) -> Drawn {
     let first = chart
         .poses
@@ -166,7 +162,7 @@ fn legend(chart: &Chart, area: &Area) -> Drawn {
     let mut left = 40;
     for (index, curve) in first.enumerate() {
         let name = curve_name(curve);
-        key(area, (left, 30), look(index), &name)?;
+        key(area, (left, 30), look_of(index), &name)?;
         left += 66 + sheet::width(&name, LABEL) + 40;
     }
     Ok(())
