@@ -97,7 +97,8 @@
 //! | [`solve`] | the search over settings, and how far each may drift |
 //! | [`validity`] | what the model leaves out at the answer |
 //! | [`record`] | the complete result, JSON both ways |
-//! | [`report`] | the sheet, made from the record alone |
+//! | [`chart`] | speed against accuracy, measured on the problem at hand |
+//! | [`report`] | sheet, tables and figures, made from a record or a chart alone |
 //!
 //! Everything is in SI units and radians except where a name says otherwise. `docs/model.md` holds
 //! the model with its equations, `docs/problem-file.md` every key of a problem file.
@@ -127,6 +128,9 @@ pub mod solve;
 pub mod validity;
 
 pub mod record;
+
+pub mod chart;
+
 pub mod report;
 
 /// The example of the README, which must run as well.

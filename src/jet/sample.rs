@@ -1,5 +1,5 @@
-//! How single shots deviate from the jet's axis: low-discrepancy samples, each a pure function of
-//! (index, dimension, seed), so that neither order nor threads can change a result.
+//! How single shots deviate from the jet's axis: low-discrepancy or random samples, each a pure
+//! function of (index, dimension, seed), so that neither order nor threads can change a result.
 
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -98,6 +98,17 @@ pub enum Stream {
     Fresh(u32),
 }
 
+impl Stream {
+    /// Its own seed under a common one.
+    fn seed(self, seed: u64) -> u64 {
+        let number = match self {
+            Self::Search => 0,
+            Self::Fresh(number) => 1 + u64::from(number),
+        };
+        mix(mix(seed) ^ number)
+    }
+}
+
 /// Sample dimensions, those that matter most first: low dimensions are the most uniform.
 #[derive(Clone, Copy)]
 enum Dimension {
@@ -129,6 +140,15 @@ impl Samples {
         }
     }
 
+    /// The first `count` shots of a stream, drawn independently of each other: what the
+    /// low-discrepancy points of [`Samples::new`] are to be compared with.
+    pub fn random(problem: &Problem, stream: Stream, count: usize) -> Self {
+        let shot = |index| deviate(problem, &mut Point::random(problem.seed, stream, index));
+        Self {
+            deviates: (0..count as u32).map(shot).collect(),
+        }
+    }
+
     /// Shots for a search: every second one is drawn towards the rim of the exit disc, of the cone
     /// and of the tolerance box, where rare harm comes from, and stands for accordingly less.
     ///
@@ -148,13 +168,20 @@ impl Samples {
     }
 }
 
-/// One point of the low-discrepancy sequence.
+/// One point of the unit cube.
 struct Point {
-    index: u32,
-    seed: u32,
+    sequence: Sequence,
     on_rim: bool,
     /// Density of the rim's distribution over that of the jet, so far.
     rim_density: f64,
+}
+
+/// Where the coordinates of a point come from.
+enum Sequence {
+    /// Sobol's points, scrambled.
+    Sobol { index: u32, seed: u32 },
+    /// SplitMix64, for each coordinate on its own.
+    Random { seed: u64 },
 }
 
 /// Keeps the density finite on the rim itself.
@@ -162,27 +189,40 @@ const LEAST_DEPTH: f64 = 1e-18;
 
 impl Point {
     fn new(seed: u64, stream: Stream, index: u32, on_rim: bool) -> Self {
-        let stream = match stream {
-            Stream::Search => 0,
-            Stream::Fresh(number) => 1 + u64::from(number),
-        };
         let block = u64::from(index / POINTS_PER_SEED);
-        let mixed = mix(mix(mix(mix(seed) ^ stream) ^ block) ^ u64::from(on_rim));
+        let mixed = mix(mix(stream.seed(seed) ^ block) ^ u64::from(on_rim));
         Self {
-            index: index % POINTS_PER_SEED,
-            seed: (mixed >> 32) as u32,
+            sequence: Sequence::Sobol {
+                index: index % POINTS_PER_SEED,
+                seed: (mixed >> 32) as u32,
+            },
             on_rim,
+            rim_density: 1.0,
+        }
+    }
+
+    fn random(seed: u64, stream: Stream, index: u32) -> Self {
+        Self {
+            sequence: Sequence::Random {
+                seed: mix(stream.seed(seed) ^ u64::from(index)),
+            },
+            on_rim: false,
             rim_density: 1.0,
         }
     }
 
     /// Uniform in 0 to 1.
     fn uniform(&self, dimension: Dimension) -> f64 {
-        f64::from(sobol_burley::sample(
-            self.index,
-            dimension as u32,
-            self.seed,
-        ))
+        let dimension = dimension as u32;
+        match self.sequence {
+            Sequence::Sobol { index, seed } => {
+                f64::from(sobol_burley::sample(index, dimension, seed))
+            }
+            // The upper 53 bits, which is what f64 holds.
+            Sequence::Random { seed } => {
+                (mix(seed ^ u64::from(dimension)) >> 11) as f64 / (1_u64 << 53) as f64
+            }
+        }
     }
 
     /// In 0 to 1, with the rim at 1.

@@ -252,7 +252,7 @@ impl ContactRecord {
 }
 
 impl SettingsRecord {
-    fn new(choice: &Choice) -> Self {
+    pub(crate) fn new(choice: &Choice) -> Self {
         Self {
             incidence_deg: degrees(choice.incidence),
             azimuth_deg: degrees(choice.azimuth),

@@ -1,7 +1,13 @@
-//! Reports, made from the record alone.
+//! Reports, made from a record or a chart alone.
 
+mod chart;
+pub mod figure;
+mod finding;
 mod layout;
 mod number;
+mod series;
 mod sheet;
+pub mod table;
 
+pub use chart::chart;
 pub use sheet::sheet;

@@ -30,6 +30,8 @@ pub enum Command {
     Solve(SolveArgs),
     /// Say what given settings do
     Evaluate(EvaluateArgs),
+    /// Measure speed against accuracy on a problem file, as figures and tables
+    Chart(ChartArgs),
     /// Show all faults of problem files at once
     Check(CheckArgs),
     /// Compute one impact, or print the paper's tables
@@ -87,6 +89,34 @@ pub struct EvaluateArgs {
     /// Write result.json and sheet.txt into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `chart`.
+#[derive(clap::Args)]
+pub struct ChartArgs {
+    /// The problem file
+    pub file: PathBuf,
+    /// Write chart.txt, chart.json, tables and figures into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Show other methods too: a table `method,speed,seconds,excess`; may be given several times
+    #[arg(long, value_name = "FILE.csv")]
+    pub beside: Vec<PathBuf>,
+    /// Most shots at a pose
+    #[arg(long, value_name = "N", default_value_t = 1 << 18, value_parser = clap::value_parser!(u32).range(64..=1 << 20))]
+    pub most_shots: u32,
+    /// Searches with seeds of their own at each speed
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=100))]
+    pub seeds: u16,
+    /// Seed of all samples; the file's by default
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; all cores by default. Only times depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// No progress bar
+    #[arg(long)]
+    pub quiet: bool,
 }
 
 /// Arguments of `check`.

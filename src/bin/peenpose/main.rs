@@ -1,6 +1,7 @@
 //! The command line: each command is one short function over the public library.
 
 mod args;
+mod chart;
 mod check;
 mod evaluate;
 mod impact;
@@ -20,6 +21,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
         Command::Impact(args) => impact::run(args)
             .map_err(Failure::from)

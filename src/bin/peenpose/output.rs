@@ -54,8 +54,8 @@ pub fn record(record: &Record, json: bool, out: Option<&Path>) -> Result<ExitCod
         .map_err(|error| format!("cannot write the result as JSON: {error}"))?;
     let as_sheet = sheet(record);
     if let Some(folder) = out {
-        write(folder, "result.json", &as_json)?;
-        write(folder, "sheet.txt", &as_sheet)?;
+        write(folder, "result.json", as_json.as_bytes())?;
+        write(folder, "sheet.txt", as_sheet.as_bytes())?;
     }
     text(if json { as_json } else { as_sheet })?;
     Ok(if record.passes() {
@@ -87,12 +87,12 @@ pub fn quoted(word: &str) -> String {
 }
 
 /// Writes a file in one go: whoever looks sees the old file or the new one.
-fn write(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
+pub fn write(folder: &Path, name: &str, contents: &[u8]) -> Result<(), Failure> {
     let path = folder.join(name);
     let written = || {
         std::fs::create_dir_all(folder)?;
         let mut file = temporary().tempfile_in(folder)?;
-        file.write_all(text.as_bytes())?;
+        file.write_all(contents)?;
         file.as_file().sync_all()?;
         file.persist(&path).map_err(|error| error.error)
     };

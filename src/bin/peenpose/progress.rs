@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use peenpose::chart::Step;
 use peenpose::solve::Progress;
 
 /// Shows how far a search is, and notices Ctrl-C.
@@ -50,6 +51,14 @@ impl Watcher {
                 "{} poses, the nozzle has fitted nowhere yet",
                 progress.poses
             ),
+        });
+    }
+
+    /// Takes a step of a chart to the bar.
+    pub fn show_step(&self, step: Step) {
+        self.bar.set_message(match step.of {
+            1 => step.name,
+            of => format!("{}, {} of {of}", step.name, step.number + 1),
         });
     }
 

@@ -1,0 +1,86 @@
+//! `peenpose chart`: speed against accuracy on the problem at hand.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use peenpose::chart::{BesidePoint, Control, measure};
+use peenpose::report;
+use peenpose::report::figure::Figure;
+use peenpose::report::table::Table;
+use peenpose::setup::Setup;
+
+use crate::args::ChartArgs;
+use crate::output::{self, Failure, quoted};
+use crate::progress::Watcher;
+use crate::solve::use_threads;
+
+/// Measures a problem file and writes figures, tables and a text.
+pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
+    use_threads(args.threads)?;
+    let beside = beside(&args.beside)?;
+    output::prepare(Some(&args.out))?;
+    let (mut setup, source) = Setup::load(&args.file)?;
+    if let Some(seed) = args.seed {
+        setup.problem.seed = seed;
+    }
+    let watcher = Watcher::new(args.quiet);
+    let control = Control {
+        most_shots: args.most_shots as usize,
+        seeds: args.seeds.into(),
+        stop: &watcher.stop,
+        watch: &|step| watcher.show_step(step),
+        ..Control::default()
+    };
+    let command = command(args, &setup);
+    let chart = measure(&setup, &source, command, beside, &control);
+    watcher.finish();
+    let chart = chart.map_err(|refusal| refusal.to_string())?;
+    let json = chart
+        .to_json()
+        .map_err(|error| format!("cannot write the chart as JSON: {error}"))?;
+    let sheet = report::chart(&chart);
+    output::write(&args.out, "chart.json", json.as_bytes())?;
+    output::write(&args.out, "chart.txt", sheet.as_bytes())?;
+    for Table { name, csv } in Table::of_chart(&chart) {
+        output::write(&args.out, &format!("{name}.csv"), csv.as_bytes())?;
+    }
+    for figure in Figure::of_chart(&chart).map_err(|fault| fault.to_string())? {
+        let png = figure.png().map_err(|fault| fault.to_string())?;
+        let name = figure.name;
+        output::write(&args.out, &format!("{name}.svg"), figure.svg.as_bytes())?;
+        output::write(&args.out, &format!("{name}.png"), &png)?;
+    }
+    output::text(sheet)
+}
+
+/// The points of all tables.
+fn beside(paths: &[PathBuf]) -> Result<Vec<BesidePoint>, String> {
+    let tables: Result<Vec<Vec<BesidePoint>>, String> =
+        paths.iter().map(|path| beside_table(path)).collect();
+    Ok(tables?.concat())
+}
+
+fn beside_table(path: &Path) -> Result<Vec<BesidePoint>, String> {
+    let shown = path.display();
+    let text =
+        std::fs::read_to_string(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
+    BesidePoint::read_all(&text).map_err(|fault| format!("{shown}:{fault}"))
+}
+
+/// The command that makes the chart again.
+fn command(args: &ChartArgs, setup: &Setup) -> String {
+    let file = |path: &Path| quoted(&path.display().to_string());
+    let mut command = format!(
+        "peenpose chart {} --out {}",
+        file(&args.file),
+        file(&args.out)
+    );
+    for path in &args.beside {
+        command += &format!(" --beside {}", file(path));
+    }
+    command
+        + &format!(
+            " --most-shots {} --seeds {} --seed {}",
+            args.most_shots, args.seeds, setup.problem.seed
+        )
+}

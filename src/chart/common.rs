@@ -1,0 +1,63 @@
+//! Comparisons on common fresh shots: differences between choices of settings are not noise.
+
+use rayon::prelude::*;
+
+use super::sampling::{Purpose, SCRAMBLINGS, Sampling, stream};
+use crate::objective::{Sums, Tally};
+use crate::problem::goal::Goals;
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+
+/// Shots towards the rim show rare harm, in which good answers differ, with less noise.
+pub const COMPARISON: (Purpose, Sampling) = (Purpose::Comparison, Sampling::SobolRim);
+
+/// The sums of each scrambling (inner) for each choice (outer), on shots common to all choices.
+pub fn sums(
+    setup: &Setup,
+    choices: &[Choice],
+    (purpose, sampling): (Purpose, Sampling),
+    shots: usize,
+) -> Vec<Vec<Sums>> {
+    let goals = &setup.problem.goals;
+    let each = (shots / SCRAMBLINGS).max(1);
+    let sets: Vec<Vec<Sums>> = (0..SCRAMBLINGS)
+        .into_par_iter()
+        .map(|number| {
+            let samples = sampling.draw(&setup.problem, stream(purpose, number), each);
+            let sums = |choice: &Choice| {
+                Tally::trace(setup, choice, choice.speed, &samples.deviates)
+                    .sums(goals, choice.speed)
+            };
+            choices.iter().map(sums).collect()
+        })
+        .collect();
+    let of_choice = |index: usize| sets.iter().map(|set| set[index]).collect();
+    (0..choices.len()).map(of_choice).collect()
+}
+
+/// J of the scramblings that are kept.
+pub fn objective(goals: &Goals, sets: &[Sums], kept: impl Fn(usize) -> bool) -> f64 {
+    let kept = sets.iter().enumerate().filter(|(index, _)| kept(*index));
+    kept.fold(Sums::default(), |total, (_, set)| total.plus(set))
+        .terms(goals)
+        .total()
+}
+
+/// By how much J of some sets is above that of others on the same shots, relative to the latter,
+/// and the standard error of that.
+pub fn excess(goals: &Goals, sets: &[Sums], over: &[Sums]) -> (f64, f64) {
+    jackknife(over.len(), |kept| {
+        objective(goals, sets, kept) / objective(goals, over, kept) - 1.0
+    })
+}
+
+/// A function of `count` independent sets, and its standard error from leaving out one at a time.
+pub fn jackknife(count: usize, value: impl Fn(&dyn Fn(usize) -> bool) -> f64) -> (f64, f64) {
+    let left_out: Vec<f64> = (0..count)
+        .map(|skip| value(&|index| index != skip))
+        .collect();
+    let mean = left_out.iter().sum::<f64>() / count as f64;
+    let squares: f64 = left_out.iter().map(|one| (one - mean).powi(2)).sum();
+    let error = ((count as f64 - 1.0) / count as f64 * squares).sqrt();
+    (value(&|_| true), error)
+}

@@ -1,0 +1,216 @@
+//! Speed against accuracy on the problem at hand: how well J is known after how much time, how good
+//! the answer is after how much, and what each effect of the model changes and costs.
+//!
+//! Times are measured on the machine that runs it; every other number is the same on each run, for
+//! any number of threads.
+
+mod beside;
+mod common;
+mod control;
+mod effect;
+mod pose;
+mod sampling;
+mod search;
+mod timing;
+
+pub use beside::{BesideFault, BesidePoint};
+pub use control::{Control, Step};
+pub use effect::Effect;
+pub use pose::{PoseCurve, PosePoint, Precision, Walls};
+pub use sampling::Sampling;
+pub use search::{BestKnown, Method, SearchRun, Searches};
+pub(crate) use timing::median;
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::problem::Source;
+use crate::problem::fault::Fault;
+use crate::problem::setting::Choice;
+use crate::record::SettingsRecord;
+use crate::setup::Setup;
+use crate::solve::solve;
+use common::{jackknife, objective, sums};
+use sampling::{Purpose, SCRAMBLINGS};
+
+/// Everything that was measured; all figures, tables and texts are made from it alone.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Chart {
+    /// Title of the problem.
+    pub title: String,
+    /// The problem file as it was given on the command line.
+    pub file: String,
+    /// Its checksum.
+    pub problem_sha256: String,
+    /// Version of the program.
+    pub version: String,
+    /// The command that makes it again.
+    pub command: String,
+    /// Seed of all samples.
+    pub seed: u64,
+    /// Accuracy of J that the file asks for, relative.
+    pub accuracy: f64,
+    /// Threads that a search may use.
+    pub threads: usize,
+    /// Whether it was told to stop before all was measured.
+    pub interrupted: bool,
+    /// The settings that the search recommends, where J and the effects are looked at.
+    pub recommended: Recommended,
+    /// J there, on as many shots as it takes to know it well.
+    pub reference: Reference,
+    /// How well J is known after how much time, for every way to compute it.
+    pub poses: Vec<PoseCurve>,
+    /// How good the answer is after how much time.
+    pub searches: Option<Searches>,
+    /// What each effect of the model changes and costs.
+    pub effects: Vec<Effect>,
+}
+
+/// The answer of the search as the file asks for it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Recommended {
+    /// Name of the contact.
+    pub contact: String,
+    /// The settings.
+    pub settings: SettingsRecord,
+    /// Shots at each pose with which the search ended.
+    pub shots_per_pose: usize,
+}
+
+/// J at the recommended settings, on exact walls in double precision.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// J.
+    pub objective: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Shots behind it.
+    pub shots: usize,
+}
+
+/// Why there is nothing to chart.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refusal {
+    /// The nozzle fits nowhere.
+    NoFeasiblePose,
+    /// J is 0 at the answer, so that there is no relative error.
+    NothingToImprove,
+    /// It was told to stop before anything was measured.
+    Interrupted,
+    /// The part cannot be turned into triangles.
+    Facets(Vec<Fault>),
+}
+
+/// Measures everything, as far as `control` lets it.
+///
+/// # Errors
+/// When there is nothing to measure.
+pub fn measure(
+    setup: &Setup,
+    source: &Source,
+    command: String,
+    beside: Vec<BesidePoint>,
+    control: &Control,
+) -> Result<Chart, Refusal> {
+    control.tell("search", 0, 1);
+    let problem = &setup.problem;
+    let solution = solve(setup, &control.of_a_search());
+    if control.is_stopped() {
+        return Err(Refusal::Interrupted);
+    }
+    let best = solution
+        .answers
+        .first()
+        .filter(|best| best.violation <= 0.0);
+    let choice = best.ok_or(Refusal::NoFeasiblePose)?.choice;
+    let reference = reference(setup, &choice, control);
+    if reference.objective <= 0.0 {
+        return Err(Refusal::NothingToImprove);
+    }
+    let poses = pose::curves(setup, &choice, reference.objective, control)?;
+    let searches = search::runs(setup, &choice, beside, control);
+    let effects = effect::effects(setup, &choice, control);
+    Ok(Chart {
+        title: problem.title.clone(),
+        file: source.path.display().to_string(),
+        problem_sha256: source.sha256.clone(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        command,
+        seed: problem.seed,
+        accuracy: problem.accuracy,
+        threads: rayon::current_num_threads(),
+        interrupted: control.is_stopped(),
+        recommended: Recommended {
+            contact: problem.contacts[choice.contact].name.clone(),
+            settings: SettingsRecord::new(&choice),
+            shots_per_pose: solution.shots_per_pose,
+        },
+        reference,
+        poses,
+        searches,
+        effects,
+    })
+}
+
+fn reference(setup: &Setup, choice: &Choice, control: &Control) -> Reference {
+    control.tell("reference", 0, 1);
+    let goals = &setup.problem.goals;
+    let shots = control.most_shots * SCRAMBLINGS;
+    let sets = &sums(
+        setup,
+        &[*choice],
+        (Purpose::Reference, Sampling::Sobol),
+        shots,
+    )[0];
+    let (value, standard_error) = jackknife(sets.len(), |kept| objective(goals, sets, kept));
+    Reference {
+        objective: value,
+        standard_error,
+        shots,
+    }
+}
+
+impl Chart {
+    /// The chart as JSON text.
+    ///
+    /// # Errors
+    /// None is expected: every number in a chart is finite.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        serde_json::to_string_pretty(self).map(|text| text + "\n")
+    }
+
+    /// Reads a chart back.
+    ///
+    /// # Errors
+    /// When the text is not a chart.
+    pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
+        serde_json::from_str(text)
+    }
+}
+
+impl From<Vec<Fault>> for Refusal {
+    fn from(faults: Vec<Fault>) -> Self {
+        Self::Facets(faults)
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoFeasiblePose => f.write_str(
+                "the nozzle fits nowhere, so there is nothing to chart; `peenpose solve` says why",
+            ),
+            Self::NothingToImprove => f.write_str(
+                "J is 0 at the best settings, so errors cannot be given as a share of it",
+            ),
+            Self::Interrupted => f.write_str("interrupted before anything was measured"),
+            Self::Facets(faults) => {
+                f.write_str("the part cannot be turned into triangles")?;
+                faults.iter().try_for_each(|fault| write!(f, "; {fault}"))
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

@@ -1,0 +1,263 @@
+//! How well J of one pose is known after how much time: by shots, sampling, walls and precision.
+
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::control::Control;
+use super::sampling::{Purpose, Sampling, stream};
+use super::timing;
+use crate::jet::Deviate;
+use crate::objective::{Sums, Tally};
+use crate::problem::fault::Fault;
+use crate::problem::part::Shape;
+use crate::problem::setting::Choice;
+use crate::scene;
+use crate::setup::Setup;
+
+/// One way to compute J, with more and more shots.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PoseCurve {
+    /// How the shots are drawn.
+    pub sampling: Sampling,
+    /// What they are traced against.
+    pub walls: Walls,
+    /// In which precision.
+    pub precision: Precision,
+    /// Triangles of the scene; they stand in for exact walls only where distances are measured.
+    pub triangles: usize,
+    /// By how much J is above that of the first way on the same shots, relative to it: what more
+    /// shots do not cure.
+    pub bias: f64,
+    /// Standard error of that.
+    pub bias_standard_error: f64,
+    /// By the number of shots.
+    pub points: Vec<PosePoint>,
+}
+
+/// One number of shots.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PosePoint {
+    /// Shots.
+    pub shots: usize,
+    /// Time that J takes on one thread, with shots drawn before, s: from a median of repeats.
+    pub seconds: f64,
+    /// Root mean square of (J - reference) / reference over many sets of so many shots.
+    pub error: f64,
+}
+
+/// What shots are traced against.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Walls {
+    /// Planes and cylinders, where parts are not meshes.
+    Exact,
+    /// The triangles of mesh files.
+    Mesh,
+    /// Triangles instead of planes and cylinders.
+    Facets {
+        /// Angle by which their chords turn at most, deg.
+        chord_angle_deg: f64,
+    },
+}
+
+/// In which precision rays and impacts are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// 64 bits, 16 digits.
+    F64,
+}
+
+impl Precision {
+    /// All of them.
+    pub const ALL: [Self; 1] = [Self::F64];
+
+    fn trace(self, setup: &Setup, choice: &Choice, shots: &[Deviate]) -> Tally {
+        match self {
+            Self::F64 => Tally::trace(setup, choice, choice.speed, shots),
+        }
+    }
+}
+
+/// Chord angles of the meshes that exact walls are compared with, deg.
+const CHORD_ANGLES: [f64; 3] = [4.0, 1.0, 0.25];
+/// Fewest shots, and by how much they rise from point to point.
+const FEWEST_SHOTS: usize = 16;
+const RISE: usize = 4;
+
+/// Shots in a slice of a longer time.
+const TIMED_SHOTS: usize = 4096;
+
+/// Every way to compute J; those that were reached when the control stops it.
+pub(super) fn curves(
+    setup: &Setup,
+    choice: &Choice,
+    reference: f64,
+    control: &Control,
+) -> Result<Vec<PoseCurve>, Vec<Fault>> {
+    let ways = ways(setup, choice)?;
+    let mut curves = Vec::new();
+    for (number, sampling) in Sampling::ALL.into_iter().enumerate() {
+        if control.is_stopped() {
+            break;
+        }
+        control.tell("J of a pose", number, Sampling::ALL.len());
+        curves.extend(curves_of(sampling, &ways, reference, control));
+    }
+    Ok(curves)
+}
+
+/// One way to trace shots.
+struct Way<'a> {
+    walls: Walls,
+    precision: Precision,
+    setup: Cow<'a, Setup>,
+    choice: &'a Choice,
+}
+
+/// All of them; the first is the one that the search uses.
+fn ways<'a>(setup: &'a Setup, choice: &'a Choice) -> Result<Vec<Way<'a>>, Vec<Fault>> {
+    let mut ways = Vec::new();
+    for walls in models(setup) {
+        let setup = built(setup, walls)?;
+        for precision in Precision::ALL {
+            ways.push(Way {
+                walls,
+                precision,
+                setup: setup.clone(),
+                choice,
+            });
+        }
+    }
+    Ok(ways)
+}
+
+/// The walls worth comparing: where every part is a mesh there is nothing but the meshes.
+fn models(setup: &Setup) -> Vec<Walls> {
+    let is_mesh = |shape: &Shape| matches!(shape, Shape::Mesh { .. });
+    if setup.problem.parts.iter().all(|part| is_mesh(&part.shape)) {
+        return vec![Walls::Mesh];
+    }
+    let facets = |chord_angle_deg| Walls::Facets { chord_angle_deg };
+    std::iter::once(Walls::Exact)
+        .chain(CHORD_ANGLES.map(facets))
+        .collect()
+}
+
+fn built(setup: &Setup, walls: Walls) -> Result<Cow<'_, Setup>, Vec<Fault>> {
+    match walls {
+        Walls::Exact | Walls::Mesh => Ok(Cow::Borrowed(setup)),
+        Walls::Facets { chord_angle_deg } => {
+            let chord_angle = chord_angle_deg.to_radians();
+            Setup::new(setup.problem.clone(), scene::Walls::Facets { chord_angle }).map(Cow::Owned)
+        }
+    }
+}
+
+/// What one set of shots tells about one way.
+struct Outcome {
+    /// Mean squares of the relative error of J over all blocks of each size.
+    mean_squares: Vec<f64>,
+    /// J on all shots of the set.
+    objective: f64,
+}
+
+fn curves_of(
+    sampling: Sampling,
+    ways: &[Way],
+    reference: f64,
+    control: &Control,
+) -> Vec<PoseCurve> {
+    let rising = std::iter::successors(Some(FEWEST_SHOTS), |shots| Some(shots * RISE));
+    let sizes: Vec<usize> = rising
+        .take_while(|&shots| shots <= control.most_shots.max(FEWEST_SHOTS))
+        .collect();
+    let draw = |number: usize| {
+        let stream = stream(Purpose::Scatter, number);
+        sampling.draw(&ways[0].setup.problem, stream, sizes[sizes.len() - 1])
+    };
+    let sets: Vec<Vec<Outcome>> = (0..control.replicates)
+        .into_par_iter()
+        .map(|number| {
+            let samples = draw(number);
+            let outcome = |way: &Way| way.outcome(&samples.deviates, sizes.len(), reference);
+            ways.iter().map(outcome).collect()
+        })
+        .collect();
+    let samples = draw(0);
+    let curve = |(index, way): (usize, &Way)| {
+        let biases = sets
+            .iter()
+            .map(|set| set[index].objective / set[0].objective - 1.0);
+        let (bias, bias_standard_error) = mean(biases);
+        let points = sizes.iter().enumerate().map(|(level, &shots)| {
+            let squares = sets.iter().map(|set| set[index].mean_squares[level]);
+            PosePoint {
+                shots,
+                seconds: way.seconds(&samples.deviates[..shots]),
+                error: mean(squares).0.sqrt(),
+            }
+        });
+        PoseCurve {
+            sampling,
+            walls: way.walls,
+            precision: way.precision,
+            triangles: way.setup.scene.triangles(),
+            bias,
+            bias_standard_error,
+            points: points.collect(),
+        }
+    };
+    ways.iter().enumerate().map(curve).collect()
+}
+
+impl Way<'_> {
+    /// Every aligned block of Sobol points is as good as the first one, so that a set of many shots
+    /// holds many blocks of few: enough of them to meet rare harm as often as it happens.
+    fn outcome(&self, shots: &[Deviate], levels: usize, reference: f64) -> Outcome {
+        let objective = |sums: &Sums| sums.terms(&self.setup.problem.goals).total();
+        let together = |blocks: &[Sums]| {
+            blocks
+                .iter()
+                .fold(Sums::default(), |total, block| total.plus(block))
+        };
+        let mut blocks: Vec<Sums> = shots
+            .chunks(FEWEST_SHOTS)
+            .map(|block| self.sums(block))
+            .collect();
+        let mut mean_squares = Vec::new();
+        for _ in 0..levels {
+            let squares = blocks
+                .iter()
+                .map(|block| (objective(block) / reference - 1.0).powi(2));
+            mean_squares.push(mean(squares).0);
+            blocks = blocks.chunks(RISE).map(together).collect();
+        }
+        Outcome {
+            mean_squares,
+            objective: objective(&together(&blocks)),
+        }
+    }
+
+    fn seconds(&self, shots: &[Deviate]) -> f64 {
+        let slices: Vec<&[Deviate]> = shots.chunks(TIMED_SHOTS).collect();
+        timing::seconds(&slices, |slice| {
+            self.sums(slice).terms(&self.setup.problem.goals)
+        })
+    }
+
+    fn sums(&self, shots: &[Deviate]) -> Sums {
+        let tally = self.precision.trace(&self.setup, self.choice, shots);
+        tally.sums(&self.setup.problem.goals, self.choice.speed)
+    }
+}
+
+/// Mean and its standard error, 0 for a single value.
+fn mean(values: impl ExactSizeIterator<Item = f64> + Clone) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
+    (mean, (squares / (count * (count - 1.0).max(1.0))).sqrt())
+}

@@ -1,0 +1,133 @@
+//! Logarithmic axes: their ends, ticks and labels.
+
+use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKeyPoints};
+
+use crate::report::number::{count, plain};
+
+/// A logarithmic axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogAxis {
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+}
+
+/// Room between the outermost values and the ends, as a factor.
+const MARGIN: f64 = 1.6;
+/// Most ticks with labels along a whole plot.
+const MOST_LABELS: usize = 9;
+/// Least ratio of the ends.
+const LEAST_SPAN: f64 = 12.0;
+
+impl LogAxis {
+    /// An axis that holds all positive values; `None` when there is none.
+    pub fn over(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let positive = values
+            .into_iter()
+            .filter(|value| *value > 0.0 && value.is_finite());
+        let (low, high) = positive.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        if low > high {
+            return None;
+        }
+        let widen = (LEAST_SPAN * low / high).max(1.0).sqrt();
+        Some(Self {
+            from: low / MARGIN / widen,
+            to: high * MARGIN * widen,
+        })
+    }
+
+    /// Where a value stands between the ends: 0 to 1.
+    pub fn fraction(self, value: f64) -> f64 {
+        let value = value.clamp(self.from, self.to);
+        (value / self.from).ln() / (self.to / self.from).ln()
+    }
+
+    /// The ticks that are labelled: powers of ten, fewer or more where they are too many or too few.
+    pub fn labelled(self, most: usize) -> Vec<f64> {
+        let decades = self.ticks(&[1.0]);
+        if decades.len() < 3 {
+            return self.ticks(&[1.0, 2.0, 5.0]);
+        }
+        let step = decades.len().div_ceil(most.max(1));
+        decades.into_iter().step_by(step).collect()
+    }
+
+    /// The coordinate for plotters: bold points are labelled, light points get a fainter line.
+    pub fn coordinate(self) -> WithKeyPoints<LogCoord<f64>> {
+        (self.from..self.to)
+            .log_scale()
+            .with_key_points(self.labelled(MOST_LABELS))
+            .with_light_points(self.ticks(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]))
+    }
+
+    /// Multiples of the powers of ten on the axis.
+    fn ticks(self, multiples: &[f64]) -> Vec<f64> {
+        let decades = self.from.log10().floor() as i32..=self.to.log10().ceil() as i32;
+        decades
+            .flat_map(|decade| {
+                multiples
+                    .iter()
+                    .map(move |multiple| multiple * 10_f64.powi(decade))
+            })
+            .filter(|tick| (self.from..=self.to).contains(tick))
+            .collect()
+    }
+}
+
+/// A time with its unit: `100 µs`.
+pub fn time(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s < 0.99e-6 => (s * 1e9, "ns"),
+        s if s < 0.99e-3 => (s * 1e6, "µs"),
+        s if s < 0.99 => (s * 1e3, "ms"),
+        s => (s, "s"),
+    };
+    format!("{} {unit}", plain(value))
+}
+
+/// A share in percent: `0.1 %`.
+pub fn percent(share: f64) -> String {
+    let percent = share * 100.0;
+    if percent > 9999.0 {
+        return format!("{} %", count(percent.round() as usize));
+    }
+    format!("{} %", plain(percent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_holds_its_values_and_a_decade_at_least() {
+        let axis = LogAxis::over([0.0, 2e-3, 0.5, f64::NAN]).unwrap();
+        assert!(axis.from < 2e-3 && axis.to > 0.5);
+        assert_eq!(
+            axis.labelled(9).len(),
+            8,
+            "1, 2 and 5 where decades are few"
+        );
+        let long = LogAxis {
+            from: 0.5e-3,
+            to: 20.0,
+        };
+        assert_eq!(long.labelled(9), [1e-3, 1e-2, 1e-1, 1.0, 10.0]);
+        assert_eq!(long.labelled(3), [1e-3, 1e-1, 10.0]);
+        assert_eq!((axis.fraction(0.0), axis.fraction(9.0)), (0.0, 1.0));
+        let single = LogAxis::over([3.0]).unwrap();
+        assert!(!single.labelled(9).is_empty());
+        assert_eq!(LogAxis::over([0.0, -1.0]), None);
+    }
+
+    #[test]
+    fn labels_carry_their_units() {
+        assert_eq!(time(1e-4), "100 µs");
+        assert_eq!(time(1e-3), "1 ms");
+        assert_eq!(time(10.0), "10 s");
+        assert_eq!(percent(1e-3), "0.1 %");
+        assert_eq!(percent(1.0), "100 %");
+    }
+}

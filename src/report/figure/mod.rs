@@ -1,0 +1,75 @@
+//! Figures, drawn from a chart alone: SVG with texts, and PNG with the embedded font.
+//!
+//! This module is the only one that knows plotters and resvg.
+
+mod axis;
+mod effect;
+mod plot;
+mod png;
+mod pose;
+mod search;
+mod sheet;
+mod style;
+
+pub(super) use axis::time;
+pub(super) use pose::curve_name;
+
+use crate::chart::Chart;
+
+/// A figure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Figure {
+    /// Name of its files, without ending.
+    pub name: &'static str,
+    /// The figure as SVG.
+    pub svg: String,
+}
+
+/// Why a figure cannot be drawn.
+#[derive(Debug)]
+pub struct FigureFault(String);
+
+impl Figure {
+    /// The figures of a chart, each if there is something to show in it.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_chart(chart: &Chart) -> Result<Vec<Self>, FigureFault> {
+        let drawn = [
+            ("pose", pose::svg(chart)),
+            ("search", search::svg(chart)),
+            ("effect", effect::svg(chart)),
+        ];
+        let present = drawn
+            .into_iter()
+            .filter_map(|(name, svg)| Some((name, svg?)));
+        present
+            .map(|(name, svg)| {
+                svg.map(|svg| Self { name, svg })
+                    .map_err(|fault| FigureFault::new(name, &fault))
+            })
+            .collect()
+    }
+
+    /// The figure as PNG.
+    ///
+    /// # Errors
+    /// None is expected: the SVG is our own.
+    pub fn png(&self) -> Result<Vec<u8>, FigureFault> {
+        png::png(&self.svg).map_err(|fault| FigureFault::new(self.name, &fault))
+    }
+}
+
+impl FigureFault {
+    fn new(figure: &str, fault: &dyn std::fmt::Display) -> Self {
+        Self(format!("cannot draw the figure `{figure}`: {fault}"))
+    }
+}
+
+impl std::fmt::Display for FigureFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for FigureFault {}

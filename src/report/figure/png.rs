@@ -1,0 +1,30 @@
+//! Figures as PNG, with letters of an embedded font: it looks the same on every machine.
+
+use std::sync::Arc;
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb::Database};
+
+/// Open Sans, under the SIL Open Font License in the same folder.
+const FONTS: [&[u8]; 2] = [
+    include_bytes!("../font/OpenSans-Regular.ttf"),
+    include_bytes!("../font/OpenSans-SemiBold.ttf"),
+];
+
+/// Turns an SVG into a PNG of the same size, or says why not.
+pub fn png(svg: &str) -> Result<Vec<u8>, String> {
+    let mut fonts = Database::new();
+    for font in FONTS {
+        fonts.load_font_data(font.to_vec());
+    }
+    fonts.set_sans_serif_family("Open Sans");
+    let options = Options {
+        fontdb: Arc::new(fonts),
+        ..Options::default()
+    };
+    let tree = Tree::from_str(svg, &options).map_err(|fault| fault.to_string())?;
+    let size = tree.size().to_int_size();
+    let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the figure has no size")?;
+    resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|fault| fault.to_string())
+}

@@ -1,0 +1,181 @@
+//! The figure of J at one pose: its error against the time that it takes.
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
+
+use super::axis::{LogAxis, percent, time};
+use super::plot::{Axes, Plot};
+use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
+use super::style::{FAINT, GHOST, INK, LABEL, look_of};
+use crate::chart::{Chart, PoseCurve, Sampling, Walls};
+use crate::report::finding;
+use crate::report::number::{count, significant};
+
+const SIZE: (u32, u32) = (2000, 1110);
+const HEAD: u32 = 230;
+const FOOT: u32 = 110;
+/// Errors below this are rounding.
+const LEAST_ERROR: f64 = 1e-9;
+
+/// The figure as SVG; `None` when nothing was measured, or J does not scatter.
+pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
+    let points = || chart.poses.iter().flat_map(|curve| &curve.points);
+    let errors = points().map(|point| point.error);
+    let y = LogAxis::over(errors.filter(|error| *error > LEAST_ERROR))?;
+    let x = LogAxis::over(points().map(|point| point.seconds))?;
+    Some(drawn(SIZE, |area| {
+        let explanation = format!(
+            "Error: root mean square of (J - J0) / J0 at the recommended settings; J0 = {} is known \
+             to {} %. Time: median, one thread.",
+            finding::objective(chart.reference.objective),
+            significant(noise(chart) * 100.0, 2),
+        );
+        let sentences = [chart.title.clone(), finding::of_poses(chart), explanation];
+        headline(
+            area,
+            "How well J of one pose is known after how much time",
+            &sentences,
+        )?;
+        let (_, below) = area.split_vertically(HEAD);
+        let (middle, foot) = below.split_vertically(SIZE.1 - HEAD - FOOT);
+        panels(chart, area, &middle, x, y)?;
+        legend(chart, &foot)
+    }))
+}
+
+/// Relative standard error of the reference.
+fn noise(chart: &Chart) -> f64 {
+    chart.reference.standard_error / chart.reference.objective
+}
+
+/// One panel for each way to draw shots.
+fn panels<'a>(chart: &Chart, sheet: &Area<'a>, area: &Area<'a>, x: LogAxis, y: LogAxis) -> Drawn {
+    // The first panel has the labels of the left axis.
+    let parts = area.split_by_breakpoints([SIZE.0 * 37 / 100, SIZE.0 * 685 / 1000], [0; 0]);
+    for (part, sampling) in parts.iter().zip(Sampling::ALL) {
+        let axes = Axes {
+            title: title(sampling),
+            x,
+            x_name: "time for J of one pose",
+            x_label: time,
+            y,
+            y_name: (sampling == Sampling::ALL[0]).then_some("error of J, % of J"),
+            y_label: percent,
+        };
+        panel(chart, &Plot::new(sheet, part, &axes)?, sampling, (x, y))?;
+    }
+    Ok(())
+}
+
+fn title(sampling: Sampling) -> &'static str {
+    match sampling {
+        Sampling::Random => "Plain random shots",
+        Sampling::Sobol => "Scrambled Sobol shots",
+        Sampling::SobolRim => "Sobol, every second on the rim",
+    }
+}
+
+fn panel(chart: &Chart, plot: &Plot, sampling: Sampling, (x, y): (LogAxis, LogAxis)) -> Drawn {
+    let curves = |sampling: Sampling| chart.poses.iter().filter(move |c| c.sampling == sampling);
+    let first = curves(sampling).next();
+    if sampling != Sampling::Random
+        && let Some(random) = curves(Sampling::Random).next()
+    {
+        let points = points(random);
+        plot.dashes(&points, GHOST.stroke_width(3))?;
+        if let Some(&middle) = points.get(points.len() / 2) {
+            plot.note("random", middle, (20, -16), HPos::Left, FAINT)?;
+        }
+    }
+    let noise = noise(chart);
+    if noise > y.from {
+        plot.dashes(&[(x.from, noise), (x.to, noise)], GHOST.stroke_width(2))?;
+    }
+    for (index, curve) in curves(sampling).enumerate() {
+        // The ways are in the same order in every panel.
+        let look = look_of(index);
+        plot.line(&points(curve), look.colour.stroke_width(4))?;
+        for point in points(curve) {
+            plot.marker(point, look, 9.0)?;
+        }
+    }
+    let Some(curve) = first else {
+        return Ok(());
+    };
+    if sampling == Sampling::Random {
+        shots(plot, curve)?;
+    }
+    if sampling == Sampling::SobolRim {
+        picked(chart, plot, curve)?;
+    }
+    Ok(())
+}
+
+/// Numbers of shots beside a curve; the first where the axis leaves room for it.
+fn shots(plot: &Plot, curve: &PoseCurve) -> Drawn {
+    let visible = curve
+        .points
+        .iter()
+        .filter(|point| point.error > LEAST_ERROR);
+    for (index, point) in visible.enumerate() {
+        let (text, at) = (count(point.shots), (point.seconds, point.error));
+        match index {
+            0 => plot.note(&format!("{text} shots"), at, (4, -30), HPos::Left, FAINT)?,
+            _ => plot.note(&text, at, (-16, 16), HPos::Right, FAINT)?,
+        }
+    }
+    Ok(())
+}
+
+/// Marks the number of shots with which the search ended.
+fn picked(chart: &Chart, plot: &Plot, curve: &PoseCurve) -> Drawn {
+    let shots = chart.recommended.shots_per_pose;
+    let is_picked = |point: &&crate::chart::PosePoint| point.shots == shots;
+    let Some(point) = curve.points.iter().find(is_picked) else {
+        return Ok(());
+    };
+    let at = (point.seconds, point.error);
+    plot.ring(at, 20)?;
+    plot.note("the search ended", at, (-28, 24), HPos::Right, INK)?;
+    plot.note(
+        &format!("with {} shots", count(shots)),
+        at,
+        (-28, 54),
+        HPos::Right,
+        INK,
+    )
+}
+
+fn points(curve: &PoseCurve) -> Vec<(f64, f64)> {
+    let visible = curve
+        .points
+        .iter()
+        .filter(|point| point.error > LEAST_ERROR);
+    visible.map(|point| (point.seconds, point.error)).collect()
+}
+
+fn legend(chart: &Chart, area: &Area) -> Drawn {
+    let first = chart
+        .poses
+        .iter()
+        .filter(|c| c.sampling == Sampling::ALL[0]);
+    let mut left = 40;
+    for (index, curve) in first.enumerate() {
+        let name = curve_name(curve);
+        key(area, (left, 30), look_of(index), &name)?;
+        left += 66 + sheet::width(&name, LABEL) + 40;
+    }
+    Ok(())
+}
+
+/// What a curve was computed with.
+pub fn curve_name(curve: &PoseCurve) -> String {
+    let triangles = count(curve.triangles);
+    match curve.walls {
+        Walls::Exact => "exact walls".into(),
+        Walls::Mesh => format!("the mesh as it is, {triangles} triangles"),
+        Walls::Facets { chord_angle_deg } => {
+            format!("mesh, chords turn {chord_angle_deg}°, {triangles} triangles")
+        }
+    }
+}

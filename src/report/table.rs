@@ -1,0 +1,128 @@
+//! The numbers of a chart as tables: comma-separated values with a heading, SI units in it.
+
+use std::fmt::Display;
+
+use crate::chart::{Chart, Method, Precision, Sampling, Walls};
+use crate::report::number::plain;
+
+/// A table as text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table {
+    /// Name of its file, without ending: that of the figure it belongs to.
+    pub name: &'static str,
+    /// Its text.
+    pub csv: String,
+}
+
+impl Table {
+    /// The tables of a chart, each if there is something in it.
+    pub fn of_chart(chart: &Chart) -> Vec<Self> {
+        let tables = [poses(chart), searches(chart), effects(chart)];
+        tables
+            .into_iter()
+            .filter(|table| table.csv.lines().count() > 1)
+            .collect()
+    }
+
+    fn headed(name: &'static str, columns: &str) -> Self {
+        Self {
+            name,
+            csv: format!("{columns}\n"),
+        }
+    }
+
+    fn row(&mut self, cells: &[&dyn Display]) {
+        let cells: Vec<String> = cells.iter().map(|cell| field(&cell.to_string())).collect();
+        self.csv += &cells.join(",");
+        self.csv.push('\n');
+    }
+}
+
+/// A cell; in quotes where it holds what separates cells.
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.into()
+    }
+}
+
+fn poses(chart: &Chart) -> Table {
+    let mut table = Table::headed(
+        "pose",
+        "sampling,walls,chord_angle_deg,triangles,precision,shots,seconds,error,bias,bias_standard_error",
+    );
+    for curve in &chart.poses {
+        let sampling = match curve.sampling {
+            Sampling::Random => "random",
+            Sampling::Sobol => "sobol",
+            Sampling::SobolRim => "sobol_rim",
+        };
+        let (walls, chord_angle) = match curve.walls {
+            Walls::Exact => ("exact", String::new()),
+            Walls::Mesh => ("mesh", String::new()),
+            Walls::Facets { chord_angle_deg } => ("facets", plain(chord_angle_deg)),
+        };
+        let precision = match curve.precision {
+            Precision::F64 => "f64",
+        };
+        for point in &curve.points {
+            table.row(&[
+                &sampling,
+                &walls,
+                &chord_angle,
+                &curve.triangles,
+                &precision,
+                &point.shots,
+                &point.seconds,
+                &point.error,
+                &curve.bias,
+                &curve.bias_standard_error,
+            ]);
+        }
+    }
+    table
+}
+
+/// Starts with the columns that `peenpose chart --beside` reads.
+fn searches(chart: &Chart) -> Table {
+    let mut table = Table::headed(
+        "search",
+        "method,speed,seconds,excess,excess_standard_error,seed,shots_per_pose,contact",
+    );
+    for run in chart.searches.iter().flat_map(|searches| &searches.runs) {
+        let (method, speed) = match run.method {
+            Method::Accuracy(accuracy) => ("accuracy", format!("{} %", plain(accuracy * 100.0))),
+            Method::MostShots(shots) => ("most_shots", format!("{shots} shots")),
+        };
+        table.row(&[
+            &method,
+            &speed,
+            &run.seconds,
+            &run.excess,
+            &run.excess_standard_error,
+            &run.seed,
+            &run.shots_per_pose,
+            &run.contact,
+        ]);
+    }
+    table
+}
+
+fn effects(chart: &Chart) -> Table {
+    let mut table = Table::headed(
+        "effect",
+        "left_out,change,change_standard_error,regret,regret_standard_error,relative_cost",
+    );
+    for effect in &chart.effects {
+        table.row(&[
+            &effect.name,
+            &effect.change,
+            &effect.change_standard_error,
+            &effect.regret,
+            &effect.regret_standard_error,
+            &effect.relative_cost,
+        ]);
+    }
+    table
+}
