@@ -1,0 +1,7 @@
+//! What the programs that measure the search share: problems, settings as points, fresh shots.
+#![allow(dead_code)]
+
+pub mod cube;
+pub mod fresh;
+pub mod known;
+pub mod variant;
