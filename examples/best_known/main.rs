@@ -24,8 +24,9 @@ use peenpose::solve::speed_scales_out;
 use rayon::prelude::*;
 
 use common::cube::{ALL_BUT_SPEED, Cube};
-use common::fresh::{self, Mean, SHOTS_PER_SET};
+use common::fresh;
 use common::known::{HEADER, Known, in_units};
+use common::statistics::Mean;
 use common::variant::{VARIANTS, Variant};
 use descent::{Judge, Trial, Work};
 
@@ -83,11 +84,11 @@ const SCREENING_SHOTS: usize = 256;
 const APART: f64 = 0.1;
 /// The standard error of the J reported, relative to it, at most.
 const LEAST_ACCURACY: f64 = 0.001;
-/// Sets of shots of the last decision start here, those of the J reported there.
+/// Numbers of the first set of shots of the last decision, and of the J reported.
 const DECISION: u32 = 0;
 const REPORT: u32 = 1 << 16;
-/// More sets are not drawn for the J reported.
-const MOST_SETS: u32 = 1 << 10;
+/// More sets than this are not drawn for the J reported.
+const MOST_SETS: usize = 1 << 11;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
@@ -193,20 +194,18 @@ fn distinct(mut trials: Vec<Trial>, stage: &Stage) -> Vec<Trial> {
 
 /// The best candidate on common fresh shots, with its J on others.
 fn decide(setup: &Setup, candidates: &[Choice], arguments: &Arguments) -> (Choice, Mean) {
-    let sets = arguments.fresh_shots.div_ceil(SHOTS_PER_SET).max(2) as u32;
-    let objectives = fresh::objectives(setup, candidates, DECISION..DECISION + sets);
+    let shots = arguments.fresh_shots;
+    let objectives = fresh::objectives(setup, candidates, DECISION, shots);
     let mean = |index: &usize| Mean::of_choice(&objectives, *index).value;
     let best = (0..candidates.len()).min_by(|a, b| mean(a).total_cmp(&mean(b)));
     let choice = candidates[best.unwrap_or(0)];
     let mut drawn = Vec::new();
-    let mut count = sets;
     loop {
-        let next = REPORT + drawn.len() as u32..REPORT + count;
-        drawn.extend(fresh::objectives(setup, &[choice], next));
+        let next = REPORT + drawn.len() as u32;
+        drawn.extend(fresh::objectives(setup, &[choice], next, shots));
         let report = Mean::of_choice(&drawn, 0);
-        if report.standard_error <= LEAST_ACCURACY * report.value || count >= MOST_SETS {
+        if report.standard_error <= LEAST_ACCURACY * report.value || drawn.len() >= MOST_SETS {
             return (choice, report);
         }
-        count *= 2;
     }
 }

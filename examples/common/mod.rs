@@ -4,4 +4,5 @@
 pub mod cube;
 pub mod fresh;
 pub mod known;
+pub mod statistics;
 pub mod variant;
