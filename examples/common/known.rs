@@ -32,7 +32,7 @@ impl Known {
     pub fn line(&self) -> String {
         let [incidence, azimuth, standoff, speed] = self.settings;
         format!(
-            "{},{},{},{incidence:.5},{azimuth:.5},{standoff:.5},{speed:.6},{:.7},{:.7},{},{}",
+            "{},{},{},{incidence:.5},{azimuth:.5},{standoff:.5},{speed:.6},{:.8},{:.1e},{},{}",
             self.file,
             self.tolerance,
             self.contact,
