@@ -149,7 +149,8 @@ pub fn table(case: &Case, runs: &[Run], excesses: &[Vec<f64>]) -> String {
     let most = beaten.fold(0.0_f64, |most, excess| most.max(-excess));
     let _ = writeln!(
         text,
-        "evaluations, seconds: expected until the first success, with restarts after failures\n\
+        "evaluations, seconds: expected until the first success, with restarts after failures;\n\
+         those of peenpose count poses of 64 to 1024 shots alike\n\
          no run is below the least J on its shots by more than {:.3} %",
         100.0 * most
     );
