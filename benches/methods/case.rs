@@ -1,0 +1,159 @@
+//! The problems that methods are compared on, and the runs of all methods on the shots of one seed.
+
+use std::error::Error;
+use std::path::Path;
+
+use peenpose::problem::setting::{Choice, Range};
+use peenpose::setup::Setup;
+
+use crate::common::known::Known;
+use crate::common::variant::{Variant, contact_named};
+use crate::objective::{Limits, Objective, Speed, Step, shots};
+use crate::{annealing, gradient, line, model, population, sampling, shipped, simplex, swarm};
+
+/// A problem with its best settings known.
+pub struct Case {
+    pub name: &'static str,
+    pub setup: Setup,
+    pub known: Choice,
+}
+
+/// How a method went about one problem on the shots of one seed.
+pub struct Run {
+    pub speed: Speed,
+    pub method: &'static str,
+    pub seed: u64,
+    pub steps: Vec<Step>,
+    /// The least J that is known on these shots.
+    pub reference: f64,
+}
+
+/// Goes on until the objective says that the run is over, or until it has settled.
+struct Method {
+    name: &'static str,
+    run: fn(&Objective, u32),
+}
+
+const fn method(name: &'static str, run: fn(&Objective, u32)) -> Method {
+    Method { name, run }
+}
+
+const METHODS: [Method; 14] = [
+    method("Sobol 64 + Nelder-Mead (argmin)", simplex::screened),
+    method("Nelder-Mead multistart (argmin)", simplex::multistart),
+    method("Nelder-Mead once (argmin)", simplex::once),
+    method("particle swarm (argmin)", swarm::particle_swarm),
+    method(
+        "simulated annealing (argmin)",
+        annealing::simulated_annealing,
+    ),
+    method("L-BFGS multistart (argmin)", gradient::lbfgs),
+    method("L-BFGS-B multistart (basin)", gradient::lbfgsb),
+    method("CMA-ES with restarts (basin)", population::cma_es),
+    method(
+        "differential evolution (basin)",
+        population::differential_evolution,
+    ),
+    method("BOBYQA multistart (basin)", model::bobyqa),
+    method("COBYLA multistart (basin)", model::cobyla),
+    method("DIRECT (basin)", sampling::direct),
+    method("Sobol points alone", sampling::sobol),
+    method("Brent (argmin)", line::brent),
+];
+/// Methods that need a single free setting.
+const ON_A_LINE: [&str; 1] = ["Brent (argmin)"];
+
+pub const SHIPPED: &str = "peenpose, 1024 shots at most";
+pub const SHIPPED_WHOLE: &str = "peenpose, as shipped";
+
+/// All problems, or those whose name contains `only`.
+pub fn cases(known: &[Known], only: &str) -> Result<Vec<Case>, Box<dyn Error>> {
+    let exact = |file| Variant {
+        file,
+        tolerance: false,
+    };
+    let short = case("keyway, oiled", exact("keyway.yaml"), "oiled", known)?;
+    let long = case("long, damp", exact("keyway-long.yaml"), "damp", known)?;
+    let mut line = case(
+        "keyway, oiled, incidence only",
+        exact("keyway.yaml"),
+        "oiled",
+        known,
+    )?;
+    let settings = &mut line.setup.problem.settings;
+    settings.azimuth = Range::held(line.known.azimuth);
+    settings.standoff = Range::held(line.known.standoff);
+    let mut cases = vec![short, long, line];
+    cases.retain(|case| case.name.contains(only));
+    Ok(cases)
+}
+
+fn case(
+    name: &'static str,
+    variant: Variant,
+    contact: &str,
+    known: &[Known],
+) -> Result<Case, Box<dyn Error>> {
+    let mut setup = variant.setup()?;
+    let index = contact_named(&setup.problem, contact).ok_or("unknown contact")?;
+    setup.problem.settings.contact = vec![index];
+    let known = known
+        .iter()
+        .find(|known| known.is_of(&variant) && known.contact == contact)
+        .ok_or("no best settings are known")?
+        .choice(&setup.problem)?;
+    Ok(Case { name, setup, known })
+}
+
+/// Reads the best settings known.
+pub fn read_known() -> Result<Vec<Known>, Box<dyn Error>> {
+    Known::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/best_known.csv"))
+}
+
+/// Evaluations of the thorough run that finds the least J on the shots of a seed.
+const THOROUGH: usize = 5000;
+/// A run is over within this share of it.
+const GOOD_ENOUGH: f64 = 0.001;
+
+impl Case {
+    /// All methods on the shots of one seed.
+    pub fn runs(&self, seed: u64, budget: usize) -> Vec<Run> {
+        let mut setup = self.setup.clone();
+        setup.problem.seed = seed;
+        let shots = shots(&setup);
+        let limits = Limits {
+            evaluations: THOROUGH,
+            objective: 0.0,
+        };
+        let thorough = Objective::new(&setup, Speed::Removed, &shots, limits);
+        simplex::thorough(&thorough, 0);
+        let steps = thorough.into_steps();
+        let reference = steps.last().map_or(f64::INFINITY, |step| step.objective);
+        let run = |speed, method, steps| Run {
+            speed,
+            method,
+            seed,
+            steps,
+            reference,
+        };
+        let limits = Limits {
+            evaluations: budget,
+            objective: reference * (1.0 + GOOD_ENOUGH),
+        };
+        let mut runs = Vec::new();
+        for speed in [Speed::Searched, Speed::Removed] {
+            for method in &METHODS {
+                let objective = Objective::new(&setup, speed, &shots, limits);
+                if objective.dimensions() == 1 || !ON_A_LINE.contains(&method.name) {
+                    (method.run)(&objective, seed as u32);
+                    runs.push(run(speed, method.name, objective.into_steps()));
+                }
+            }
+        }
+        let held = shipped::on_common_shots(&setup, &shots);
+        runs.push(run(Speed::Removed, SHIPPED, vec![held]));
+        let whole = shipped::whole(&setup, &shots);
+        runs.push(run(Speed::Removed, SHIPPED_WHOLE, vec![whole]));
+        runs
+    }
+}

@@ -1,0 +1,63 @@
+//! The settings that have a range, as points of the unit cube.
+
+use peenpose::problem::Problem;
+use peenpose::problem::setting::{Choice, Range, Setting};
+
+/// The unit cube over the settings of the nozzle that have a range.
+#[derive(Clone, Debug)]
+pub struct Cube {
+    axes: Vec<(Setting, Range)>,
+    /// Every setting in the middle of its range.
+    middle: Choice,
+}
+
+impl Cube {
+    /// The cube of a contact with an axis for each setting in `free` that has a range.
+    pub fn new(problem: &Problem, contact: usize, free: &[Setting]) -> Self {
+        let settings = &problem.settings;
+        let axes = free
+            .iter()
+            .filter_map(|&setting| Some((setting, settings.range(setting)?)))
+            .filter(|(_, range)| !range.is_held())
+            .collect();
+        let middle = Choice {
+            incidence: settings.incidence.at(0.5),
+            azimuth: settings.azimuth.at(0.5),
+            standoff: settings.standoff.at(0.5),
+            speed: settings.speed.at(0.5),
+            aim_along: settings.aim_along.at(0.5),
+            aim_across: settings.aim_across.at(0.5),
+            contact,
+            static_friction: problem.contacts[contact].static_friction.min,
+        };
+        Self { axes, middle }
+    }
+
+    /// Number of axes.
+    pub fn dimensions(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// The settings at a point; what lies outside is moved to the nearest face.
+    pub fn choice(&self, point: &[f64]) -> Choice {
+        let axes = self.axes.iter().zip(point);
+        axes.fold(self.middle, |choice, (&(setting, range), &fraction)| {
+            setting.with(&choice, range.at(fraction.clamp(0.0, 1.0)))
+        })
+    }
+
+    /// A point of a low-discrepancy sequence.
+    pub fn sobol(&self, index: u32, seed: u32) -> Vec<f64> {
+        let coordinate = |axis| f64::from(sobol_burley::sample(index, axis, seed));
+        (0..self.dimensions() as u32).map(coordinate).collect()
+    }
+}
+
+/// The settings that are searched where the best speed follows from the paths.
+pub const ALL_BUT_SPEED: [Setting; 5] = [
+    Setting::Incidence,
+    Setting::Azimuth,
+    Setting::Standoff,
+    Setting::AimAlong,
+    Setting::AimAcross,
+];

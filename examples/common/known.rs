@@ -1,0 +1,114 @@
+//! The best settings known of each problem, as `best_known` found them.
+
+use std::error::Error;
+use std::path::Path;
+
+use peenpose::problem::Problem;
+use peenpose::problem::setting::{Choice, Setting};
+
+use super::cube::Cube;
+use super::variant::{Variant, contact_named};
+
+/// Names of the columns.
+pub const HEADER: &str = "file,tolerance,contact,incidence_deg,azimuth_deg,standoff_mm,speed_m_s,\
+                          J,standard_error,poses,rays";
+
+/// The best settings known for one contact.
+#[derive(Clone, Debug)]
+pub struct Known {
+    pub file: String,
+    pub tolerance: String,
+    pub contact: String,
+    /// deg, deg, mm and m/s.
+    pub settings: [f64; 4],
+    pub objective: f64,
+    pub standard_error: f64,
+    pub poses: usize,
+    pub rays: usize,
+}
+
+impl Known {
+    /// The line of the table.
+    pub fn line(&self) -> String {
+        let [incidence, azimuth, standoff, speed] = self.settings;
+        format!(
+            "{},{},{},{incidence:.5},{azimuth:.5},{standoff:.5},{speed:.6},{:.8},{:.1e},{},{}",
+            self.file,
+            self.tolerance,
+            self.contact,
+            self.objective,
+            self.standard_error,
+            self.poses,
+            self.rays,
+        )
+    }
+
+    fn parse(line: &str) -> Result<Self, Box<dyn Error>> {
+        let fields: Vec<&str> = line.split(',').collect();
+        let &[
+            file,
+            tolerance,
+            contact,
+            incidence,
+            azimuth,
+            standoff,
+            speed,
+            j,
+            error,
+            poses,
+            rays,
+        ] = &fields[..]
+        else {
+            return Err(format!("not a line of best known settings: {line}").into());
+        };
+        Ok(Self {
+            file: file.into(),
+            tolerance: tolerance.into(),
+            contact: contact.into(),
+            settings: [
+                incidence.parse()?,
+                azimuth.parse()?,
+                standoff.parse()?,
+                speed.parse()?,
+            ],
+            objective: j.parse()?,
+            standard_error: error.parse()?,
+            poses: poses.parse()?,
+            rays: rays.parse()?,
+        })
+    }
+
+    /// Reads the table.
+    pub fn read(path: &Path) -> Result<Vec<Self>, Box<dyn Error>> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+        text.lines().skip(1).map(Self::parse).collect()
+    }
+
+    /// Whether these are settings for a variant.
+    pub fn is_of(&self, variant: &Variant) -> bool {
+        self.file == variant.file && self.tolerance == variant.tolerance_word()
+    }
+
+    /// The settings in SI.
+    pub fn choice(&self, problem: &Problem) -> Result<Choice, Box<dyn Error>> {
+        let contact = contact_named(problem, &self.contact)
+            .ok_or_else(|| format!("{} has no contact {}", self.file, self.contact))?;
+        let [incidence, azimuth, standoff, speed] = self.settings;
+        let middle = Cube::new(problem, contact, &[]).choice(&[]);
+        let choice = Setting::Incidence.with(&middle, incidence.to_radians());
+        let choice = Setting::Azimuth.with(&choice, azimuth.to_radians());
+        let choice = Setting::Standoff.with(&choice, standoff * 1e-3);
+        Ok(Setting::Speed.with(&choice, speed))
+    }
+}
+
+/// Settings in the units of the table.
+pub fn in_units(choice: &Choice) -> [f64; 4] {
+    [
+        choice.incidence.to_degrees(),
+        choice.azimuth.to_degrees(),
+        choice.standoff * 1e3,
+        choice.speed,
+    ]
+}

@@ -1,0 +1,8 @@
+//! What the programs that measure the search share: problems, settings as points, fresh shots.
+#![allow(dead_code)]
+
+pub mod cube;
+pub mod fresh;
+pub mod known;
+pub mod statistics;
+pub mod variant;

@@ -1,0 +1,126 @@
+//! Many seeds of one problem: how far above the best J known the answers are.
+
+use std::error::Error;
+use std::time::Instant;
+
+use peenpose::problem::setting::Choice;
+use peenpose::setup::Setup;
+use peenpose::solve::{Control, Status, solve};
+
+use crate::common::fresh;
+use crate::common::known::Known;
+use crate::common::statistics::{Mean, median};
+use crate::common::variant::{Variant, contact_named};
+
+/// Names of the columns.
+pub const HEADER: &str = "variant,contacts,seeds,within_1_percent,worst_excess_percent,\
+                          median_excess_percent,excess_error_percent,median_poses,median_rays,\
+                          median_seconds,converged,budget_spent,other";
+
+/// What one run of the search found and cost.
+struct Run {
+    choice: Choice,
+    status: Status,
+    poses: usize,
+    rays: usize,
+    seconds: f64,
+}
+
+/// Each contact alone, then all together; every line is printed as soon as it is known.
+pub fn of_variant(
+    variant: &Variant,
+    known: &[Known],
+    seeds: u64,
+    shots: usize,
+) -> Result<Vec<String>, Box<dyn Error>> {
+    let mut setup = variant.setup()?;
+    let known: Vec<&Known> = known.iter().filter(|known| known.is_of(variant)).collect();
+    let alone = known.iter().map(|&one| vec![one]);
+    let groups: Vec<Vec<&Known>> = alone.chain([known.clone()]).collect();
+    let mut lines = Vec::new();
+    for group in groups {
+        let contacts = group
+            .iter()
+            .map(|one| contact_named(&setup.problem, &one.contact).ok_or("unknown contact"));
+        setup.problem.settings.contact = contacts.collect::<Result<_, _>>()?;
+        let best: Vec<Choice> = group
+            .iter()
+            .map(|one| one.choice(&setup.problem))
+            .collect::<Result<_, _>>()?;
+        let runs: Vec<Run> = (1..=seeds).map(|seed| run(&mut setup, seed)).collect();
+        let name = match &group[..] {
+            [one] => one.contact.clone(),
+            _ => "all".into(),
+        };
+        let line = format!(
+            "{},{name},{}",
+            variant.name(),
+            summary(&setup, &best, &runs, shots)
+        );
+        println!("{line}");
+        lines.push(line);
+    }
+    Ok(lines)
+}
+
+fn run(setup: &mut Setup, seed: u64) -> Run {
+    setup.problem.seed = seed;
+    let start = Instant::now();
+    let solution = solve(setup, &Control::default());
+    Run {
+        choice: solution.answers[0].choice,
+        status: solution.status,
+        poses: solution.poses,
+        rays: solution.rays,
+        seconds: start.elapsed().as_secs_f64(),
+    }
+}
+
+fn summary(setup: &Setup, best: &[Choice], runs: &[Run], shots: usize) -> String {
+    let mut excesses = excesses(setup, best, runs, shots);
+    excesses.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let percent = |x: f64| 100.0 * x;
+    let within = excesses
+        .iter()
+        .filter(|excess| excess.value <= 0.01)
+        .count();
+    let worst = excesses.last().map_or(f64::NAN, |excess| excess.value);
+    let errors = excesses.iter().map(|excess| excess.standard_error);
+    let count = |status: Status| runs.iter().filter(|run| run.status == status).count();
+    let (converged, spent) = (count(Status::Converged), count(Status::BudgetSpent));
+    format!(
+        "{},{within},{:.3},{:.3},{:.3},{:.0},{:.0},{:.4},{converged},{spent},{}",
+        runs.len(),
+        percent(worst),
+        percent(median(excesses.iter().map(|excess| excess.value))),
+        percent(median(errors)),
+        median(runs.iter().map(|run| run.poses as f64)),
+        median(runs.iter().map(|run| run.rays as f64)),
+        median(runs.iter().map(|run| run.seconds)),
+        runs.len() - converged - spent,
+    )
+}
+
+/// By how much J of each run is above that of the best settings known, relative to it, with the error
+/// of this on common shots.
+fn excesses(setup: &Setup, best: &[Choice], runs: &[Run], shots: usize) -> Vec<Mean> {
+    let choices: Vec<Choice> = best
+        .iter()
+        .copied()
+        .chain(runs.iter().map(|run| run.choice))
+        .collect();
+    let objectives = fresh::objectives(setup, &choices, COMPARISON, shots);
+    let mean = |index: usize| Mean::of_choice(&objectives, index).value;
+    let bests = (0..best.len()).min_by(|&a, &b| mean(a).total_cmp(&mean(b)));
+    let reference = bests.unwrap_or(0);
+    let scale = mean(reference);
+    (best.len()..choices.len())
+        .map(|index| {
+            let differences = objectives.iter().map(|set| set[index] - set[reference]);
+            Mean::of(differences.map(|difference| difference / scale))
+        })
+        .collect()
+}
+
+/// Answers are compared on sets of shots from here on, which found no best settings.
+const COMPARISON: u32 = 1 << 20;

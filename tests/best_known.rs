@@ -1,0 +1,54 @@
+//! The table of the best settings known: they do what it says of them.
+//!
+//! The program that makes it: `cargo run --release --example best_known -- tests/data/best_known.csv`.
+
+#[path = "../examples/common/mod.rs"]
+mod common;
+
+use std::path::Path;
+
+use common::fresh;
+use common::known::Known;
+use common::statistics::Mean;
+use common::variant::VARIANTS;
+use peenpose::problem::setting::Choice;
+use peenpose::solve::clearance_violation;
+
+const SHOTS: usize = 1 << 16;
+/// Sets of shots from here on found no best settings.
+const FIRST_SET: u32 = 1 << 21;
+/// Standard errors that J may be off.
+const SURE: f64 = 5.0;
+/// Relative error from the digits of the settings.
+const ROUNDING: f64 = 1e-4;
+
+#[test]
+fn the_best_settings_known_do_what_the_table_says() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/best_known.csv");
+    let table = Known::read(&path).unwrap();
+    for variant in VARIANTS {
+        let setup = variant.setup().unwrap();
+        let known: Vec<&Known> = table.iter().filter(|known| known.is_of(&variant)).collect();
+        assert_eq!(known.len(), setup.problem.settings.contact.len());
+        let choices: Vec<Choice> = known
+            .iter()
+            .map(|known| known.choice(&setup.problem).unwrap())
+            .collect();
+        let objectives = fresh::objectives(&setup, &choices, FIRST_SET, SHOTS);
+        for (index, known) in known.iter().enumerate() {
+            assert_eq!(clearance_violation(&setup, &choices[index]), None);
+            let Mean {
+                value,
+                standard_error,
+            } = Mean::of_choice(&objectives, index);
+            let allowed = SURE * standard_error.hypot(known.standard_error) + ROUNDING * value;
+            assert!(
+                (value - known.objective).abs() <= allowed,
+                "{}, {}: {value} +- {standard_error}, not {}",
+                variant.name(),
+                known.contact,
+                known.objective,
+            );
+        }
+    }
+}
