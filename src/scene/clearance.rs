@@ -43,7 +43,7 @@ impl Facets {
         counts: impl Fn(u32) -> bool,
     ) -> Option<NearestPoint> {
         let centre: Vector = to.coords.into();
-        let (_, found) = self.tree().find_best(
+        let (_, found) = self.distance_tree().find_best(
             f64::INFINITY,
             |node, _| gap(node, centre, centre),
             |leaf, _| {
@@ -74,7 +74,7 @@ impl Facets {
     ) -> Option<(f64, u32)> {
         let segment = Segment::new(from.coords.into(), to.coords.into());
         let (low, high) = (segment.a.min(segment.b), segment.a.max(segment.b));
-        let (_, found) = self.tree().find_best(
+        let (_, found) = self.distance_tree().find_best(
             limit,
             |node, _| gap(node, low, high),
             |leaf, _| {
