@@ -47,7 +47,7 @@ impl Facets {
             f64::INFINITY,
             |node, _| gap(node, centre, centre),
             |leaf, _| {
-                let counted = self.bundle(leaf).filter(|&index| counts(index));
+                let counted = self.leaf(leaf).filter(|&index| counts(index));
                 nearest_of(counted.map(|index| {
                     let projection = self.triangle(index).project_local_point(centre, true);
                     ((projection.point - centre).length(), index)
@@ -79,7 +79,7 @@ impl Facets {
             |node, _| gap(node, low, high),
             |leaf, _| {
                 let distance = |index| segment_triangle(&segment, &self.triangle(index));
-                nearest_of(self.bundle(leaf).map(|index| (distance(index), index)))
+                nearest_of(self.leaf(leaf).map(|index| (distance(index), index)))
             },
         )?;
         Some((found.distance, found.triangle))

@@ -21,10 +21,12 @@ use super::wide_tree::WideTree;
 #[derive(Clone)]
 pub struct Facets {
     tree: WideTree,
-    /// The triangles of each leaf of both trees.
+    /// The triangles of each of its leaves.
     bundles: Vec<Bundle>,
     /// For other walks than rays.
     distance_tree: Bvh,
+    /// Whether its leaves are the bundles rather than single triangles.
+    bundled: bool,
     corners: Vec<[u32; 3]>,
     surfaces: Vec<u32>,
     vertices: Vec<Point3<f64>>,
@@ -41,13 +43,22 @@ impl Facets {
     pub fn new(mesh: Mesh, surface_base: u32, slack: f64) -> Self {
         let corners = |index: u32| mesh.corners(&mesh.triangles[index as usize]);
         let (tree, leaves) = WideTree::new(mesh.triangles.len(), corners, slack);
-        let boxes = leaves.iter().map(|leaf| {
-            let corners = leaf.iter().flat_map(|&index| corners(index));
+        let bounds = |triangles: &[u32]| {
+            let corners = triangles.iter().flat_map(|&index| corners(index));
             let bounds = Aabb::from_points(corners.map(|corner| corner.coords.into()));
             bounds.loosened(slack)
-        });
+        };
+        let bundled = mesh.triangles.len() > LARGE_MESH;
+        let distance_tree = if bundled {
+            let boxes = leaves.iter().map(|leaf| bounds(leaf));
+            Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate())
+        } else {
+            let boxes = (0..mesh.triangles.len() as u32).map(|index| bounds(&[index]));
+            Bvh::from_iter(BvhBuildStrategy::Ploc, boxes.enumerate())
+        };
         Self {
-            distance_tree: Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate()),
+            distance_tree,
+            bundled,
             bundles: leaves
                 .par_iter()
                 .map(|leaf| Bundle::new(leaf, corners))
@@ -71,14 +82,18 @@ impl Facets {
         self.corners.len()
     }
 
-    /// parry's tree over bundles of triangles, for other walks than rays.
+    /// parry's tree, for other walks than rays.
     pub(super) fn distance_tree(&self) -> &Bvh {
         &self.distance_tree
     }
 
-    /// The triangles in a leaf of the tree.
-    pub(super) fn bundle(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {
-        self.bundles[leaf as usize].triangles().iter().copied()
+    /// The triangles in a leaf of parry's tree.
+    pub(super) fn leaf(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {
+        let bundle = self
+            .bundled
+            .then(|| self.bundles[leaf as usize].triangles());
+        let single = (!self.bundled).then_some(leaf);
+        bundle.into_iter().flatten().copied().chain(single)
     }
 
     /// The corner points of a triangle.
@@ -239,6 +254,10 @@ impl Nearest {
 const GRAZING: f64 = 1e-3;
 /// How many slacks the distance to a plane may be off by rounding: far less, for such angles.
 const DOUBT: f64 = 16.0;
+
+/// In meshes with more triangles distances share the bundles: parry's better tree over single
+/// triangles takes time with the square of those that lie alike, as the facets of a prism do.
+const LARGE_MESH: usize = 20_000;
 
 /// The plane of a triangle: its unit normal and its distance from the origin along it.
 fn plane(mesh: &Mesh, triangle: &Triangle) -> (Vector3<f64>, f64) {
