@@ -43,11 +43,11 @@ impl Facets {
         counts: impl Fn(u32) -> bool,
     ) -> Option<NearestPoint> {
         let centre: Vector = to.coords.into();
-        let (_, found) = self.tree().find_best(
+        let (_, found) = self.distance_tree().find_best(
             f64::INFINITY,
             |node, _| gap(node, centre, centre),
             |leaf, _| {
-                let counted = self.bundle(leaf).filter(|&index| counts(index));
+                let counted = self.leaf(leaf).filter(|&index| counts(index));
                 nearest_of(counted.map(|index| {
                     let projection = self.triangle(index).project_local_point(centre, true);
                     ((projection.point - centre).length(), index)
@@ -74,12 +74,12 @@ impl Facets {
     ) -> Option<(f64, u32)> {
         let segment = Segment::new(from.coords.into(), to.coords.into());
         let (low, high) = (segment.a.min(segment.b), segment.a.max(segment.b));
-        let (_, found) = self.tree().find_best(
+        let (_, found) = self.distance_tree().find_best(
             limit,
             |node, _| gap(node, low, high),
             |leaf, _| {
                 let distance = |index| segment_triangle(&segment, &self.triangle(index));
-                nearest_of(self.bundle(leaf).map(|index| (distance(index), index)))
+                nearest_of(self.leaf(leaf).map(|index| (distance(index), index)))
             },
         )?;
         Some((found.distance, found.triangle))

@@ -3,6 +3,7 @@
 //! Prismatic parts are traced against their exact walls, other parts against their triangles.
 //! Surfaces are two-sided. This module is the only one that knows parry.
 
+mod bundle;
 mod clearance;
 mod facets;
 mod form;
@@ -17,6 +18,7 @@ pub mod ray;
 mod start;
 pub mod tessellate;
 mod triangle;
+mod wide_tree;
 
 use nalgebra::{Point3, Vector3};
 

@@ -36,9 +36,10 @@ pub(super) fn lies_on(point: &Point3<f64>, corners: &[Point3<f64>; 3], slack: f6
 
 /// The change of coordinates that turns a ray into the positive z axis.
 pub(super) struct Shear {
-    origin: Vector3<f64>,
-    axes: [usize; 3],
-    shear: [f64; 3],
+    pub origin: Vector3<f64>,
+    /// Which coordinates become x, y and z.
+    pub axes: [usize; 3],
+    pub shear: [f64; 3],
 }
 
 impl Shear {
@@ -59,52 +60,67 @@ impl Shear {
             ],
         }
     }
+}
 
-    /// Signed distance to the plane of the triangle where the ray's line crosses the triangle, or
-    /// passes its edges by at most the margin of that side, and whether it crosses from the front.
-    #[inline]
-    pub fn crossing(
-        &self,
-        corners: &[Point3<f64>; 3],
-        margin: impl Fn(bool) -> f64,
-    ) -> Option<(f64, bool)> {
-        let [x, y, z] = self.axes;
-        let sheared = corners.map(|corner| {
-            let p = corner.coords - self.origin;
-            [
-                p[x] - self.shear[0] * p[z],
-                p[y] - self.shear[1] * p[z],
-                self.shear[2] * p[z],
-            ]
-        });
-        let [a, b, c] = sheared;
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
-        let determinant = u + v + w;
-        if determinant == 0.0 {
-            return None;
-        }
-        let least = if determinant > 0.0 {
-            u.min(v).min(w)
+/// How a ray's line passes a triangle: how far on the inner side of each edge, in doubled areas of
+/// the triangle as the ray sees it.
+#[derive(Clone, Copy)]
+pub(super) struct Weights {
+    pub u: f64,
+    pub v: f64,
+    pub w: f64,
+    /// Their sum.
+    pub determinant: f64,
+    /// The sum of each corner's distance along the ray times its weight.
+    pub depth: f64,
+}
+
+impl Weights {
+    /// Whether the line crosses the triangle from the front, if at all.
+    #[inline(always)]
+    pub fn front(&self) -> bool {
+        self.determinant > 0.0
+    }
+
+    /// The least of the weights, positive on the inner side.
+    #[inline(always)]
+    fn least(&self) -> f64 {
+        if self.front() {
+            self.u.min(self.v).min(self.w)
         } else {
-            -u.max(v).max(w)
-        };
-        if least < CLEARLY_OUTSIDE * determinant.abs() {
-            return None;
+            -self.u.max(self.v).max(self.w)
         }
-        let front = determinant > 0.0;
-        if least < 0.0 && beyond(corners, [u, v, w], determinant, margin(front)) {
-            return None;
-        }
-        let t = (u * a[2] + v * b[2] + w * c[2]) / determinant;
-        Some((t, front))
+    }
+
+    /// Whether the line crosses the triangle or does not clearly pass it by.
+    #[inline(always)]
+    pub fn may_cross(&self) -> bool {
+        self.determinant != 0.0 && self.least() >= CLEARLY_OUTSIDE * self.determinant.abs()
+    }
+
+    /// Signed distance to the plane of the triangle along the ray.
+    #[inline(always)]
+    pub fn distance(&self) -> f64 {
+        self.depth / self.determinant
+    }
+
+    /// Whether the line, which [may cross](Self::may_cross) the triangle, crosses it or passes its
+    /// edges by at most `margin`.
+    #[inline]
+    pub fn crosses(&self, corners: impl FnOnce() -> [Point3<f64>; 3], margin: f64) -> bool {
+        self.least() >= 0.0
+            || !beyond(
+                &corners(),
+                [self.u, self.v, self.w],
+                self.determinant,
+                margin,
+            )
     }
 }
 
 /// Barycentric coordinate of a point that lies beyond an edge by more than the margin of any triangle
 /// that is higher than a million margins.
-const CLEARLY_OUTSIDE: f64 = -1e-6;
+pub(super) const CLEARLY_OUTSIDE: f64 = -1e-6;
 
 /// Whether a point of a triangle's plane, given by its barycentric coordinates times
 /// `determinant`, lies beyond an edge by more than `margin`.

@@ -1,0 +1,277 @@
+//! What the tree finds is what a look at every triangle finds, to the last bit.
+
+use nalgebra::{Point3, Vector3};
+
+use super::{DOUBT, Facets, GRAZING, plane};
+use crate::problem::part::Ends;
+use crate::scene::LIFT;
+use crate::scene::mesh::{Mesh, Triangle};
+use crate::scene::profile::Profile;
+use crate::scene::ray::{Crossing, Ray, Spot};
+use crate::scene::start::Start;
+use crate::scene::tessellate;
+use crate::scene::triangle::{Shear, Weights, lies_on};
+
+/// The first crossing with the lowest index, found without a tree and one triangle at a time.
+fn search(
+    mesh: &Mesh,
+    slack: f64,
+    ray: &Ray,
+    leaving: Option<Spot>,
+    limit: f64,
+) -> Option<Crossing> {
+    let start = Start {
+        piece: leaving.map(|spot| spot.piece),
+        front: leaving.map(|spot| spot.front),
+    };
+    let mut best: Option<(f64, Crossing)> = None;
+    for (index, triangle) in mesh.triangles.iter().enumerate() {
+        let piece = index as u32;
+        if start.piece == Some(piece) {
+            continue;
+        }
+        let Some((distance, front)) = crossing(mesh, triangle, slack, ray, &start) else {
+            continue;
+        };
+        let behind = distance > 0.0 && !start.sees(front);
+        let cost = distance + if behind { slack } else { 0.0 };
+        if cost < best.map_or(limit, |(cost, _)| cost) {
+            let surface = triangle.surface;
+            let crossing = Crossing {
+                distance,
+                front,
+                piece,
+                surface,
+            };
+            best = Some((cost, crossing));
+        }
+    }
+    best.map(|(_, crossing)| crossing)
+}
+
+fn crossing(
+    mesh: &Mesh,
+    triangle: &Triangle,
+    slack: f64,
+    ray: &Ray,
+    start: &Start,
+) -> Option<(f64, bool)> {
+    let (normal, offset) = plane(mesh, triangle);
+    let corners = mesh.corners(triangle);
+    let height = ray.origin.coords.dot(&normal) - offset;
+    let approach = ray.direction.dot(&normal);
+    let starts_near = start.front.is_some() && height.abs() <= slack;
+    if starts_near && lies_on(&ray.origin, &corners, slack) {
+        return start.enters(approach).then_some((0.0, approach < 0.0));
+    }
+    if !starts_near && approach.abs() > GRAZING && -height / approach < -DOUBT * slack {
+        return None;
+    }
+    let weights = weights(&Shear::new(ray), &corners);
+    let front = weights.front();
+    let margin = if start.sees(front) { LIFT * slack } else { 0.0 };
+    let crosses = weights.may_cross() && weights.crosses(|| corners, margin);
+    (crosses && weights.distance() > 0.0).then_some((weights.distance(), front))
+}
+
+fn weights(shear: &Shear, corners: &[Point3<f64>; 3]) -> Weights {
+    let [x, y, z] = shear.axes;
+    let [a, b, c] = corners.map(|corner| {
+        let p = corner.coords - shear.origin;
+        [
+            p[x] - shear.shear[0] * p[z],
+            p[y] - shear.shear[1] * p[z],
+            shear.shear[2] * p[z],
+        ]
+    });
+    let u = c[0] * b[1] - c[1] * b[0];
+    let v = a[0] * c[1] - a[1] * c[0];
+    let w = b[0] * a[1] - b[1] * a[0];
+    Weights {
+        u,
+        v,
+        w,
+        determinant: u + v + w,
+        depth: u * a[2] + v * b[2] + w * c[2],
+    }
+}
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// In -1 to 1.
+    fn symmetric(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| self.symmetric())
+    }
+
+    fn direction(&mut self) -> Vector3<f64> {
+        self.vector().normalize()
+    }
+
+    fn of<'a, T>(&mut self, items: &'a [T]) -> &'a T {
+        &items[self.bits() as usize % items.len()]
+    }
+}
+
+fn room(chord_angle: f64) -> Mesh {
+    let ends = Ends {
+        near_closed: true,
+        far_closed: true,
+    };
+    tessellate::prism(&Profile::circle(1.0), 1.5, ends, chord_angle)
+}
+
+/// Triangles of all sizes anywhere, some without an area, some there twice.
+fn heap(count: usize, random: &mut Random) -> Mesh {
+    let mut mesh = Mesh::default();
+    for index in 0..count as u32 {
+        let centre = random.vector();
+        let size = 10_f64.powf(2.0 * random.symmetric() - 2.0);
+        for _ in 0..3 {
+            mesh.vertices
+                .push(Point3::from(centre + random.vector() * size));
+        }
+        let corners = [3 * index, 3 * index + 1, 3 * index + 2];
+        let [a, b, _] = corners;
+        let corners = if index % 50 == 7 { [a, b, b] } else { corners };
+        let copies = if index % 50 == 9 { 2 } else { 1 };
+        let surface = index % 5;
+        let triangle = Triangle { corners, surface };
+        mesh.triangles.extend([triangle].repeat(copies));
+    }
+    mesh
+}
+
+/// Rays from anywhere, many of them over vertices and edges or along an axis.
+fn ray(mesh: &Mesh, size: f64, random: &mut Random) -> Ray {
+    let [a, b, c] = mesh.corners(random.of(&mesh.triangles));
+    let aim = match random.bits() % 4 {
+        0 => a,
+        1 => nalgebra::center(&a, &b),
+        2 => Point3::from((a.coords + b.coords + c.coords) / 3.0),
+        _ => Point3::from(random.vector() * size),
+    };
+    let away = [0.3, 1.0, 3.0, 1000.0][(random.bits() % 4) as usize];
+    let mut direction = random.direction();
+    if random.bits().is_multiple_of(3) {
+        let axis = (random.bits() % 3) as usize;
+        direction = Vector3::ith(axis, 1.0_f64.copysign(random.symmetric()));
+    }
+    Ray {
+        origin: aim - direction * (away * size),
+        direction,
+    }
+}
+
+/// Follows rays over a few rebounds; returns how many casts hit.
+fn compare(mesh: &Mesh, rays: usize, random: &mut Random) -> usize {
+    let corners = mesh.vertices.iter().map(|vertex| vertex.coords.amax());
+    let size = corners.fold(0.0, f64::max);
+    let slack = 1e-12 * size;
+    let facets = Facets::new(mesh.clone(), 0, slack);
+    let mut hits = 0;
+    for _ in 0..rays {
+        let mut ray = ray(mesh, size, random);
+        let mut leaving = None;
+        for _ in 0..4 {
+            let expected = search(mesh, slack, &ray, leaving, f64::INFINITY);
+            let found = facets.first_crossing(&ray, leaving, true, f64::INFINITY);
+            assert_eq!(
+                found.map(|(crossing, _)| crossing),
+                expected,
+                "{ray:?} {leaving:?}"
+            );
+            let Some((crossing, front)) = found else {
+                break;
+            };
+            hits += 1;
+            let at_limit = facets.first_crossing(&ray, leaving, true, crossing.distance);
+            let expected = search(mesh, slack, &ray, leaving, crossing.distance);
+            assert_eq!(at_limit.map(|(crossing, _)| crossing), expected);
+            let normal = if crossing.front { front } else { -front };
+            ray = Ray {
+                origin: ray.origin + ray.direction * crossing.distance + normal * (LIFT * slack),
+                direction: match random.bits() % 3 {
+                    0 => (normal + random.direction()).normalize(),
+                    1 => (normal * 1e-6 + normal.cross(&random.direction())).normalize(),
+                    _ => ray.direction - normal * (2.0 * ray.direction.dot(&normal)),
+                },
+            };
+            leaving = Some(Spot {
+                part: 0,
+                piece: crossing.piece,
+                front: crossing.front,
+            });
+        }
+    }
+    hits
+}
+
+#[test]
+fn rays_in_a_closed_room_find_what_a_search_finds() {
+    let mut random = Random(1);
+    for chord_angle in [0.8, 0.1, 0.01] {
+        let hits = compare(&room(chord_angle), 1500, &mut random);
+        assert!(hits > 2000, "{hits}");
+    }
+    let block = tessellate::block(Point3::new(-1.0, -0.5, -0.25), Point3::new(1.0, 0.5, 0.25));
+    assert!(compare(&block, 3000, &mut random) > 3000);
+}
+
+#[test]
+fn rays_through_a_heap_find_what_a_search_finds() {
+    let mut random = Random(2);
+    for count in [1, 2, 5, 9, 33, 400] {
+        let hits = compare(&heap(count, &mut random), 1000, &mut random);
+        assert!(hits > 200, "{count}: {hits}");
+    }
+}
+
+/// The tree has single precision inside, which must show nowhere.
+#[test]
+fn size_and_place_of_a_mesh_do_not_matter() {
+    let mut random = Random(3);
+    for scale in [1e-9, 1e-3, 1e6] {
+        for shift in [0.0, 100.0] {
+            let mut mesh = room(0.1);
+            for vertex in &mut mesh.vertices {
+                *vertex = (*vertex + Vector3::repeat(shift)) * scale;
+            }
+            assert!(compare(&mesh, 300, &mut random) > 100);
+        }
+    }
+}
+
+/// Every box of such a mesh is the same, so that no plane divides the triangles.
+#[test]
+fn triangles_in_one_place_can_be_divided() {
+    let mut mesh = room(2.0);
+    let same = [mesh.triangles[0]].repeat(5000);
+    mesh.triangles.extend(same);
+    let mut random = Random(4);
+    assert!(compare(&mesh, 100, &mut random) > 100);
+}
+
+#[test]
+fn an_empty_mesh_is_never_hit() {
+    let facets = Facets::new(Mesh::default(), 0, 0.0);
+    let ray = Ray {
+        origin: Point3::origin(),
+        direction: Vector3::x(),
+    };
+    let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
+    assert!(found.is_none());
+}
