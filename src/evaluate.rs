@@ -17,8 +17,10 @@ use ledger::{Ledger, SurfaceSums};
 /// What a choice of settings does, with its statistical errors.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
-    /// Number of shots.
+    /// Number of shots of the jet.
     pub shots: usize,
+    /// Number of shots on its rim, which only the terms of the objective count.
+    pub rim_shots: usize,
     /// Number of rays cast for them.
     pub rays: usize,
     /// The terms of the objective.
@@ -85,16 +87,19 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
     let replicates: Vec<Ledger> = fresh
         .sets
         .par_iter()
-        .map(|samples| Ledger::of(setup, choice, samples))
+        .map(|replicate| Ledger::of(setup, choice, replicate))
         .collect();
     let shots = fresh.shots();
     let goals = &setup.problem.goals;
     let sums: Vec<Sums> = replicates
         .iter()
-        .map(|replicate| replicate.tally.sums(goals, choice.speed))
+        .map(|replicate| {
+            let of_jet = replicate.tally.sums(goals, choice.speed);
+            of_jet.plus(&replicate.rim.sums(goals, choice.speed))
+        })
         .collect();
-    let (terms, term_errors, standard_error) = jackknife(&sums, |sums| sums.terms(goals));
-    let rays = replicates.iter().map(|r| r.tally.rays).sum();
+    let (terms, term_errors, standard_error) = jackknife(&sums, goals);
+    let rays = replicates.iter().map(|r| r.tally.rays + r.rim.rays).sum();
     let mut ends = BTreeMap::new();
     for (&end, &count) in replicates.iter().flat_map(|replicate| &replicate.ends) {
         *ends.entry(end).or_insert(0.0) += count as f64 / shots as f64;
@@ -104,6 +109,7 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
         .collect();
     Evaluation {
         shots,
+        rim_shots: fresh.rim_shots(),
         rays,
         terms,
         term_errors,
@@ -114,19 +120,26 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
     }
 }
 
-/// Value of a function of pooled sums and its standard errors, from leaving out one of the
-/// independent scramblings at a time.
-fn jackknife(sums: &[Sums], terms: impl Fn(&Sums) -> Terms) -> (Terms, Terms, f64) {
+/// The terms of pooled sums and their standard errors, from leaving out one of the independent
+/// scramblings at a time.
+///
+/// What harms rarely may have been seen too seldom to show how much it scatters. So one more of
+/// the worst events is added to the errors, as one is added to the count of a Poisson variable.
+fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
     let pooled = |skip: Option<usize>| {
         let kept = sums.iter().enumerate().filter(|(i, _)| skip != Some(*i));
-        terms(&kept.fold(Sums::default(), |total, (_, one)| total.plus(one)))
+        kept.fold(Sums::default(), |total, (_, one)| total.plus(one))
     };
-    let left_out: Vec<Terms> = (0..sums.len()).map(|index| pooled(Some(index))).collect();
+    let left_out: Vec<Terms> = (0..sums.len())
+        .map(|index| pooled(Some(index)).terms(goals))
+        .collect();
+    let all = pooled(None);
+    let more = all.one_more_of_the_worst(goals);
     let count = sums.len() as f64;
     let error = |part: fn(&Terms) -> f64| {
         let mean = left_out.iter().map(part).sum::<f64>() / count;
         let squares: f64 = left_out.iter().map(|t| (part(t) - mean).powi(2)).sum();
-        ((count - 1.0) / count * squares).sqrt()
+        ((count - 1.0) / count * squares).sqrt().hypot(part(&more))
     };
     let errors = Terms {
         normal_impulse: error(|t| t.normal_impulse),
@@ -134,7 +147,7 @@ fn jackknife(sums: &[Sums], terms: impl Fn(&Sums) -> Terms) -> (Terms, Terms, f6
         rebound: error(|t| t.rebound),
         miss: error(|t| t.miss),
     };
-    (pooled(None), errors, error(Terms::total))
+    (all.terms(goals), errors, error(Terms::total))
 }
 
 fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {

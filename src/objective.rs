@@ -38,6 +38,10 @@ pub struct Sums {
     normal: f64,
     tangential: f64,
     rebound: f64,
+    /// The largest part that one shot has in `missed`.
+    worst_miss: f64,
+    /// The largest part that one impact has in `rebound`.
+    worst_rebound: f64,
 }
 
 impl Sums {
@@ -50,6 +54,8 @@ impl Sums {
             normal: self.normal + other.normal,
             tangential: self.tangential + other.tangential,
             rebound: self.rebound + other.rebound,
+            worst_miss: self.worst_miss.max(other.worst_miss),
+            worst_rebound: self.worst_rebound.max(other.worst_rebound),
         }
     }
 
@@ -65,6 +71,15 @@ impl Sums {
             tangential_impulse: tangential_weight * share_of_hits(self.tangential),
             rebound: self.rebound / self.weight,
             miss: goals.miss.weight * self.missed / self.weight,
+        }
+    }
+
+    /// What one more of the worst events that were seen would add to the terms.
+    pub fn one_more_of_the_worst(&self, goals: &Goals) -> Terms {
+        Terms {
+            rebound: self.worst_rebound / self.weight,
+            miss: goals.miss.weight * self.worst_miss / self.weight,
+            ..Terms::default()
         }
     }
 }

@@ -108,7 +108,7 @@ fn hits_in_the_fillet_of_a_fir_tree_converge_as_theory_says() {
         let chord_angle = angle_deg.to_radians();
         let facets = case.on_facets(chord_angle);
         assert_eq!(facets.hits.len(), SHOTS);
-        let hits = facets.hits.iter().zip(&case.tally.hits);
+        let hits = facets.hits.iter().zip(case.tally.hits.iter());
         let errors: Vec<f64> = hits
             .map(|(facet, exact)| facet.normal / exact.normal - 1.0)
             .collect();

@@ -171,7 +171,7 @@ proptest! {
     ) {
         let weight = missed + hits.iter().map(|hit| hit.weight).sum::<f64>();
         prop_assume!(weight > 0.0);
-        let tally = Tally { shots: hits.len() + 1, weight, missed, hits: hits.into_iter().collect(), rebound, rays: 0 };
+        let tally = Tally { shots: hits.len() + 1, weight, missed, hits: hits.into_iter().collect(), rebound, ..Tally::default() };
         let mut goals = common::keyway(0.04).goals;
         goals.normal_impulse.weight = weights[0];
         goals.tangential_impulse =
@@ -252,7 +252,7 @@ fn an_evaluation_counts_what_every_surface_receives() {
         let tracer = Tracer::new(&setup, &choice, choice.speed);
         let mut paths: Vec<Vec<PathImpact>> = Vec::new();
         for samples in &fresh.sets {
-            for deviate in &samples.deviates {
+            for deviate in &samples.jet.deviates {
                 let mut path = Vec::new();
                 tracer.follow(deviate, |impact| path.push(*impact));
                 paths.push(path);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::jet::Samples;
+use crate::jet::Replicate;
 use crate::objective::{Score, Tally};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::LANES;
@@ -11,7 +11,10 @@ use crate::trace::{End, Tracer, Volley, Witness};
 
 /// What became of the shots of one scrambling.
 pub(super) struct Ledger {
+    /// Of the jet.
     pub tally: Tally,
+    /// Of the shots on the rim, which nothing else here counts.
+    pub rim: Tally,
     /// First hits on target that stick.
     pub sticking: usize,
     /// One for each surface of the scene.
@@ -34,8 +37,8 @@ pub(super) struct SurfaceSums {
 
 impl Ledger {
     /// Traces the shots of a choice of settings.
-    pub fn of(setup: &Setup, choice: &Choice, samples: &Samples) -> Self {
-        let shots = &samples.deviates;
+    pub fn of(setup: &Setup, choice: &Choice, replicate: &Replicate) -> Self {
+        let shots = &replicate.jet.deviates;
         let mut clerk = Clerk {
             setup,
             score: Score::new(setup, choice.speed, shots.len()),
@@ -55,6 +58,7 @@ impl Ledger {
         });
         Self {
             tally: clerk.score.finish(),
+            rim: Tally::trace(setup, choice, choice.speed, &replicate.rim.deviates),
             sticking: clerk.sticking,
             surfaces: clerk.surfaces,
             ends: clerk.ends,

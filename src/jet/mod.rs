@@ -5,4 +5,4 @@ mod sample;
 
 pub(crate) use pose::Aim;
 pub use pose::Pose;
-pub use sample::{Deviate, Replicates, Samples, Stream};
+pub use sample::{Deviate, Replicate, Replicates, Samples, Stream};

@@ -61,31 +61,65 @@ pub struct Samples {
 /// Independent scramblings of the same jet, whose scatter tells the error of an average.
 #[derive(Clone, Debug)]
 pub struct Replicates {
-    /// One set of shots for each scrambling.
-    pub sets: Vec<Samples>,
+    /// One for each scrambling.
+    pub sets: Vec<Replicate>,
+}
+
+/// The shots of one scrambling.
+#[derive(Clone, Debug)]
+pub struct Replicate {
+    /// Shots as the jet fires them.
+    pub jet: Samples,
+    /// Shots drawn towards the rim; weighted averages over both estimate the same as those over
+    /// the jet alone, and see what harms rarely.
+    pub rim: Samples,
 }
 
 impl Replicates {
     /// Number of scramblings.
     pub const COUNT: usize = 32;
 
-    /// Fresh shots, rounded up to a multiple of [`Self::COUNT`]. Sets with different `purpose` are
-    /// independent of each other and of every search.
+    /// Fresh shots of the jet, rounded up to a multiple of [`Self::COUNT`], and half as many on the
+    /// rim. Sets with different `purpose` are independent of each other and of every search.
     pub fn new(problem: &Problem, purpose: u32, shots: usize) -> Self {
         let each = shots.div_ceil(Self::COUNT).max(1);
+        Self::of(problem, purpose, each, each.div_ceil(2))
+    }
+
+    /// Fresh shots of the jet alone: for shares of shots.
+    pub fn without_rim(problem: &Problem, purpose: u32, shots: usize) -> Self {
+        Self::of(problem, purpose, shots.div_ceil(Self::COUNT).max(1), 0)
+    }
+
+    fn of(problem: &Problem, purpose: u32, jet: usize, rim: usize) -> Self {
+        let rim_share = rim as f64 / (jet + rim) as f64;
         let sets = (0..Self::COUNT as u32)
             .into_par_iter()
             .map(|number| {
                 let stream = Stream::Fresh(purpose * Self::COUNT as u32 + number);
-                Samples::new(problem, stream, each)
+                let draw = |count: usize, on_rim| {
+                    let shot = |index| weighted(problem, stream, index, on_rim, rim_share);
+                    Samples {
+                        deviates: (0..count as u32).map(shot).collect(),
+                    }
+                };
+                Replicate {
+                    jet: draw(jet, false),
+                    rim: draw(rim, true),
+                }
             })
             .collect();
         Self { sets }
     }
 
-    /// Number of shots in all sets together.
+    /// Number of shots of the jet in all sets together.
     pub fn shots(&self) -> usize {
-        self.sets.iter().map(|set| set.deviates.len()).sum()
+        self.sets.iter().map(|set| set.jet.deviates.len()).sum()
+    }
+
+    /// Number of shots on the rim in all sets together.
+    pub fn rim_shots(&self) -> usize {
+        self.sets.iter().map(|set| set.rim.deviates.len()).sum()
     }
 }
 
@@ -134,7 +168,7 @@ const POINTS_PER_SEED: u32 = 1 << 16;
 impl Samples {
     /// The first `count` shots of a stream, each standing for itself.
     pub fn new(problem: &Problem, stream: Stream, count: usize) -> Self {
-        let shot = |index| deviate(problem, &mut Point::new(problem.seed, stream, index, false));
+        let shot = |index| weighted(problem, stream, index, false, 0.0);
         Self {
             deviates: (0..count as u32).map(shot).collect(),
         }
@@ -154,17 +188,27 @@ impl Samples {
     ///
     /// Averages weighted with [`Deviate::weight`] estimate the same as those over [`Samples::new`].
     pub fn with_rim(problem: &Problem, stream: Stream, count: usize) -> Self {
-        let shot = |index| {
-            let mut point = Point::new(problem.seed, stream, index / 2, index % 2 == 1);
-            let deviate = deviate(problem, &mut point);
-            Deviate {
-                weight: point.weight(),
-                ..deviate
-            }
-        };
+        let shot = |index| weighted(problem, stream, index / 2, index % 2 == 1, 0.5);
         Self {
-            deviates: (0..count as u32).map(shot).collect(),
+            deviates: (0..count as u32).into_par_iter().map(shot).collect(),
         }
+    }
+}
+
+/// A shot among others of which `rim_share` are on the rim.
+fn weighted(
+    problem: &Problem,
+    stream: Stream,
+    index: u32,
+    on_rim: bool,
+    rim_share: f64,
+) -> Deviate {
+    let mut point = Point::new(problem.seed, stream, index, on_rim);
+    point.keeps_account = rim_share > 0.0;
+    let deviate = deviate(problem, &mut point);
+    Deviate {
+        weight: 1.0 / (1.0 - rim_share + rim_share * point.rim_density),
+        ..deviate
     }
 }
 
@@ -172,6 +216,8 @@ impl Samples {
 struct Point {
     sequence: Sequence,
     on_rim: bool,
+    /// Whether the next field is kept up.
+    keeps_account: bool,
     /// Density of the rim's distribution over that of the jet, so far.
     rim_density: f64,
 }
@@ -184,8 +230,8 @@ enum Sequence {
     Random { seed: u64 },
 }
 
-/// Keeps the density finite on the rim itself.
-const LEAST_DEPTH: f64 = 1e-18;
+/// Keeps the density finite on the rim itself: a cube root of a depth.
+const LEAST_ROOT: f64 = 1e-6;
 
 impl Point {
     fn new(seed: u64, stream: Stream, index: u32, on_rim: bool) -> Self {
@@ -197,6 +243,7 @@ impl Point {
                 seed: (mixed >> 32) as u32,
             },
             on_rim,
+            keeps_account: false,
             rim_density: 1.0,
         }
     }
@@ -207,6 +254,7 @@ impl Point {
                 seed: mix(stream.seed(seed) ^ u64::from(index)),
             },
             on_rim: false,
+            keeps_account: false,
             rim_density: 1.0,
         }
     }
@@ -245,14 +293,13 @@ impl Point {
     /// 0 to 1; keeps account of the density.
     fn towards_rim(&mut self, depth: f64) -> f64 {
         // The cube of a uniform variable crowds at 0, with density depth^(-2/3) / 3.
-        let depth = if self.on_rim { depth.powi(3) } else { depth };
-        self.rim_density /= 3.0 * depth.max(LEAST_DEPTH).cbrt().powi(2);
+        let (depth, root) = match (self.on_rim, self.keeps_account) {
+            (true, _) => (depth.powi(3), depth),
+            (false, true) => (depth, depth.cbrt()),
+            (false, false) => return depth,
+        };
+        self.rim_density /= 3.0 * root.max(LEAST_ROOT).powi(2);
         depth
-    }
-
-    /// What a shot stands for when every second one is a rim shot.
-    fn weight(&self) -> f64 {
-        2.0 / (1.0 + self.rim_density)
     }
 
     /// 1 plus a normal deviate with standard deviation `spread`, cut at two of them.

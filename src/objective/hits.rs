@@ -41,6 +41,16 @@ impl Hits {
         self.weight.append(&mut others.weight);
     }
 
+    /// Hit by hit.
+    pub fn iter(&self) -> impl Iterator<Item = Impulses> + '_ {
+        let impulses = self.normal.iter().zip(&self.tangential).zip(&self.weight);
+        impulses.map(|((&normal, &tangential), &weight)| Impulses {
+            normal,
+            tangential,
+            weight,
+        })
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.normal.len()

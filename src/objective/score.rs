@@ -45,11 +45,9 @@ impl<R: Real> Target<R> {
 
     #[inline(always)]
     fn holds(&self, point: [R; 3]) -> bool {
-        let mut inside = true;
-        for axis in 0..3 {
-            inside &= (self.low[axis] <= point[axis]) & (point[axis] <= self.high[axis]);
-        }
-        inside
+        let within =
+            |axis: usize| (self.low[axis] <= point[axis]) & (point[axis] <= self.high[axis]);
+        within(0) & within(1) & within(2)
     }
 }
 
@@ -83,14 +81,17 @@ impl<R: Real> Score<R> {
     pub fn end_volley(&mut self, weights: impl ExactSizeIterator<Item = f64>, rays: usize) {
         self.tally.shots += weights.len();
         self.tally.rays += rays;
-        let (mut all, mut missed) = (0.0, 0.0);
+        let (mut all, mut missed, mut worst) = (0.0, 0.0, 0.0_f64);
         for (weight, hit) in weights.zip(&mut self.hit_target) {
+            let miss = if *hit { 0.0 } else { weight };
             all += weight;
-            missed += if *hit { 0.0 } else { weight };
+            missed += miss;
+            worst = worst.max(miss);
             *hit = false;
         }
         self.tally.weight += all;
         self.tally.missed += missed;
+        self.tally.worst_miss = self.tally.worst_miss.max(worst);
     }
 
     /// The tally of all volleys.
@@ -103,8 +104,8 @@ impl<R: Real> Score<R> {
         let (mut normal, mut tangential, mut weight) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let per_speed = 1.0 / self.speed;
         let mut count = 0;
-        for i in 0..volley.rays.count {
-            let hit = is_first[i] != R::ZERO;
+        for (i, &first) in is_first.iter().enumerate().take(volley.rays.count) {
+            let hit = first != R::ZERO;
             normal[count] = volley.impacts.normal[i].wide() * per_speed;
             tangential[count] = volley.impacts.tangential[i].wide() * per_speed;
             weight[count] = volley.weight[i].wide();
@@ -143,7 +144,10 @@ impl<R: Real> Witness<R> for Score<R> {
             rebound[i] = if counts & !hit { cost } else { R::ZERO };
         }
         self.on_target = on_target;
-        self.tally.rebound += sum(&rebound, count) / (self.speed * self.speed);
+        let per_speed_squared = 1.0 / (self.speed * self.speed);
+        self.tally.rebound += sum(&rebound, count) * per_speed_squared;
+        let worst = largest(&rebound, count) * per_speed_squared;
+        self.tally.worst_rebound = self.tally.worst_rebound.max(worst);
         if sum(&is_first, count) > 0.0 {
             self.add_hits_on_target(volley, &is_first);
         }
@@ -151,6 +155,16 @@ impl<R: Real> Witness<R> for Score<R> {
 
     #[inline(always)]
     fn ends(&mut self, _: usize, _: End, _: usize) {}
+}
+
+/// The largest of the first `count` numbers, which are not negative.
+#[inline(always)]
+fn largest<R: Real>(values: &Lane<R>, count: usize) -> f64 {
+    let mut largest = R::ZERO;
+    for &value in &values[..count] {
+        largest = if value > largest { value } else { largest };
+    }
+    largest.wide()
 }
 
 /// The sum of the first `count` numbers, in a fixed order that compilers can work on side by side.

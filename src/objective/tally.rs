@@ -23,6 +23,10 @@ pub struct Tally {
     pub hits: Hits,
     /// Sum over shots and impacts on secondary surfaces of weight (N*/N_allow)^2, per (m/s)^2.
     pub rebound: f64,
+    /// The largest part that one shot has in `missed`.
+    pub worst_miss: f64,
+    /// The largest part that one impact has in `rebound`.
+    pub worst_rebound: f64,
     /// Number of rays cast.
     pub rays: usize,
 }
@@ -57,6 +61,8 @@ impl Tally {
             all.missed += part.missed;
             all.hits.append(part.hits);
             all.rebound += part.rebound;
+            all.worst_miss = all.worst_miss.max(part.worst_miss);
+            all.worst_rebound = all.worst_rebound.max(part.worst_rebound);
             all.rays += part.rays;
         }
         all
@@ -75,6 +81,8 @@ impl Tally {
             normal: self.normal_moments(goals, speed).square,
             tangential: self.tangential_moments(goals, speed).square,
             rebound: self.rebound * speed * speed,
+            worst_miss: self.worst_miss,
+            worst_rebound: self.worst_rebound * speed * speed,
         }
     }
 

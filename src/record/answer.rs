@@ -36,6 +36,9 @@ pub struct AnswerRecord {
     pub clearance_wanted_m: f64,
     /// Fresh shots behind the figures.
     pub shots: usize,
+    /// Fresh shots on the rim of jet and tolerance that stand behind the objective as well.
+    #[serde(default)]
+    pub rim_shots: usize,
     /// The terms of the objective with their weights; absent when the nozzle does not fit.
     pub objective: Option<ObjectiveRecord>,
     /// What the target receives.
@@ -203,6 +206,7 @@ impl AnswerRecord {
             clearance_surface: clearance.map(|(_, surface)| surface_name(surface)),
             clearance_wanted_m: nozzle.clearance,
             shots: evaluation.map_or(0, |evaluation| evaluation.shots),
+            rim_shots: evaluation.map_or(0, |evaluation| evaluation.rim_shots),
             objective: evaluation.map(ObjectiveRecord::new),
             target: evaluation.map(|evaluation| TargetRecord::new(setup, evaluation)),
             surfaces: evaluation

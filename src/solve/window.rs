@@ -60,7 +60,7 @@ pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
         .filter(|verdict| verdict.passes())
         .map(|verdict| verdict.subject)
         .collect();
-    let fresh = Replicates::new(&setup.problem, WINDOWS, WINDOW_SHOTS);
+    let fresh = Replicates::without_rim(&setup.problem, WINDOWS, WINDOW_SHOTS);
     windows(setup, &best.choice, &passing, &fresh)
 }
 

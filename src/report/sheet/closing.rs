@@ -76,6 +76,12 @@ pub fn work(record: &Record) -> Block {
                 count(record.best.shots)
             ));
         }
+        if record.best.rim_shots > 0 {
+            block.paragraph(&format!(
+                "J also from {} on the rim of jet and tolerance, weighted by how rare they are",
+                count(record.best.rim_shots)
+            ));
+        }
     }
     block.paragraph(&format!("wall time {} s", fixed(work.seconds, 2)));
     block
