@@ -123,8 +123,9 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
 /// The terms of pooled sums and their standard errors, from leaving out one of the independent
 /// scramblings at a time.
 ///
-/// What harms rarely may have been seen too seldom to show how much it scatters. So one more of
-/// the worst events is added to the errors, as one is added to the count of a Poisson variable.
+/// What harms rarely may have been seen too seldom to show how much it scatters. So two more of the
+/// worst events are added to the variances, as two are added to the counts behind a 95 % interval
+/// of a share.
 fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
     let pooled = |skip: Option<usize>| {
         let kept = sums.iter().enumerate().filter(|(i, _)| skip != Some(*i));
@@ -139,7 +140,9 @@ fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
     let error = |part: fn(&Terms) -> f64| {
         let mean = left_out.iter().map(part).sum::<f64>() / count;
         let squares: f64 = left_out.iter().map(|t| (part(t) - mean).powi(2)).sum();
-        ((count - 1.0) / count * squares).sqrt().hypot(part(&more))
+        ((count - 1.0) / count * squares)
+            .sqrt()
+            .hypot(MORE.sqrt() * part(&more))
     };
     let errors = Terms {
         normal_impulse: error(|t| t.normal_impulse),
@@ -149,6 +152,8 @@ fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
     };
     (all.terms(goals), errors, error(Terms::total))
 }
+
+const MORE: f64 = 2.0;
 
 fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {
     into.resize(into.len().max(counts.len()), 0);

@@ -9,7 +9,7 @@ pub(crate) use volley::{Volley, Witness, truth};
 use nalgebra::{Point3, Vector3};
 
 use crate::impact::{Contact, Friction, Regime, Restitution, rebound};
-use crate::jet::{Aim, Deviate};
+use crate::jet::{Aim, Deviate, Pose};
 use crate::precision::{Real, Triple, dot, unit};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::LANES;
@@ -26,6 +26,8 @@ pub struct Tracer<'a> {
     /// Of the mean shot, kg.
     mass: f64,
     has_deflectors: bool,
+    /// The pose that is asked for.
+    pose: Pose,
     /// The contact, when it is the same on every surface and at every speed.
     only_contact: Option<OnlyContact>,
 }
@@ -91,6 +93,7 @@ impl<'a> Tracer<'a> {
             _ => None,
         };
         Self {
+            pose: Pose::new(&setup.target.frame, choice),
             has_deflectors: setup.surfaces.iter().any(|surface| surface.deflector),
             only_contact,
             setup,

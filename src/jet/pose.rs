@@ -33,7 +33,9 @@ impl Pose {
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes))
     }
 
-    fn shot(&self, deviate: &Deviate) -> Ray {
+    /// The ray of a shot from this pose.
+    #[inline]
+    pub(crate) fn shot(&self, deviate: &Deviate) -> Ray {
         let [x, y] = deviate.exit;
         let [across, upward, forward] = deviate.cone;
         Ray {
@@ -81,6 +83,7 @@ impl Aim {
         }
     }
 
+    #[inline]
     fn pose(&self, frame: &Frame) -> Pose {
         let [sin_incidence, cos_incidence] = self.incidence;
         let [sin_azimuth, cos_azimuth] = self.azimuth;

@@ -51,6 +51,17 @@ impl Deviate {
     };
 }
 
+impl Deviate {
+    /// Whether the pose is the one that was asked for.
+    #[inline]
+    pub fn leaves_pose(&self) -> bool {
+        (self.incidence == Self::NONE.incidence)
+            & (self.azimuth == Self::NONE.azimuth)
+            & (self.standoff == 0.0)
+            & (self.aim == Self::NONE.aim)
+    }
+}
+
 /// The shots of a jet, without its pose.
 #[derive(Clone, Debug)]
 pub struct Samples {
@@ -212,6 +223,9 @@ fn weighted(
     }
 }
 
+/// Share of a normal distribution between its mean and two standard deviations.
+const BELOW_TWO_DEVIATIONS: f64 = 0.477_249_868_051_820_8;
+
 /// One point of the unit cube.
 struct Point {
     sequence: Sequence,
@@ -224,14 +238,18 @@ struct Point {
 
 /// Where the coordinates of a point come from.
 enum Sequence {
-    /// Sobol's points, scrambled.
-    Sobol { index: u32, seed: u32 },
+    /// Sobol's points, scrambled; four dimensions at a time, as far as they have been asked for.
+    Sobol {
+        index: u32,
+        seed: u32,
+        known: [Option<[f32; 4]>; 4],
+    },
     /// SplitMix64, for each coordinate on its own.
     Random { seed: u64 },
 }
 
-/// Keeps the density finite on the rim itself: a cube root of a depth.
-const LEAST_ROOT: f64 = 1e-6;
+/// Keeps the density finite on the rim itself: the square root of a depth.
+const LEAST_ROOT: f64 = 1e-9;
 
 impl Point {
     fn new(seed: u64, stream: Stream, index: u32, on_rim: bool) -> Self {
@@ -241,6 +259,7 @@ impl Point {
             sequence: Sequence::Sobol {
                 index: index % POINTS_PER_SEED,
                 seed: (mixed >> 32) as u32,
+                known: [None; 4],
             },
             on_rim,
             keeps_account: false,
@@ -260,15 +279,18 @@ impl Point {
     }
 
     /// Uniform in 0 to 1.
-    fn uniform(&self, dimension: Dimension) -> f64 {
+    fn uniform(&mut self, dimension: Dimension) -> f64 {
         let dimension = dimension as u32;
-        match self.sequence {
-            Sequence::Sobol { index, seed } => {
-                f64::from(sobol_burley::sample(index, dimension, seed))
+        match &mut self.sequence {
+            Sequence::Sobol { index, seed, known } => {
+                let set = dimension / 4;
+                let four = known[set as usize]
+                    .get_or_insert_with(|| sobol_burley::sample_4d(*index, set, *seed));
+                f64::from(four[dimension as usize % 4])
             }
             // The upper 53 bits, which is what f64 holds.
             Sequence::Random { seed } => {
-                (mix(seed ^ u64::from(dimension)) >> 11) as f64 / (1_u64 << 53) as f64
+                (mix(*seed ^ u64::from(dimension)) >> 11) as f64 / (1_u64 << 53) as f64
             }
         }
     }
@@ -292,24 +314,23 @@ impl Point {
     /// The distance from the rim of this point, when that of the jet's own points is uniform in
     /// 0 to 1; keeps account of the density.
     fn towards_rim(&mut self, depth: f64) -> f64 {
-        // The cube of a uniform variable crowds at 0, with density depth^(-2/3) / 3.
+        // The square of a uniform variable crowds at 0, with density depth^(-1/2) / 2.
         let (depth, root) = match (self.on_rim, self.keeps_account) {
-            (true, _) => (depth.powi(3), depth),
-            (false, true) => (depth, depth.cbrt()),
+            (true, _) => (depth * depth, depth),
+            (false, true) => (depth, depth.sqrt()),
             (false, false) => return depth,
         };
-        self.rim_density /= 3.0 * root.max(LEAST_ROOT).powi(2);
+        self.rim_density /= 2.0 * root.max(LEAST_ROOT);
         depth
     }
 
     /// 1 plus a normal deviate with standard deviation `spread`, cut at two of them.
-    fn scatter(&self, spread: f64, dimension: Dimension) -> f64 {
+    fn scatter(&mut self, spread: f64, dimension: Dimension) -> f64 {
         if spread == 0.0 {
             return 1.0;
         }
-        let normal = Normal::standard();
-        let (low, high) = (normal.cdf(-2.0), normal.cdf(2.0));
-        1.0 + spread * normal.inverse_cdf(low + (high - low) * self.uniform(dimension))
+        let share = BELOW_TWO_DEVIATIONS * (1.0 - 2.0 * self.uniform(dimension));
+        1.0 + spread * Normal::standard().inverse_cdf(0.5 - share)
     }
 }
 

@@ -48,8 +48,9 @@ pub(super) fn unsettled(
         let (claimed, (found, error)) = search.best().standing.objective().zip(fresh(answer))?;
         let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
         let gap = found - claimed;
-        let is_vague = error > accuracy * found / CONFIDENCE && shots < fresh_shots;
-        Some(in_reach && (is_vague || gap > accuracy * found + CONFIDENCE * error))
+        let wanted = accuracy * found;
+        let is_vague = error > VAGUE * wanted && shots < fresh_shots;
+        Some(in_reach && (is_vague || gap > TOLERABLE * wanted + error))
     };
     let pairs = searches.iter().zip(answers).enumerate();
     pairs
@@ -58,6 +59,10 @@ pub(super) fn unsettled(
         .collect()
 }
 
+/// Share of the accuracy that the gap may reach: it is itself known to within its error only.
+const TOLERABLE: f64 = 0.7;
+/// Share of the accuracy above which an error is too large for the gap to say much.
+const VAGUE: f64 = 0.25;
 /// Standard errors that a difference must exceed to count.
 const CONFIDENCE: f64 = 2.0;
 /// A contact whose J is above the best by more than this share cannot become the best.

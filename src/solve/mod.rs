@@ -60,7 +60,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let (mut searches, mut shots) = descend(setup, control, &effort);
     let fresh = Replicates::new(&setup.problem, ANSWERS, control.fresh_shots);
     let answer = |search: &Search| Answer::of(setup, search.best(), &fresh, &effort);
-    let mut answers: Vec<Answer> = searches.iter().map(answer).collect();
+    let mut answers: Vec<Answer> = searches.par_iter().map(answer).collect();
     let accuracy = setup.problem.accuracy;
     let mut open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
@@ -74,8 +74,12 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
             &Stage::beyond(shots),
             accuracy,
         );
-        for index in open {
-            answers[index] = answer(&searches[index]);
+        let found: Vec<Answer> = open
+            .par_iter()
+            .map(|&index| answer(&searches[index]))
+            .collect();
+        for (index, found) in open.into_iter().zip(found) {
+            answers[index] = found;
         }
         tell(control, &effort, &searches);
         open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);

@@ -17,10 +17,10 @@ pub(super) struct Stage {
 }
 
 /// More and more shots for fewer and fewer candidates.
-pub(super) const STAGES: [Stage; 4] = [
+pub(super) const STAGES: [Stage; 3] = [
     Stage {
         shots: 256,
-        candidates: 4,
+        candidates: 6,
         size: 0.4,
     },
     Stage {
@@ -33,11 +33,6 @@ pub(super) const STAGES: [Stage; 4] = [
         candidates: 1,
         size: 0.15,
     },
-    Stage {
-        shots: 16384,
-        candidates: 1,
-        size: 0.06,
-    },
 ];
 
 impl Stage {
@@ -45,7 +40,8 @@ impl Stage {
     pub fn beyond(shots: usize) -> Self {
         Self {
             shots,
-            ..STAGES[STAGES.len() - 1]
+            candidates: 1,
+            size: 0.06,
         }
     }
 }

@@ -67,7 +67,7 @@ pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
 /// What the shots behind windows are drawn for; answers are purpose 0.
 const WINDOWS: u32 = 1;
 /// Shots behind each verdict of a window.
-const WINDOW_SHOTS: usize = 8192;
+const WINDOW_SHOTS: usize = 4096;
 
 /// The windows of all settings that have a range or a tolerance, each as far as its range goes.
 pub fn windows(

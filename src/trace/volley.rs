@@ -137,10 +137,15 @@ impl<R: Real> Volley<R> {
     #[inline(always)]
     fn load(&mut self, tracer: &Tracer, deviates: &[Deviate]) {
         let frame = &tracer.setup.target.frame;
+        let as_asked = deviates.iter().all(Deviate::leaves_pose);
         self.rays.count = deviates.len().min(LANES);
         self.rays.leaving = None;
         for (i, deviate) in deviates.iter().take(LANES).enumerate() {
-            let ray = tracer.aim.shot(frame, deviate);
+            let ray = if as_asked {
+                tracer.pose.shot(deviate)
+            } else {
+                tracer.aim.shot(frame, deviate)
+            };
             put(&mut self.rays.origin, i, narrow(&ray.origin.coords));
             put(&mut self.rays.direction, i, narrow(&ray.direction));
             let velocity = ray.direction * (tracer.speed * deviate.speed);
