@@ -15,6 +15,10 @@ pub(crate) struct Score<R> {
     speed: f64,
     /// What (N*)^2 on a surface costs.
     harm: Vec<R>,
+    /// The same on the first surface.
+    usual_harm: R,
+    /// Whether it is the same on all of them.
+    harms_alike: bool,
     target: Target<R>,
     /// Whether the last impact of each shot in flight was on target.
     on_target: Lane<R>,
@@ -54,17 +58,24 @@ impl<R: Real> Target<R> {
 impl<R: Real> Score<R> {
     /// For so many shots that leave at a launch speed, m/s.
     pub fn new(setup: &Setup, speed: f64, shots: usize) -> Self {
-        let harm = setup.surfaces.iter().map(|limits| {
-            let cost = |allow: f64| limits.weight / (allow * allow);
-            R::of(limits.allow.map_or(0.0, cost))
-        });
+        let harm: Vec<R> = setup
+            .surfaces
+            .iter()
+            .map(|limits| {
+                let cost = |allow: f64| limits.weight / (allow * allow);
+                R::of(limits.allow.map_or(0.0, cost))
+            })
+            .collect();
+        let usual_harm = harm.first().copied().unwrap_or(R::ZERO);
         Self {
             tally: Tally {
                 hits: Hits::with_capacity(shots),
                 ..Tally::default()
             },
             speed,
-            harm: harm.collect(),
+            harms_alike: harm.iter().all(|&harm| harm == usual_harm),
+            usual_harm,
+            harm,
             target: Target::of(&setup.target),
             on_target: [R::ZERO; LANES],
             hit_target: [false; LANES],
@@ -123,13 +134,17 @@ impl<R: Real> Witness<R> for Score<R> {
     #[inline(always)]
     fn impacts(&mut self, volley: &Volley<R>) {
         let count = volley.rays.count;
-        let (mut harm, mut on_surface) = ([R::ZERO; LANES], [R::ZERO; LANES]);
-        for i in 0..count {
-            let surface = volley.hits.surface[i];
-            harm[i] = self.harm[surface as usize];
-            on_surface[i] = truth(surface == self.target.surface);
+        let mut harm = [self.usual_harm; LANES];
+        if !self.harms_alike {
+            for (harm, &surface) in harm.iter_mut().zip(&volley.hits.surface).take(count) {
+                *harm = self.harm[surface as usize];
+            }
         }
         let target = self.target;
+        let mut on_surface = [R::ZERO; LANES];
+        for i in 0..padded(count) {
+            on_surface[i] = truth(volley.hits.surface[i] == target.surface);
+        }
         let (mut on_target, mut is_first) = ([R::ZERO; LANES], [R::ZERO; LANES]);
         let mut rebound = [R::ZERO; LANES];
         for i in 0..padded(count) {

@@ -95,13 +95,12 @@ mod fate {
     pub const SPENT: f64 = 3.0;
     pub const LIMIT: f64 = 4.0;
 
-    pub fn end<R: Real>(fate: R) -> Option<End> {
+    pub fn end<R: Real>(fate: R) -> End {
         match fate.wide() {
-            LEFT => Some(End::Left),
-            STAYS => Some(End::Stays),
-            SPENT => Some(End::Spent),
-            LIMIT => Some(End::Limit),
-            _ => None,
+            STAYS => End::Stays,
+            SPENT => End::Spent,
+            LIMIT => End::Limit,
+            _ => End::Left,
         }
     }
 }
@@ -273,9 +272,11 @@ impl<R: Real> Volley<R> {
         let mut count = 0;
         for i in 0..self.rays.count {
             kept[count] = i as u8;
-            match fate::end(self.impacts.fate[i]) {
-                Some(end) => witness.ends(self.shot[i] as usize, end, flights as usize),
-                None => count += 1,
+            let fate = self.impacts.fate[i];
+            let goes_on = fate == R::of(fate::GOES_ON);
+            count += usize::from(goes_on);
+            if !goes_on {
+                witness.ends(self.shot[i] as usize, fate::end(fate), flights as usize);
             }
         }
         if count == self.rays.count {

@@ -6,7 +6,7 @@ use super::{Nearest, Prism};
 use crate::precision::{Real, dot};
 use crate::scene::form::{Extent, Flight, Form, Wall};
 use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
-use crate::scene::ray::{Ray, Spot};
+use crate::scene::ray::Ray;
 use crate::scene::start::Start;
 
 /// What the rays have met so far.
@@ -121,21 +121,34 @@ impl Prism {
         }
     }
 
+    #[inline(always)]
     fn record<R: Real>(&self, part: u32, count: usize, best: &Best<R>, hits: &mut Hits<R>) {
-        for i in 0..count {
-            if best.code[i] < R::ZERO {
-                continue;
-            }
-            let code = best.code[i].wide() as u32;
-            let spot = Spot {
-                part,
-                piece: code / 2,
-                front: code % 2 == 1,
+        for i in 0..padded(count) {
+            let met = best.code[i] >= R::ZERO;
+            let old = components(&hits.normal, i);
+            let new = components(&best.normal, i);
+            hits.distance[i] = if met {
+                best.distance[i]
+            } else {
+                hits.distance[i]
             };
-            hits.distance[i] = best.distance[i];
-            hits.surface[i] = self.surfaces[spot.piece as usize];
-            hits.spots.set(i, spot);
-            put(&mut hits.normal, i, components(&best.normal, i));
+            hits.normal[0][i] = if met { new[0] } else { old[0] };
+            hits.normal[1][i] = if met { new[1] } else { old[1] };
+            hits.normal[2][i] = if met { new[2] } else { old[2] };
+        }
+        let spots = &mut hits.spots;
+        for i in 0..padded(count) {
+            let code = best.code[i].wide() as i32;
+            let met = code >= 0;
+            let (piece, front) = (code as u32 / 2, code & 1 == 1);
+            spots.part[i] = if met { part } else { spots.part[i] };
+            spots.piece[i] = if met { piece } else { spots.piece[i] };
+            spots.front[i] = if met { front } else { spots.front[i] };
+        }
+        for i in 0..count {
+            if spots.part[i] == part {
+                hits.surface[i] = self.surfaces[spots.piece[i] as usize];
+            }
         }
     }
 
