@@ -142,8 +142,8 @@ impl<R: Real> Witness<R> for Score<R> {
         }
         let target = self.target;
         let mut on_surface = [R::ZERO; LANES];
-        for i in 0..padded(count) {
-            on_surface[i] = truth(volley.hits.surface[i] == target.surface);
+        for (on_it, &surface) in on_surface.iter_mut().zip(&volley.hits.surface) {
+            *on_it = truth(surface == target.surface);
         }
         let (mut on_target, mut is_first) = ([R::ZERO; LANES], [R::ZERO; LANES]);
         let mut rebound = [R::ZERO; LANES];

@@ -59,7 +59,7 @@ impl CostFunction for &Descent<'_> {
 }
 
 /// The best point found downhill from `start`, until the values at the corners of the simplex
-/// differ by less than a tenth of `accuracy`, relative to the best.
+/// differ by less than `accuracy`, relative to the best.
 pub fn polish(
     space: &Space,
     judge: &Judge,
@@ -78,7 +78,7 @@ pub fn polish(
         judge,
         best: RefCell::new(start),
     };
-    if let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(SETTLED * accuracy * scale) {
+    if let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(accuracy * scale) {
         let most = ITERATIONS_PER_DIMENSION * space.dimensions() as u64;
         let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
         // The best point is kept by the cost function; how the run ended does not matter.
@@ -88,9 +88,6 @@ pub fn polish(
 }
 
 const ITERATIONS_PER_DIMENSION: u64 = 40;
-
-/// A descent ends when J differs by less than this share of the accuracy over its simplex.
-const SETTLED: f64 = 0.1;
 
 /// The start, or a better point where one coordinate is on a bound: that is where the best value of
 /// a setting often is, and from afar a descent creeps towards it.

@@ -14,6 +14,8 @@ pub(super) struct Stage {
     pub candidates: usize,
     /// Longest edge of the first simplex, as a share of each range.
     pub size: f64,
+    /// A descent ends when J differs by less than this share of the accuracy over its simplex.
+    pub settled: f64,
 }
 
 /// More and more shots for fewer and fewer candidates.
@@ -22,16 +24,19 @@ pub(super) const STAGES: [Stage; 3] = [
         shots: 256,
         candidates: 6,
         size: 0.4,
+        settled: 0.1,
     },
     Stage {
         shots: 1024,
         candidates: 2,
         size: 0.3,
+        settled: 0.1,
     },
     Stage {
         shots: 4096,
         candidates: 1,
         size: 0.15,
+        settled: 0.05,
     },
 ];
 
@@ -42,6 +47,7 @@ impl Stage {
             shots,
             candidates: 1,
             size: 0.06,
+            settled: 0.1,
         }
     }
 }
@@ -106,7 +112,7 @@ impl Search {
             .into_par_iter()
             .map(|start| {
                 let start = Candidate::at(space, judge, &start.point);
-                polish(space, judge, start, stage.size, accuracy)
+                polish(space, judge, start, stage.size, stage.settled * accuracy)
             })
             .collect();
         self.sort();
