@@ -62,21 +62,35 @@ pub enum Walls {
     },
 }
 
+impl Walls {
+    /// The precisions worth comparing: rays meet triangles in f64 in any case, so that f32 would
+    /// only add conversions there.
+    fn precisions(self) -> &'static [Precision] {
+        match self {
+            Self::Exact => &Precision::ALL,
+            Self::Mesh | Self::Facets { .. } => &[Precision::F64],
+        }
+    }
+}
+
 /// In which precision rays and impacts are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
     /// 64 bits, 16 digits.
     F64,
+    /// 32 bits, 7 digits.
+    F32,
 }
 
 impl Precision {
     /// All of them.
-    pub const ALL: [Self; 1] = [Self::F64];
+    pub const ALL: [Self; 2] = [Self::F64, Self::F32];
 
     fn trace(self, setup: &Setup, choice: &Choice, shots: &[Deviate]) -> Tally {
         match self {
-            Self::F64 => Tally::trace(setup, choice, choice.speed, shots),
+            Self::F64 => Tally::trace_in::<f64>(setup, choice, choice.speed, shots),
+            Self::F32 => Tally::trace_in::<f32>(setup, choice, choice.speed, shots),
         }
     }
 }
@@ -122,7 +136,7 @@ fn ways<'a>(setup: &'a Setup, choice: &'a Choice) -> Result<Vec<Way<'a>>, Vec<Fa
     let mut ways = Vec::new();
     for walls in models(setup) {
         let setup = built(setup, walls)?;
-        for precision in Precision::ALL {
+        for &precision in walls.precisions() {
             ways.push(Way {
                 walls,
                 precision,

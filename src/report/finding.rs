@@ -27,11 +27,7 @@ pub fn of_poses(chart: &Chart) -> String {
         findings.push(format!(
             "the coarsest mesh takes {} times as long as exact walls and changes J by {}",
             plain(rounded(seconds(coarse) / seconds(exact), 2)),
-            match (coarse.bias.abs(), 2.0 * coarse.bias_standard_error) {
-                (0.0, 0.0) => "nothing".into(),
-                (bias, noise) if bias > noise => share(bias),
-                (_, noise) => format!("less than {}", share(noise)),
-            },
+            bias(coarse),
         ));
     }
     let mut text = findings.join("; ");
@@ -40,6 +36,36 @@ pub fn of_poses(chart: &Chart) -> String {
         text.push('.');
     }
     text
+}
+
+/// By how much a way changes J, as far as that is known.
+fn bias(curve: &PoseCurve) -> String {
+    match (curve.bias.abs(), 2.0 * curve.bias_standard_error) {
+        (0.0, 0.0) => "nothing".into(),
+        (bias, noise) if bias > noise => share(bias),
+        (_, noise) => format!("less than {}", share(noise).trim_start_matches('<')),
+    }
+}
+
+/// What single precision may change of J as a part of the accuracy asked for, to be enough.
+const LITTLE: f64 = 0.1;
+
+/// Whether single precision is enough for a search with this accuracy.
+pub fn of_precision(double: &PoseCurve, single: &PoseCurve, accuracy: f64) -> String {
+    let most = single.bias.abs() + 2.0 * single.bias_standard_error;
+    let verdict = if most < LITTLE * accuracy {
+        "enough"
+    } else {
+        "not enough"
+    };
+    format!(
+        "f32 takes {} of the time and changes J at these settings by {}: {verdict} for a search to {}; the \
+         numbers reported are always f64. Exact walls only: rays meet the triangles of a mesh in \
+         f64 in any case.",
+        share(seconds(single) / seconds(double)),
+        bias(single),
+        share(accuracy),
+    )
 }
 
 /// Time for the most shots, s.

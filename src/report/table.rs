@@ -65,6 +65,7 @@ fn poses(chart: &Chart) -> Table {
         };
         let precision = match curve.precision {
             Precision::F64 => "f64",
+            Precision::F32 => "f32",
         };
         for point in &curve.points {
             table.row(&[

@@ -127,7 +127,12 @@ fn changes(effects: &[Effect], column: &Column, left: i32, area: &Area) -> Drawn
                 vec![(left, place.1), place],
                 colour.stroke_width(3),
             ))?;
-            marker(area, place, Look { colour, shape }, 11.0)?;
+            let look = Look {
+                colour,
+                shape,
+                is_dashed: false,
+            };
+            marker(area, place, look, 11.0)?;
         }
     }
     for (row, effect) in effects.iter().enumerate() {

@@ -1,7 +1,6 @@
 //! One pair of logarithmic axes with what is drawn between them.
 
 use plotters::coord::combinators::{LogCoord, WithKeyPoints};
-use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -75,6 +74,10 @@ impl<'a, 'b> Plot<'a, 'b> {
         ))
     }
 
+    fn places(&self, points: &[(f64, f64)]) -> Vec<Place> {
+        points.iter().map(|&point| self.place(point)).collect()
+    }
+
     fn grid(&mut self) -> Drawn {
         let axes = self.axes;
         let x_label = |value: &f64| (axes.x_label)(*value);
@@ -143,17 +146,14 @@ impl<'a, 'b> Plot<'a, 'b> {
         upwards("more accurate", (beside, bottom - 62), HPos::Left, FAINT)
     }
 
-    /// A line through points.
-    pub fn line(&self, points: &[(f64, f64)], style: impl Into<ShapeStyle>) -> Drawn {
-        let places: Vec<Place> = points.iter().map(|&point| self.place(point)).collect();
-        self.sheet.draw(&PathElement::new(places, style))
+    /// The line of a series through points.
+    pub fn line(&self, points: &[(f64, f64)], look: Look) -> Drawn {
+        sheet::line(self.sheet, self.places(points), look)
     }
 
     /// A dashed line through points.
     pub fn dashes(&self, points: &[(f64, f64)], style: impl Into<ShapeStyle>) -> Drawn {
-        let places: Vec<Place> = points.iter().map(|&point| self.place(point)).collect();
-        self.sheet
-            .draw(&DashedPathElement::new(places, 10, 8, style.into()))
+        sheet::dashes(self.sheet, self.places(points), style.into())
     }
 
     /// A band over the whole width, from the lower edge to a value.

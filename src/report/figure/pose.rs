@@ -6,20 +6,26 @@ use plotters::style::text_anchor::HPos;
 use super::axis::{LogAxis, percent, time};
 use super::plot::{Axes, Plot};
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
-use super::style::{FAINT, GHOST, INK, LABEL, look_of};
-use crate::chart::{Chart, PoseCurve, Sampling, Walls};
+use super::style::{FAINT, GHOST, INK, LABEL, Look, look_of};
+use crate::chart::{Chart, PoseCurve, Precision, Sampling, Walls};
 use crate::report::finding;
 use crate::report::number::{count, significant};
 
 const SIZE: (u32, u32) = (2000, 1110);
 const HEAD: u32 = 230;
 const FOOT: u32 = 110;
+/// Room beside and between the names of the legend, and from row to row, px.
+const MARGIN: i32 = 40;
+const LEGEND_ROW: i32 = 40;
 /// Errors below this are rounding.
 const LEAST_ERROR: f64 = 1e-9;
 
 /// The figure as SVG; `None` when nothing was measured, or J does not scatter.
 pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
     let points = || chart.poses.iter().flat_map(|curve| &curve.points);
+    if !scatters(chart) {
+        return None;
+    }
     let errors = points().map(|point| point.error);
     let y = LogAxis::over(errors.filter(|error| *error > LEAST_ERROR))?;
     let x = LogAxis::over(points().map(|point| point.seconds))?;
@@ -41,6 +47,17 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
         panels(chart, area, &middle, x, y)?;
         legend(chart, &foot)
     }))
+}
+
+/// Whether there is more than rounding in double precision.
+fn scatters(chart: &Chart) -> bool {
+    let is_double = |curve: &&PoseCurve| curve.precision == Precision::F64;
+    let mut points = chart
+        .poses
+        .iter()
+        .filter(is_double)
+        .flat_map(|curve| &curve.points);
+    points.any(|point| point.error > LEAST_ERROR)
 }
 
 /// Relative standard error of the reference.
@@ -93,8 +110,8 @@ fn panel(chart: &Chart, plot: &Plot, sampling: Sampling, (x, y): (LogAxis, LogAx
     }
     for (index, curve) in curves(sampling).enumerate() {
         // The ways are in the same order in every panel.
-        let look = look_of(index);
-        plot.line(&points(curve), look.colour.stroke_width(4))?;
+        let look = look(index, curve);
+        plot.line(&points(curve), look)?;
         for point in points(curve) {
             plot.marker(point, look, 9.0)?;
         }
@@ -103,12 +120,26 @@ fn panel(chart: &Chart, plot: &Plot, sampling: Sampling, (x, y): (LogAxis, LogAx
         return Ok(());
     };
     if sampling == Sampling::Random {
-        shots(plot, curve)?;
+        shots(plot, fastest(curves(sampling)).unwrap_or(curve))?;
     }
     if sampling == Sampling::SobolRim {
         picked(chart, plot, curve)?;
     }
     Ok(())
+}
+
+/// Single precision is dashed.
+fn look(index: usize, curve: &PoseCurve) -> Look {
+    Look {
+        is_dashed: curve.precision == Precision::F32,
+        ..look_of(index)
+    }
+}
+
+/// The curve that lies leftmost.
+fn fastest<'a>(curves: impl Iterator<Item = &'a PoseCurve>) -> Option<&'a PoseCurve> {
+    let seconds = |curve: &PoseCurve| curve.points.last().map_or(0.0, |point| point.seconds);
+    curves.min_by(|a, b| seconds(a).total_cmp(&seconds(b)))
 }
 
 /// Numbers of shots beside a curve; the first where the axis leaves room for it.
@@ -159,11 +190,15 @@ fn legend(chart: &Chart, area: &Area) -> Drawn {
         .poses
         .iter()
         .filter(|c| c.sampling == Sampling::ALL[0]);
-    let mut left = 40;
+    let (mut left, mut top) = (MARGIN, 30);
     for (index, curve) in first.enumerate() {
         let name = curve_name(curve);
-        key(area, (left, 30), look_of(index), &name)?;
-        left += 66 + sheet::width(&name, LABEL) + 40;
+        let width = 66 + sheet::width(&name, LABEL);
+        if left + width > SIZE.0 as i32 - MARGIN {
+            (left, top) = (MARGIN, top + LEGEND_ROW);
+        }
+        key(area, (left, top), look(index, curve), &name)?;
+        left += width + MARGIN;
     }
     Ok(())
 }
@@ -172,7 +207,10 @@ fn legend(chart: &Chart, area: &Area) -> Drawn {
 pub fn curve_name(curve: &PoseCurve) -> String {
     let triangles = count(curve.triangles);
     match curve.walls {
-        Walls::Exact => "exact walls".into(),
+        Walls::Exact => match curve.precision {
+            Precision::F64 => "exact walls, f64".into(),
+            Precision::F32 => "exact walls, f32".into(),
+        },
         Walls::Mesh => format!("the mesh as it is, {triangles} triangles"),
         Walls::Facets { chord_angle_deg } => {
             format!("mesh, chords turn {chord_angle_deg}°, {triangles} triangles")

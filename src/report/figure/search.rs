@@ -1,6 +1,5 @@
 //! The figure of searches: how good the answer is against the time that it takes.
 
-use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
 use super::axis::{LogAxis, percent, time};
@@ -74,7 +73,7 @@ fn noise(noise: f64, plot: &Plot, (x, y): (LogAxis, LogAxis)) -> Drawn {
 fn draw(series: &Series, index: usize, plot: &Plot) -> Drawn {
     let look = look_of(index);
     let medians: Vec<(f64, f64)> = series.groups.iter().map(Group::median).collect();
-    plot.line(&medians, look.colour.stroke_width(3))?;
+    plot.line(&medians, look)?;
     for group in &series.groups {
         for point in &group.points {
             plot.marker(*point, look, 5.0)?;

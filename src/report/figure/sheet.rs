@@ -1,6 +1,7 @@
 //! The sheet that a figure is drawn on: texts, markers and arrows in pixels.
 
 use plotters::coord::Shift;
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -68,6 +69,21 @@ pub fn styled<'a>(font: &FontDesc<'a>, colour: RGBColor, pos: Pos) -> TextStyle<
     font.clone().color(&colour).pos(pos)
 }
 
+/// The line of a series.
+pub fn line(area: &Area, places: Vec<Place>, look: Look) -> Drawn {
+    let style = look.colour.stroke_width(4);
+    if look.is_dashed {
+        dashes(area, places, style)
+    } else {
+        area.draw(&PathElement::new(places, style))
+    }
+}
+
+/// A dashed line.
+pub fn dashes(area: &Area, places: Vec<Place>, style: ShapeStyle) -> Drawn {
+    area.draw(&DashedPathElement::new(places, 10, 8, style))
+}
+
 /// A marker.
 pub fn marker(area: &Area, (x, y): Place, look: Look, radius: f64) -> Drawn {
     let style = look.colour.filled();
@@ -102,10 +118,7 @@ pub fn arrow(area: &Area, from: Place, to: Place, colour: RGBColor) -> Drawn {
 
 /// One line of a legend: a marker on a piece of its line, and a name.
 pub fn key(area: &Area, (x, y): Place, look: Look, name: &str) -> Drawn {
-    area.draw(&PathElement::new(
-        vec![(x, y), (x + 52, y)],
-        look.colour.stroke_width(4),
-    ))?;
+    line(area, vec![(x, y), (x + 52, y)], look)?;
     marker(area, (x + 26, y), look, 9.0)?;
     let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
     area.draw_text(name, &style, (x + 66, y))

@@ -44,6 +44,8 @@ pub struct Look {
     pub colour: RGBColor,
     /// Shape of the marker.
     pub shape: Shape,
+    /// Whether the line is dashed.
+    pub is_dashed: bool,
 }
 
 /// Shape of a marker.
@@ -65,6 +67,7 @@ const fn look(red: u8, green: u8, blue: u8, shape: Shape) -> Look {
     Look {
         colour: RGBColor(red, green, blue),
         shape,
+        is_dashed: false,
     }
 }
 
