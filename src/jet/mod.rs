@@ -1,8 +1,10 @@
 //! What comes out of the nozzle: its pose, and the shots of the jet.
 
+mod point;
 mod pose;
 mod sample;
 
+pub use point::Stream;
 pub(crate) use pose::Aim;
 pub use pose::Pose;
-pub use sample::{Deviate, Replicate, Replicates, Samples, Stream};
+pub use sample::{Deviate, Replicate, Replicates, Samples};

@@ -2,8 +2,8 @@
 //! function of (index, dimension, seed), so that neither order nor threads can change a result.
 
 use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, Normal};
 
+use super::point::{Dimension, Point, Stream};
 use crate::problem::Problem;
 use crate::problem::equipment::Spread;
 
@@ -134,48 +134,6 @@ impl Replicates {
     }
 }
 
-/// An independent sequence of samples under one seed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stream {
-    /// The shots that a search decides on.
-    Search,
-    /// Shots that the search has not seen; one scrambling for each number.
-    Fresh(u32),
-}
-
-impl Stream {
-    /// Its own seed under a common one.
-    fn seed(self, seed: u64) -> u64 {
-        let number = match self {
-            Self::Search => 0,
-            Self::Fresh(number) => 1 + u64::from(number),
-        };
-        mix(mix(seed) ^ number)
-    }
-}
-
-/// Sample dimensions, those that matter most first: low dimensions are the most uniform.
-#[derive(Clone, Copy)]
-enum Dimension {
-    ConeAngle,
-    ConeTurn,
-    ExitRadius,
-    ExitTurn,
-    Incidence,
-    Azimuth,
-    SpeedScatter,
-    SpeedSetting,
-    Standoff,
-    Restitution,
-    Friction,
-    Size,
-    AimAlong,
-    AimAcross,
-}
-
-/// Points of one scrambling before it repeats itself.
-const POINTS_PER_SEED: u32 = 1 << 16;
-
 impl Samples {
     /// The first `count` shots of a stream, each standing for itself.
     pub fn new(problem: &Problem, stream: Stream, count: usize) -> Self {
@@ -220,117 +178,6 @@ fn weighted(
     Deviate {
         weight: 1.0 / (1.0 - rim_share + rim_share * point.rim_density),
         ..deviate
-    }
-}
-
-/// Share of a normal distribution between its mean and two standard deviations.
-const BELOW_TWO_DEVIATIONS: f64 = 0.477_249_868_051_820_8;
-
-/// One point of the unit cube.
-struct Point {
-    sequence: Sequence,
-    on_rim: bool,
-    /// Whether the next field is kept up.
-    keeps_account: bool,
-    /// Density of the rim's distribution over that of the jet, so far.
-    rim_density: f64,
-}
-
-/// Where the coordinates of a point come from.
-enum Sequence {
-    /// Sobol's points, scrambled; four dimensions at a time, as far as they have been asked for.
-    Sobol {
-        index: u32,
-        seed: u32,
-        known: [Option<[f32; 4]>; 4],
-    },
-    /// SplitMix64, for each coordinate on its own.
-    Random { seed: u64 },
-}
-
-/// Keeps the density finite on the rim itself: the square root of a depth.
-const LEAST_ROOT: f64 = 1e-9;
-
-impl Point {
-    fn new(seed: u64, stream: Stream, index: u32, on_rim: bool) -> Self {
-        let block = u64::from(index / POINTS_PER_SEED);
-        let mixed = mix(mix(stream.seed(seed) ^ block) ^ u64::from(on_rim));
-        Self {
-            sequence: Sequence::Sobol {
-                index: index % POINTS_PER_SEED,
-                seed: (mixed >> 32) as u32,
-                known: [None; 4],
-            },
-            on_rim,
-            keeps_account: false,
-            rim_density: 1.0,
-        }
-    }
-
-    fn random(seed: u64, stream: Stream, index: u32) -> Self {
-        Self {
-            sequence: Sequence::Random {
-                seed: mix(stream.seed(seed) ^ u64::from(index)),
-            },
-            on_rim: false,
-            keeps_account: false,
-            rim_density: 1.0,
-        }
-    }
-
-    /// Uniform in 0 to 1.
-    fn uniform(&mut self, dimension: Dimension) -> f64 {
-        let dimension = dimension as u32;
-        match &mut self.sequence {
-            Sequence::Sobol { index, seed, known } => {
-                let set = dimension / 4;
-                let four = known[set as usize]
-                    .get_or_insert_with(|| sobol_burley::sample_4d(*index, set, *seed));
-                f64::from(four[dimension as usize % 4])
-            }
-            // The upper 53 bits, which is what f64 holds.
-            Sequence::Random { seed } => {
-                (mix(*seed ^ u64::from(dimension)) >> 11) as f64 / (1_u64 << 53) as f64
-            }
-        }
-    }
-
-    /// In 0 to 1, with the rim at 1.
-    fn inwards(&mut self, dimension: Dimension) -> f64 {
-        let depth = 1.0 - self.uniform(dimension);
-        1.0 - self.towards_rim(depth)
-    }
-
-    /// Within +- `half_width`, with the rim at both ends.
-    fn within(&mut self, half_width: f64, dimension: Dimension) -> f64 {
-        if half_width == 0.0 {
-            return 0.0;
-        }
-        let signed = 2.0 * self.uniform(dimension) - 1.0;
-        let depth = self.towards_rim(1.0 - signed.abs());
-        half_width * (1.0 - depth).copysign(signed)
-    }
-
-    /// The distance from the rim of this point, when that of the jet's own points is uniform in
-    /// 0 to 1; keeps account of the density.
-    fn towards_rim(&mut self, depth: f64) -> f64 {
-        // The square of a uniform variable crowds at 0, with density depth^(-1/2) / 2.
-        let (depth, root) = match (self.on_rim, self.keeps_account) {
-            (true, _) => (depth * depth, depth),
-            (false, true) => (depth, depth.sqrt()),
-            (false, false) => return depth,
-        };
-        self.rim_density /= 2.0 * root.max(LEAST_ROOT);
-        depth
-    }
-
-    /// 1 plus a normal deviate with standard deviation `spread`, cut at two of them.
-    fn scatter(&mut self, spread: f64, dimension: Dimension) -> f64 {
-        if spread == 0.0 {
-            return 1.0;
-        }
-        let share = BELOW_TWO_DEVIATIONS * (1.0 - 2.0 * self.uniform(dimension));
-        1.0 + spread * Normal::standard().inverse_cdf(0.5 - share)
     }
 }
 
@@ -392,12 +239,4 @@ fn cone_direction(half_angle: f64, spread: Spread, point: &mut Point) -> [f64; 3
     let sine = (versine * (2.0 - versine)).sqrt();
     let (sin, cos) = (std::f64::consts::TAU * point.uniform(Dimension::ConeTurn)).sin_cos();
     [sine * cos, sine * sin, 1.0 - versine]
-}
-
-/// Spreads the bits of a seed (the finaliser of SplitMix64).
-fn mix(seed: u64) -> u64 {
-    let mut z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
 }

@@ -2,34 +2,19 @@
 //!
 //! The arithmetic has no branches, so that compilers work on many rays at once.
 
+mod cylinder;
+mod plane;
+
 use super::profile::Curve;
 use crate::precision::Real;
+pub(super) use cylinder::Cylinder;
+pub(super) use plane::Plane;
 
 /// The surface that one piece of a cross-section becomes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Form {
     Plane(Plane<f64>),
     Cylinder(Cylinder<f64>),
-}
-
-/// A plane wall, unbounded along z.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plane<R> {
-    from: [R; 2],
-    tangent: [R; 2],
-    length: R,
-}
-
-/// A cylindrical wall, unbounded along z.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cylinder<R> {
-    centre: [R; 2],
-    radius: R,
-    /// +1 when free space is inside the circle.
-    side: R,
-    /// The arc is where (p - centre) . towards >= reach.
-    towards: [R; 2],
-    reach: R,
 }
 
 /// A ray in the frame of its prism, and what is known about its start.
@@ -189,173 +174,6 @@ impl Form {
             }
             Self::Cylinder(cylinder) => cylinder.lies_on(cylinder.relative(point), slack),
         }
-    }
-}
-
-impl<R: Real> Plane<R> {
-    /// The same wall in another precision.
-    pub fn with<S: Real>(&self) -> Plane<S> {
-        Plane {
-            from: self.from.map(|x| S::of(x.wide())),
-            tangent: self.tangent.map(|x| S::of(x.wide())),
-            length: S::of(self.length.wide()),
-        }
-    }
-
-    /// A quarter turn counter-clockwise from the tangent.
-    #[inline(always)]
-    fn front(&self) -> [R; 2] {
-        [-self.tangent[1], self.tangent[0]]
-    }
-
-    /// Height over the front of the plane and place along it.
-    #[inline(always)]
-    fn place(&self, point: [R; 2]) -> (R, R) {
-        let relative = minus(point, self.from);
-        (dot(relative, self.front()), dot(relative, self.tangent))
-    }
-
-    #[inline(always)]
-    fn approach(&self, direction: [R; 2]) -> R {
-        dot(direction, self.front())
-    }
-
-    #[inline(always)]
-    fn spans(&self, along: R, margin: R) -> bool {
-        (along >= -margin) & (along <= self.length + margin)
-    }
-}
-
-impl<R: Real> Wall<R> for Plane<R> {
-    #[inline(always)]
-    fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R> {
-        let ([x, y, z], [u, v, _]) = (flight.origin, flight.direction);
-        let (height, start) = self.place([x, y]);
-        let approach = self.approach([u, v]);
-        let distance = -height / approach;
-        let front = approach < R::ZERO;
-        let margin = flight.margin(front, extent);
-        let spans = self.spans(start + distance * dot([u, v], self.tangent), margin);
-        let ahead = Meeting {
-            distance,
-            rank: flight.rank(distance, spans, margin, extent),
-            front,
-            normal: self.front(),
-        };
-        if !LEAVES {
-            return ahead;
-        }
-        let touches = (height.abs() <= extent.slack)
-            & self.spans(start, extent.slack)
-            & extent.hold(z, extent.slack);
-        let met = chosen(touches, flight.touching(self.front()), ahead);
-        // A line that starts on a plane meets it nowhere else.
-        let nowhere = Meeting {
-            rank: R::INFINITY,
-            ..met
-        };
-        chosen(flight.from_here, nowhere, met)
-    }
-}
-
-impl<R: Real> Cylinder<R> {
-    /// The same wall in another precision.
-    pub fn with<S: Real>(&self) -> Cylinder<S> {
-        Cylinder {
-            centre: self.centre.map(|x| S::of(x.wide())),
-            radius: S::of(self.radius.wide()),
-            side: S::of(self.side.wide()),
-            towards: self.towards.map(|x| S::of(x.wide())),
-            reach: S::of(self.reach.wide()),
-        }
-    }
-
-    #[inline(always)]
-    fn relative(&self, point: [R; 2]) -> [R; 2] {
-        minus(point, self.centre)
-    }
-
-    #[inline(always)]
-    fn offset(&self, origin: [R; 2], direction: [R; 2], distance: R) -> [R; 2] {
-        let [x, y] = self.relative(origin);
-        [x + direction[0] * distance, y + direction[1] * distance]
-    }
-
-    /// Unit normal on the front, at an offset from the centre.
-    #[inline(always)]
-    fn front(&self, offset: [R; 2]) -> [R; 2] {
-        let scale = -self.side / self.radius;
-        [offset[0] * scale, offset[1] * scale]
-    }
-
-    #[inline(always)]
-    fn lies_on(&self, relative: [R; 2], slack: R) -> bool {
-        let excess = dot(relative, relative) - self.radius * self.radius;
-        (excess.abs() <= (self.radius + self.radius) * slack)
-            & (dot(relative, self.towards) >= self.reach - slack)
-    }
-
-    /// Distances at which a line crosses the whole cylinder, nearest first, and whether it comes
-    /// from the front there; NaN for none. A line that starts `on_it` crosses it once more.
-    #[inline(always)]
-    fn roots(&self, origin: [R; 2], direction: [R; 2], on_it: bool) -> [(R, bool); 2] {
-        let relative = self.relative(origin);
-        let (a, half_b) = (dot(direction, direction), dot(relative, direction));
-        let c = if on_it {
-            R::ZERO
-        } else {
-            dot(relative, relative) - self.radius * self.radius
-        };
-        // Citardauq's form: the root near the start does not suffer from cancellation.
-        let q = -(half_b + (half_b * half_b - a * c).sqrt().copysign(half_b));
-        let (first, second) = (q / a, c / q);
-        let swapped = second < first;
-        let inside_is_free = self.side > R::ZERO;
-        [
-            (if swapped { second } else { first }, !inside_is_free),
-            (if swapped { first } else { second }, inside_is_free),
-        ]
-    }
-
-    #[inline(always)]
-    fn ahead(
-        &self,
-        flight: &Flight<R>,
-        extent: &Extent<R>,
-        (distance, front): (R, bool),
-    ) -> Meeting<R> {
-        let ([x, y, _], [u, v, _]) = (flight.origin, flight.direction);
-        let margin = flight.margin(front, extent);
-        let offset = self.offset([x, y], [u, v], distance);
-        let spans = dot(offset, self.towards) >= self.reach - margin;
-        Meeting {
-            distance,
-            rank: flight.rank(distance, spans, margin, extent),
-            front,
-            normal: self.front(offset),
-        }
-    }
-}
-
-impl<R: Real> Wall<R> for Cylinder<R> {
-    #[inline(always)]
-    fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R> {
-        let ([x, y, z], [u, v, _]) = (flight.origin, flight.direction);
-        let relative = self.relative([x, y]);
-        let touches = LEAVES
-            & self.lies_on(relative, extent.slack)
-            & extent.hold(z, extent.slack)
-            & !flight.from_here;
-        let on_it = LEAVES & (flight.from_here | touches);
-        let [near, far] = self.roots([x, y], [u, v], on_it);
-        let near = self.ahead(flight, extent, near);
-        let far = self.ahead(flight, extent, far);
-        let ahead = chosen(far.rank < near.rank, far, near);
-        if !LEAVES {
-            return ahead;
-        }
-        let touching = flight.touching(self.front(relative));
-        chosen(touches & (touching.rank == R::ZERO), touching, ahead)
     }
 }
 

@@ -1,0 +1,78 @@
+//! Plane walls.
+
+use super::{Extent, Flight, Meeting, Wall, chosen, dot, minus};
+use crate::precision::Real;
+
+/// A plane wall, unbounded along z.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane<R> {
+    pub from: [R; 2],
+    pub tangent: [R; 2],
+    pub length: R,
+}
+
+impl<R: Real> Plane<R> {
+    /// The same wall in another precision.
+    pub fn with<S: Real>(&self) -> Plane<S> {
+        Plane {
+            from: self.from.map(|x| S::of(x.wide())),
+            tangent: self.tangent.map(|x| S::of(x.wide())),
+            length: S::of(self.length.wide()),
+        }
+    }
+
+    /// A quarter turn counter-clockwise from the tangent.
+    #[inline(always)]
+    fn front(&self) -> [R; 2] {
+        [-self.tangent[1], self.tangent[0]]
+    }
+
+    /// Height over the front of the plane and place along it.
+    #[inline(always)]
+    pub fn place(&self, point: [R; 2]) -> (R, R) {
+        let relative = minus(point, self.from);
+        (dot(relative, self.front()), dot(relative, self.tangent))
+    }
+
+    #[inline(always)]
+    pub fn approach(&self, direction: [R; 2]) -> R {
+        dot(direction, self.front())
+    }
+
+    #[inline(always)]
+    pub fn spans(&self, along: R, margin: R) -> bool {
+        (along >= -margin) & (along <= self.length + margin)
+    }
+}
+
+impl<R: Real> Wall<R> for Plane<R> {
+    #[inline(always)]
+    fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R> {
+        let ([x, y, z], [u, v, _]) = (flight.origin, flight.direction);
+        let (height, start) = self.place([x, y]);
+        let approach = self.approach([u, v]);
+        let distance = -height / approach;
+        let front = approach < R::ZERO;
+        let margin = flight.margin(front, extent);
+        let spans = self.spans(start + distance * dot([u, v], self.tangent), margin);
+        let ahead = Meeting {
+            distance,
+            rank: flight.rank(distance, spans, margin, extent),
+            front,
+            normal: self.front(),
+        };
+        if !LEAVES {
+            return ahead;
+        }
+        let touches = (height.abs() <= extent.slack)
+            & self.spans(start, extent.slack)
+            & extent.hold(z, extent.slack);
+        let met = chosen(touches, flight.touching(self.front()), ahead);
+        // A line that starts on a plane meets it nowhere else.
+        let nowhere = Meeting {
+            rank: R::INFINITY,
+            ..met
+        };
+        chosen(flight.from_here, nowhere, met)
+    }
+}
