@@ -3,6 +3,8 @@
 //!
 //! Run on one core: `taskset -c 0 cargo bench --bench pose`.
 
+mod common;
+
 use std::hint::black_box;
 use std::path::Path;
 
@@ -10,9 +12,10 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::problem;
-use peenpose::problem::setting::Choice;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
+
+use common::choice;
 
 /// A shipped problem with its walls as asked for.
 fn setup(file: &str, walls: Walls) -> Setup {
@@ -24,19 +27,6 @@ fn setup(file: &str, walls: Walls) -> Setup {
         .problem
         .expect("a shipped problem has no faults");
     Setup::new(problem, walls).expect("its scene has no faults")
-}
-
-fn choice(incidence: f64, azimuth: f64, standoff: f64, speed: f64) -> Choice {
-    Choice {
-        incidence: incidence.to_radians(),
-        azimuth: azimuth.to_radians(),
-        standoff,
-        speed,
-        aim_along: 0.0,
-        aim_across: 0.0,
-        contact: 0,
-        static_friction: 0.0,
-    }
 }
 
 fn facets(degrees: f64) -> Walls {

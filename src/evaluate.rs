@@ -153,6 +153,7 @@ fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
     (all.terms(goals), errors, error(Terms::total))
 }
 
+/// How many more of the worst events count as seen.
 const MORE: f64 = 2.0;
 
 fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {

@@ -163,7 +163,7 @@ impl<'a> Tracer<'a> {
             if energy(velocity.into(), rolling.into()) < least_energy {
                 return (End::Spent, rays);
             }
-            if number == limits.impacts || deflections == MOST_DEFLECTIONS as usize {
+            if number == limits.impacts || deflections == MOST_DEFLECTIONS {
                 return (End::Limit, rays);
             }
             ray = Ray {

@@ -1,5 +1,8 @@
 //! Rays against triangle meshes beside Embree, which casts the same rays one by one; see README.md.
 
+#[path = "../common/mod.rs"]
+mod common;
+
 use std::env;
 use std::error::Error;
 use std::fs::File;
@@ -17,6 +20,8 @@ use peenpose::scene::ray::{Ray, Spot};
 use peenpose::scene::{Scene, Walls};
 use peenpose::setup::Setup;
 use peenpose::trace::Tracer;
+
+use common::choice;
 
 const SHOTS: usize = 8192;
 /// Times that all rays are cast, turn and turn about.
@@ -60,19 +65,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
-}
-
-fn choice(incidence: f64, azimuth: f64, standoff: f64, speed: f64) -> Choice {
-    Choice {
-        incidence: incidence.to_radians(),
-        azimuth: azimuth.to_radians(),
-        standoff,
-        speed,
-        aim_along: 0.0,
-        aim_across: 0.0,
-        contact: 0,
-        static_friction: 0.0,
-    }
 }
 
 /// Prints one line of the table.

@@ -50,9 +50,7 @@ impl Ledger {
         };
         let tracer = Tracer::new(setup, choice, choice.speed);
         tracer.fire(shots, &mut clerk, |clerk, shots, rays| {
-            clerk
-                .score
-                .end_volley(shots.iter().map(|shot| shot.weight), rays);
+            clerk.score.end_volley(shots, rays);
             clerk.seen.clear();
             clerk.seen_over.clear();
         });

@@ -49,9 +49,7 @@ impl Deviate {
         friction: 1.0,
         weight: 1.0,
     };
-}
 
-impl Deviate {
     /// Whether the pose is the one that was asked for.
     #[inline]
     pub fn leaves_pose(&self) -> bool {

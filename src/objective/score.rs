@@ -2,6 +2,7 @@
 
 use super::hits::Hits;
 use super::tally::Tally;
+use crate::jet::Deviate;
 use crate::precision::Real;
 use crate::scene::lanes::{LANES, Lane, components, padded};
 use crate::scene::patch::Patch;
@@ -87,15 +88,14 @@ impl<R: Real> Score<R> {
         self.on_target[index] != R::ZERO
     }
 
-    /// Closes a volley whose shots stand for `weights` and took `rays` rays together.
-    #[inline(always)]
-    pub fn end_volley(&mut self, weights: impl ExactSizeIterator<Item = f64>, rays: usize) {
-        self.tally.shots += weights.len();
+    /// Closes a volley of `shots` that took `rays` rays together.
+    pub fn end_volley(&mut self, shots: &[Deviate], rays: usize) {
+        self.tally.shots += shots.len();
         self.tally.rays += rays;
         let (mut all, mut missed, mut worst) = (0.0, 0.0, 0.0_f64);
-        for (weight, hit) in weights.zip(&mut self.hit_target) {
-            let miss = if *hit { 0.0 } else { weight };
-            all += weight;
+        for (shot, hit) in shots.iter().zip(&mut self.hit_target) {
+            let miss = if *hit { 0.0 } else { shot.weight };
+            all += shot.weight;
             missed += miss;
             worst = worst.max(miss);
             *hit = false;

@@ -46,9 +46,7 @@ impl Tally {
     ) -> Self {
         let mut score = Score::<R>::new(setup, speed, shots.len());
         let tracer = Tracer::new(setup, choice, speed);
-        tracer.fire(shots, &mut score, |score, shots, rays| {
-            score.end_volley(shots.iter().map(|shot| shot.weight), rays);
-        });
+        tracer.fire(shots, &mut score, Score::end_volley);
         score.finish()
     }
 

@@ -1,0 +1,17 @@
+//! What several benches share.
+
+use peenpose::problem::setting::Choice;
+
+/// Settings with the first contact; angles in degrees, else SI.
+pub fn choice(incidence: f64, azimuth: f64, standoff: f64, speed: f64) -> Choice {
+    Choice {
+        incidence: incidence.to_radians(),
+        azimuth: azimuth.to_radians(),
+        standoff,
+        speed,
+        aim_along: 0.0,
+        aim_across: 0.0,
+        contact: 0,
+        static_friction: 0.0,
+    }
+}
