@@ -30,6 +30,15 @@ impl Candidate {
             standing,
         }
     }
+
+    /// This one, or another that is better.
+    pub fn or_better(self, other: Self) -> Self {
+        if other.standing.rank() < self.standing.rank() {
+            other
+        } else {
+            self
+        }
+    }
 }
 
 /// The cost function that argmin sees. It keeps the best point itself: argmin loses it when a run
@@ -37,6 +46,8 @@ impl Candidate {
 struct Descent<'a> {
     space: &'a Space,
     judge: &'a Judge<'a>,
+    /// The first simplex: argmin asks for its corners again.
+    corners: &'a [Candidate],
     best: RefCell<Candidate>,
 }
 
@@ -48,6 +59,9 @@ impl CostFunction for &Descent<'_> {
         if self.judge.is_stopped() {
             // A flat cost ends the run at once.
             return Ok(f64::MAX);
+        }
+        if let Some(corner) = self.corners.iter().find(|corner| corner.point == *point) {
+            return Ok(corner.standing.rank());
         }
         let candidate = Candidate::at(self.space, self.judge, point);
         let rank = candidate.standing.rank();
@@ -72,12 +86,16 @@ pub fn polish(
     }
     let start = best_bound(space, judge, start);
     let scale = start.standing.rank().max(f64::MIN_POSITIVE);
-    let simplex = first_simplex(space, judge, &start, size);
+    let corners = first_simplex(space, judge, &start, size);
+    let better = |best: Candidate, corner: &Candidate| best.or_better(corner.clone());
+    let best = corners.iter().fold(start, better);
     let descent = Descent {
         space,
         judge,
-        best: RefCell::new(start),
+        corners: &corners,
+        best: RefCell::new(best),
     };
+    let simplex = corners.iter().map(|corner| corner.point.clone()).collect();
     if let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(accuracy * scale) {
         let most = ITERATIONS_PER_DIMENSION * space.dimensions() as u64;
         let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
@@ -100,10 +118,7 @@ fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
             }
             let mut point = best.point.clone();
             point[axis] = bound;
-            let there = Candidate::at(space, judge, &point);
-            if there.standing.rank() < best.standing.rank() {
-                best = there;
-            }
+            best = best.or_better(Candidate::at(space, judge, &point));
         }
     }
     best
@@ -112,23 +127,24 @@ fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
 /// A simplex whose edges are so short that J rises by no more than a moderate share along them:
 /// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
 /// into a narrow valley loses sight of the valley's length.
-fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> Vec<Vec<f64>> {
+fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> Vec<Candidate> {
     let limit = start.standing.rank() * (1.0 + STEEPEST_EDGE);
     let corner = |axis: usize| {
         // Inwards, so that a start on a bound does not make a flat simplex.
         let towards_middle = if start.point[axis] > 0.5 { -1.0 } else { 1.0 };
         let mut edge = size;
         loop {
-            let mut corner = start.point.clone();
-            corner[axis] += towards_middle * edge;
+            let mut point = start.point.clone();
+            point[axis] += towards_middle * edge;
+            let corner = Candidate::at(space, judge, &point);
             let is_shortest = edge <= SHORTEST_EDGE * size;
-            if is_shortest || Candidate::at(space, judge, &corner).standing.rank() <= limit {
+            if is_shortest || corner.standing.rank() <= limit {
                 return corner;
             }
             edge *= 0.5;
         }
     };
-    let mut simplex = vec![start.point.clone()];
+    let mut simplex = vec![start.clone()];
     simplex.extend((0..space.dimensions()).map(corner));
     simplex
 }

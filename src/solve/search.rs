@@ -124,16 +124,23 @@ impl Search {
     /// contact's J is taken as it is.
     pub fn refine_beside(&mut self, leader: &Self, judge: &Judge, stage: &Stage, accuracy: f64) {
         let other = leader.best();
-        if other.point.len() == self.space.dimensions() {
-            let there = Candidate::at(&self.space, judge, &other.point);
-            let own = Candidate::at(&self.space, judge, &self.best().point);
-            let close_enough = other.standing.rank() * (1.0 + 0.5 * accuracy);
-            self.candidates = vec![there, own];
-            self.sort();
-            if self.best().standing.rank() <= close_enough {
-                return;
-            }
+        if other.point.len() != self.space.dimensions() {
+            return self.refine(judge, stage, accuracy);
         }
-        self.refine(judge, stage, accuracy);
+        let there = Candidate::at(&self.space, judge, &other.point);
+        let own = Candidate::at(&self.space, judge, &self.best().point);
+        let start = there.or_better(own);
+        let close_enough = other.standing.rank() * (1.0 + 0.5 * accuracy);
+        self.candidates = vec![if start.standing.rank() <= close_enough {
+            start
+        } else {
+            polish(
+                &self.space,
+                judge,
+                start,
+                stage.size,
+                stage.settled * accuracy,
+            )
+        }];
     }
 }
