@@ -16,8 +16,8 @@ pub struct Deviate {
     pub cone: [f64; 3],
     /// Factor on the speed, setup tolerance included.
     pub speed: f64,
-    /// Factor on the mass.
-    pub mass: f64,
+    /// Factor on the radius.
+    pub size: f64,
     /// Sine and cosine of the error in incidence.
     pub incidence: [f64; 2],
     /// Sine and cosine of the error in azimuth.
@@ -40,7 +40,7 @@ impl Deviate {
         exit: [0.0; 2],
         cone: [0.0, 0.0, 1.0],
         speed: 1.0,
-        mass: 1.0,
+        size: 1.0,
         incidence: [0.0, 1.0],
         azimuth: [0.0, 1.0],
         standoff: 0.0,
@@ -49,6 +49,12 @@ impl Deviate {
         friction: 1.0,
         weight: 1.0,
     };
+
+    /// Factor on the mass.
+    #[inline(always)]
+    pub fn mass(&self) -> f64 {
+        self.size.powi(3)
+    }
 
     /// Whether the pose is the one that was asked for.
     #[inline]
@@ -186,9 +192,7 @@ fn deviate(problem: &Problem, point: &mut Point) -> Deviate {
         cone: cone_direction(jet.divergence, jet.spread, point),
         speed: point.scatter(jet.speed_spread, Dimension::SpeedScatter)
             * (1.0 + point.within(tolerance.speed, Dimension::SpeedSetting)),
-        mass: point
-            .scatter(problem.shot.size_spread, Dimension::Size)
-            .powi(3),
+        size: point.scatter(problem.shot.size_spread, Dimension::Size),
         incidence: point
             .within(tolerance.incidence, Dimension::Incidence)
             .sin_cos()

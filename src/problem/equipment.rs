@@ -139,4 +139,8 @@ pub struct PathLimits {
     pub impacts: usize,
     /// Share of its first kinetic energy below which a shot is followed no further.
     pub least_energy: f64,
+    /// Whether shots have their size in flight; otherwise they fly as points.
+    pub shot_size: bool,
+    /// Whether a shot takes its spin from one impact to the next.
+    pub spin: bool,
 }

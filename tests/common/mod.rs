@@ -108,6 +108,8 @@ pub fn keyway(length: f64) -> Problem {
         paths: PathLimits {
             impacts: 6,
             least_energy: 0.01,
+            shot_size: false,
+            spin: true,
         },
         tolerance: Tolerance::default(),
         accuracy: 0.01,

@@ -174,6 +174,8 @@ fn paths(scope: &Scope<'_>, entry: &PathsEntry) -> Option<PathLimits> {
     Some(PathLimits {
         impacts: impacts?,
         least_energy: least_energy?,
+        shot_size: true,
+        spin: true,
     })
 }
 
