@@ -161,6 +161,15 @@ impl Form {
         }
     }
 
+    /// Distance between the wall and a point of the cross-section.
+    #[inline]
+    pub fn distance(&self, to: [f64; 2]) -> f64 {
+        match self {
+            Self::Plane(plane) => plane.distance(to),
+            Self::Cylinder(cylinder) => cylinder.distance(to),
+        }
+    }
+
     /// The point of the wall, in the cross-section, that is nearest to another.
     pub fn nearest(&self, to: [f64; 2]) -> [f64; 2] {
         match self {

@@ -22,7 +22,7 @@ mod wide_tree;
 
 use nalgebra::{Point3, Vector3};
 
-use crate::precision::{Real, along, scaled};
+use crate::precision::{Real, along, scaled, unit};
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::Fault;
 use crate::problem::part::Part;
@@ -173,6 +173,7 @@ impl Scene {
             };
             nearest = crossing.distance;
             let normal = if crossing.front { front } else { -front };
+            let normal = Vector3::from(unit(normal.into()));
             hit = Some(Hit {
                 distance: crossing.distance,
                 point: ray.origin + ray.direction * crossing.distance + normal * -radius,
@@ -201,6 +202,11 @@ impl Scene {
         for i in 0..count {
             let side = if hits.spots.front[i] { R::ONE } else { -R::ONE };
             let normal = scaled(components(&hits.normal, i), side);
+            let normal = if rays.are_spheres {
+                unit(normal)
+            } else {
+                normal
+            };
             let (origin, direction) = (components(&rays.origin, i), components(&rays.direction, i));
             let above = if rays.are_spheres {
                 -rays.radius[i]

@@ -95,10 +95,23 @@ impl<R: Real> Cylinder<R> {
 }
 
 impl Cylinder<f64> {
+    /// Distance to a point of the cross-section.
+    #[inline]
+    pub fn distance(&self, to: [f64; 2]) -> f64 {
+        let relative = self.relative(to);
+        let from_centre = dot(relative, relative).sqrt();
+        if dot(relative, self.towards) * self.radius >= self.reach * from_centre {
+            return (from_centre - self.radius).abs();
+        }
+        let [x, y] = self.nearest(to);
+        let offset = [to[0] - x, to[1] - y];
+        dot(offset, offset).sqrt()
+    }
+
     /// The point of its arc in the cross-section that is nearest to another.
     pub fn nearest(&self, to: [f64; 2]) -> [f64; 2] {
         let relative = self.relative(to);
-        let distance = relative[0].hypot(relative[1]);
+        let distance = dot(relative, relative).sqrt();
         let direction = if distance > 0.0 {
             [relative[0] / distance, relative[1] / distance]
         } else {

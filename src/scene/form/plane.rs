@@ -46,6 +46,14 @@ impl<R: Real> Plane<R> {
 }
 
 impl Plane<f64> {
+    /// Distance to a point of the cross-section.
+    #[inline]
+    pub fn distance(&self, to: [f64; 2]) -> f64 {
+        let (height, along) = self.place(to);
+        let beyond = (along - self.length).max(-along).max(0.0);
+        (height * height + beyond * beyond).sqrt()
+    }
+
     /// The point of its line in the cross-section that is nearest to another.
     pub fn nearest(&self, to: [f64; 2]) -> [f64; 2] {
         let (_, along) = self.place(to);

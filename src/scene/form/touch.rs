@@ -4,6 +4,8 @@
 //! shot touches the wall where its centre enters that body. A line that leaves a convex body never
 //! comes back to it. So a shot that touches a plane, an edge or the outside of a cylinder at its
 //! start meets it at once when it heads into it, and never otherwise.
+//!
+//! Normals have any length here: whoever takes one of many makes a unit vector of it.
 
 use super::{Cylinder, Edge, Extent, Flight, Meeting, Plane, chosen, dot, minus};
 use crate::precision::Real;
@@ -48,11 +50,9 @@ impl<R: Real> Passage<R> {
             self.square - radius * radius
         };
         let root = (self.b * self.b - self.a * c).sqrt();
-        if self.b > R::ZERO {
-            -c / (root + self.b)
-        } else {
-            (root - self.b) / self.a
-        }
+        let outwards = self.b > R::ZERO;
+        let dividend = if outwards { -c } else { root - self.b };
+        dividend / if outwards { root + self.b } else { self.a }
     }
 }
 
@@ -125,7 +125,7 @@ impl<R: Real> Cylinder<R> {
         let inner = offset_radius - extent.slack;
         let touches = inside
             & (passage.square >= inner * inner)
-            & self.spans(relative, passage.square.sqrt(), extent)
+            & self.faces(relative, passage.square, extent)
             & !flight.from_here;
         let at_once = touches & (passage.b > R::of(SLIDES) * offset_radius);
         let outer = offset_radius + extent.slack;
@@ -134,10 +134,11 @@ impl<R: Real> Cylinder<R> {
         let distance = if at_once { R::ZERO } else { exit };
         let [u, v, _] = flight.direction;
         let place = [relative[0] + u * distance, relative[1] + v * distance];
+        let faces = at_once | self.faces(place, offset_radius * offset_radius, extent);
         let comes_back = at_once | !on_it | (passage.b < R::ZERO);
-        let spans =
-            (offset_radius > extent.slack) & comes_back & self.spans(place, offset_radius, extent);
-        self.contact_at(flight, extent, distance, spans, place, offset_radius)
+        let spans = (offset_radius > extent.slack) & comes_back & faces;
+        let normal = [place[0] * -self.side, place[1] * -self.side];
+        flight.contact(distance, spans, self.side > R::ZERO, normal, extent)
     }
 
     /// Where a shot outside the circle touches it.
@@ -159,38 +160,28 @@ impl<R: Real> Cylinder<R> {
         let place = [relative[0] + u * distance, relative[1] + v * distance];
         let least = if touches { R::of(SLIDES) } else { R::ZERO } * offset_radius;
         let heads_for_it = (passage.b < -least) & !inside & !flight.from_here;
-        let apart = if touches {
-            passage.square.sqrt()
+        let square = if touches {
+            passage.square
         } else {
-            offset_radius
+            offset_radius * offset_radius
         };
-        let spans = heads_for_it & self.spans(place, apart, extent);
-        let contact = self.contact_at(flight, extent, distance, spans, place, offset_radius);
-        Meeting {
-            front: !contact.front,
-            ..contact
+        let spans = heads_for_it & self.faces(place, square, extent);
+        let normal = [place[0] * -self.side, place[1] * -self.side];
+        flight.contact(distance, spans, self.side < R::ZERO, normal, extent)
+    }
+
+    /// Whether the arc lies in the direction of an offset from the centre, given with its square.
+    #[inline(always)]
+    fn faces(&self, offset: [R; 2], square: R, extent: &Extent<R>) -> bool {
+        let along = dot(offset, self.towards) * self.radius;
+        let reach = self.reach - extent.slack;
+        let squares = along * along - reach * reach * square;
+        // along >= reach sqrt(square), without the root.
+        if reach >= R::ZERO {
+            (along >= R::ZERO) & (squares >= R::ZERO)
+        } else {
+            (along >= R::ZERO) | (squares <= R::ZERO)
         }
-    }
-
-    /// Whether the arc is where a circle with another radius is at an offset from the centre.
-    #[inline(always)]
-    fn spans(&self, offset: [R; 2], radius: R, extent: &Extent<R>) -> bool {
-        dot(offset, self.towards) * self.radius >= (self.reach - extent.slack) * radius
-    }
-
-    #[inline(always)]
-    fn contact_at(
-        &self,
-        flight: &Flight<R>,
-        extent: &Extent<R>,
-        distance: R,
-        spans: bool,
-        place: [R; 2],
-        offset_radius: R,
-    ) -> Meeting<R> {
-        let scale = -self.side / offset_radius;
-        let normal = [place[0] * scale, place[1] * scale];
-        flight.contact(distance, spans, self.side > R::ZERO, normal, extent)
     }
 }
 
@@ -207,9 +198,7 @@ impl<R: Real> Edge<R> {
         let distance = if touches { R::ZERO } else { entry };
         let least = if touches { R::of(SLIDES) } else { R::ZERO } * flight.radius;
         let heads_for_it = (passage.b < -least) & !flight.from_here;
-        let place = [relative[0] + u * distance, relative[1] + v * distance];
-        let scale = R::ONE / dot(place, place).sqrt();
-        let normal = [place[0] * scale, place[1] * scale];
+        let normal = [relative[0] + u * distance, relative[1] + v * distance];
         flight.contact(distance, heads_for_it, true, normal, extent)
     }
 }

@@ -131,6 +131,7 @@ impl Prism {
         best: &mut Best<R>,
     ) {
         let mut near = [false; LANES];
+        let caps = !self.caps.is_empty();
         let length = R::of(self.extent.length);
         let slack = R::of(self.extent.slack * R::COARSENESS);
         let farthest = R::of(f64::from(f32::MAX).sqrt());
@@ -143,8 +144,7 @@ impl Prism {
             };
             let to = from + flights.direction[2][i] * ahead;
             let (low, high) = if from < to { (from, to) } else { (to, from) };
-            let reach = flights.radius[i] + slack;
-            near[i] = (low <= reach) | (high >= length - reach);
+            near[i] = caps | (low <= slack) | (high >= length - slack);
         }
         for i in (0..flights.count).filter(|&i| near[i]) {
             let (ray, start) = flights.one(i, leaves);

@@ -91,20 +91,17 @@ impl Prism {
                 self.touch_cap(ray, radius, piece, cap, nearest);
             }
         }
-        for (end, z) in [(0, 0.0), (1, self.extent.length)] {
-            if self.comes_near(ray, radius, z, nearest.best.rank) {
-                self.touch_rim(ray, radius, end, z, start, nearest);
+        // Between the ends a wall is always nearer than its rim.
+        let (length, slack) = (self.extent.length, self.extent.slack);
+        for (end, z, low, high) in [
+            (0, 0.0, -radius, slack),
+            (1, length, length - slack, length + radius),
+        ] {
+            let limit = nearest.best.rank;
+            if let Some(span) = between(ray, low, high).filter(|span| span[0] < limit) {
+                self.touch_rim(ray, radius, (end, z), span, start, nearest);
             }
         }
-    }
-
-    /// Whether a shot is within its radius of an end somewhere before `limit`.
-    #[inline(always)]
-    pub(super) fn comes_near(&self, ray: &Ray, radius: f64, z: f64, limit: f64) -> bool {
-        let from = ray.origin.z - z;
-        let to = from + ray.direction.z * limit.min(f64::MAX.sqrt());
-        let reach = radius + self.extent.slack;
-        (from.min(to) <= reach) & (from.max(to) >= -reach)
     }
 
     fn touch_cap(
@@ -145,25 +142,26 @@ impl Prism {
         &self,
         ray: &Ray,
         radius: f64,
-        end: u32,
-        z: f64,
+        (end, z): (u32, f64),
+        [mut distance, last]: [f64; 2],
         start: &Start,
         nearest: &mut Nearest,
     ) {
         let first = self.first_rim() + end * self.walls.len() as u32;
         let leaves_it = |wall: u32| start.piece == Some(first + wall);
         let settled = 1e-3 * self.extent.slack;
-        let Some([mut distance, last]) = near_span(ray, z, radius) else {
-            return;
-        };
         let last = last.min(nearest.best.rank);
         for _ in 0..MOST_STEPS {
-            if distance >= last {
+            if distance > last {
                 return;
             }
             let centre = ray.origin + ray.direction * distance;
-            let (wall, foot) = self.nearest_on_rim(&centre, z);
-            let offset = centre - foot;
+            let (wall, least) = self.nearest_wall(&centre);
+            if least - radius > last - distance {
+                return;
+            }
+            let [x, y] = self.walls[wall as usize].nearest([centre.x, centre.y]);
+            let offset = centre - Point3::new(x, y, z);
             let apart = offset.norm();
             let gap = apart - radius;
             let closing = -offset.dot(&ray.direction) / apart;
@@ -192,30 +190,29 @@ impl Prism {
         }
     }
 
-    /// The wall whose rim at z is nearest to a point, and the place there.
-    fn nearest_on_rim(&self, to: &Point3<f64>, z: f64) -> (u32, Point3<f64>) {
-        let mut found = (0, Point3::origin());
-        let mut least = f64::INFINITY;
+    /// The wall that is nearest in the cross-section, and how far away it is there.
+    fn nearest_wall(&self, to: &Point3<f64>) -> (u32, f64) {
+        let mut found = (0, f64::INFINITY);
         for (wall, form) in (0..).zip(&self.walls) {
-            let [x, y] = form.nearest([to.x, to.y]);
-            let square = (x - to.x).powi(2) + (y - to.y).powi(2);
-            if square < least {
-                least = square;
-                found = (wall, Point3::new(x, y, z));
+            let apart = form.distance([to.x, to.y]);
+            if apart < found.1 {
+                found = (wall, apart);
             }
         }
         found
     }
 }
 
-/// Between which distances along a ray a shot is within its radius of a plane across z.
-fn near_span(ray: &Ray, z: f64, radius: f64) -> Option<[f64; 2]> {
-    let from = ray.origin.z - z;
-    let rate = ray.direction.z;
-    if rate == 0.0 {
-        return (from.abs() <= radius).then_some([0.0, f64::INFINITY]);
+/// Between which distances a ray is between two heights.
+fn between(ray: &Ray, low: f64, high: f64) -> Option<[f64; 2]> {
+    let (from, rate) = (ray.origin.z, ray.direction.z);
+    if (rate >= 0.0 && from > high) || (rate <= 0.0 && from < low) {
+        return None;
     }
-    let (a, b) = ((-radius - from) / rate, (radius - from) / rate);
+    if rate == 0.0 {
+        return (low <= from && from <= high).then_some([0.0, f64::INFINITY]);
+    }
+    let (a, b) = ((low - from) / rate, (high - from) / rate);
     let (first, last) = (a.min(b).max(0.0), a.max(b));
     (first <= last).then_some([first, last])
 }
