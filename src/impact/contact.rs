@@ -123,6 +123,17 @@ impl Restitution {
         }
     }
 
+    /// Whether E is the same at every speed.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
+    /// E at a normal approach speed (m/s), for every speed.
+    #[must_use]
+    pub fn held_at(self, normal_speed: f64) -> Self {
+        Self::Constant(self.at(normal_speed))
+    }
+
     /// The same law with E shifted by `change` where it was measured, kept within 0 to 1.
     pub fn shifted(self, change: f64) -> Self {
         let shift = |value: f64| (value + change).clamp(0.0, 1.0);

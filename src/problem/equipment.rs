@@ -118,6 +118,8 @@ pub struct SurfaceRule {
     pub weight: Option<f64>,
     /// Its own contact, whatever contact is chosen.
     pub contact: Option<Contact>,
+    /// Standard deviation of the tilt of its normal about each direction in it, rad.
+    pub roughness: f64,
     /// What a hit on it counts as.
     pub role: Role,
 }

@@ -14,7 +14,7 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 
 use equipment::{ContactEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
 use scene::{PartEntry, TargetEntry};
-use settings::{GoalsEntry, SettingsEntry, SolveEntry, ToleranceEntry};
+use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 
 use super::field::Field;
 
@@ -50,6 +50,8 @@ pub(super) struct ProblemFile {
     pub paths: Field<PathsEntry>,
     /// How exactly a shop sets the settings: half-widths.
     pub tolerance: Field<ToleranceEntry>,
+    /// Which effects are modelled: `auto`, `full` or a list; `auto` where absent.
+    pub model: Field<OneOrMany>,
     /// How the answer is searched.
     pub solve: Field<SolveEntry>,
 }

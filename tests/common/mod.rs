@@ -6,6 +6,7 @@ use peenpose::impact::Contact;
 use peenpose::problem::Problem;
 use peenpose::problem::equipment::{Body, ContactChoice, Jet, Nozzle, PathLimits, Shot, Spread};
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
+use peenpose::problem::model::Model;
 use peenpose::problem::part::{Keyway, Part, Place, Shape, Target};
 use peenpose::problem::setting::{Range, Settings, Tolerance};
 
@@ -112,6 +113,7 @@ pub fn keyway(length: f64) -> Problem {
             spin: true,
         },
         tolerance: Tolerance::default(),
+        model: Model::Full,
         accuracy: 0.01,
         seed: 1,
     }

@@ -8,6 +8,7 @@ mod coordinates;
 mod goals;
 mod limit;
 mod mesh;
+mod model;
 mod nozzle;
 mod profile;
 mod scene;
@@ -92,6 +93,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         .solve
         .or(Default::default())
         .and_then(|entry| solve(&root.of("solve"), &entry));
+    let model = model::check(&root, &file.model);
     let title = file.title.or(path
         .file_stem()
         .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()));
@@ -113,6 +115,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
             goals: goals?,
             surfaces: surfaces?,
             paths: paths?,
+            model: model?,
             tolerance: tolerance?,
             accuracy,
             seed,

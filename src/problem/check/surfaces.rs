@@ -44,6 +44,7 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
         Field::Faulty => None,
         Field::Present(entry) => contacts::fixed(&scope.of("contact"), entry).map(Some),
     };
+    let roughness = scope.optional("roughness", &entry.roughness, Limit::TILT, 0.0);
     let role = entry.role.or(RoleEntry::Part).map(|role| match role {
         RoleEntry::Part => Role::Part,
         RoleEntry::Deflector => Role::Deflector,
@@ -69,6 +70,7 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
         share: share?,
         weight: weight?,
         contact: contact?,
+        roughness: roughness?,
         role: role?,
     })
 }
