@@ -19,6 +19,8 @@ use ledger::{Ledger, SurfaceSums};
 pub struct Evaluation {
     /// Number of shots of the jet.
     pub shots: usize,
+    /// Whether all shots of the jet are the same: then the figures of one have no error.
+    pub is_exact: bool,
     /// Number of shots on its rim, which only the terms of the objective count.
     pub rim_shots: usize,
     /// Number of rays cast for them.
@@ -98,7 +100,11 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
             of_jet.plus(&replicate.rim.sums(goals, choice.speed))
         })
         .collect();
-    let (terms, term_errors, standard_error) = jackknife(&sums, goals);
+    let (terms, term_errors, standard_error) = if fresh.is_one_ray() {
+        (sums[0].terms(goals), Terms::default(), 0.0)
+    } else {
+        jackknife(&sums, goals)
+    };
     let rays = replicates.iter().map(|r| r.tally.rays + r.rim.rays).sum();
     let mut ends = BTreeMap::new();
     for (&end, &count) in replicates.iter().flat_map(|replicate| &replicate.ends) {
@@ -109,6 +115,7 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
         .collect();
     Evaluation {
         shots,
+        is_exact: fresh.is_one_ray(),
         rim_shots: fresh.rim_shots(),
         rays,
         terms,

@@ -174,7 +174,9 @@ fn the_plate_holds_every_setting_of_the_pose() {
         problem.paths,
         PathLimits {
             impacts: 6,
-            least_energy: 0.01
+            least_energy: 0.01,
+            shot_size: true,
+            spin: true,
         }
     );
     // N* = (1 + E) m v sin(60 deg) of the paper.
@@ -405,7 +407,9 @@ fn every_other_key_is_read() {
         problem.paths,
         PathLimits {
             impacts: 3,
-            least_energy: 0.0
+            least_energy: 0.0,
+            shot_size: true,
+            spin: true,
         }
     );
     assert_eq!((problem.accuracy, problem.seed), (0.005, u64::MAX));

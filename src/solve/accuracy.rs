@@ -1,6 +1,7 @@
 //! When the answer is good enough.
 
 use super::answer::Answer;
+use super::models::Claim;
 use super::search::Search;
 
 /// Least J over all contacts; infinite while the nozzle has fitted nowhere.
@@ -18,7 +19,7 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 }
 
 /// The searches that could still change the answer: among the contacts within reach of the best,
-/// those whose J on fresh shots is above J on the shots of the search by more than the accuracy
+/// those whose J on fresh shots is above what is claimed for the shots of the search by more than the accuracy
 /// asked for and the statistical error.
 ///
 /// The least J on any set of shots is on average below the least true J, and the true J of the
@@ -28,7 +29,7 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 /// Where the error is too large for that gap to say much, the search goes on as well, until it has
 /// seen as many shots as stand behind the figures.
 pub(super) fn unsettled(
-    searches: &[Search],
+    claims: &[Claim],
     answers: &[Answer],
     accuracy: f64,
     shots: usize,
@@ -44,17 +45,17 @@ pub(super) fn unsettled(
         .iter()
         .filter_map(|answer| Some(fresh(answer)?.0))
         .fold(f64::INFINITY, f64::min);
-    let is_unsettled = |search: &Search, answer: &Answer| {
-        let (claimed, (found, error)) = search.best().standing.objective().zip(fresh(answer))?;
+    let is_unsettled = |claim: &Claim, answer: &Answer| {
+        let ((_, claimed), (found, error)) = claim.zip(fresh(answer))?;
         let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
         let gap = found - claimed;
         let wanted = accuracy * found;
         let is_vague = error > VAGUE * wanted && shots < fresh_shots;
         Some(in_reach && (is_vague || gap > TOLERABLE * wanted + error))
     };
-    let pairs = searches.iter().zip(answers).enumerate();
+    let pairs = claims.iter().zip(answers).enumerate();
     pairs
-        .filter(|(_, (search, answer))| is_unsettled(search, answer).unwrap_or(false))
+        .filter(|(_, (claim, answer))| is_unsettled(claim, answer).unwrap_or(false))
         .map(|(index, _)| index)
         .collect()
 }
