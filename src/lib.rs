@@ -72,7 +72,7 @@
 //!     },
 //! };
 //! let windows = passing_windows(&setup, &solution);
-//! let notes = validity::notes(&setup, &best.choice);
+//! let notes = validity::notes(&setup, &best.choice, best.evaluation.as_ref());
 //! let record = Record::new(&setup, &solution.answers, &windows, notes, circumstances)
 //!     .ok_or("no contact to choose")?;
 //! assert_eq!(Record::from_json(&record.to_json()?)?, record);

@@ -7,6 +7,7 @@ use crate::impact::Contact;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
 use crate::problem::part::{Part, Target};
+use crate::problem::setting::Choice;
 use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
 use crate::scene::{Scene, Walls};
@@ -81,6 +82,13 @@ impl Setup {
             Some(setup) => Ok((setup, source)),
             None => Err(Rejection::new(source, faults)),
         }
+    }
+
+    /// The contact of the mean shot with a surface of the scene: its own one, or the chosen one.
+    pub fn contact_on(&self, surface: u32, choice: &Choice) -> Contact {
+        self.surfaces[surface as usize]
+            .contact
+            .unwrap_or_else(|| self.problem.contacts[choice.contact].at(choice.static_friction))
     }
 
     fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {

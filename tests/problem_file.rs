@@ -69,6 +69,7 @@ fn the_keyway_is_read_in_si() {
             divergence: 4.0 * (PI / 180.0),
             spread: Spread::Uniform,
             speed_spread: 0.05,
+            mass_flow: None,
         }
     );
     assert_eq!(

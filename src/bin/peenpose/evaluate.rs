@@ -49,7 +49,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
             seconds: started.elapsed().as_secs_f64(),
         },
     };
-    let notes = validity::notes(&setup, &choice);
+    let notes = validity::notes(&setup, &choice, answer.evaluation.as_ref());
     let record = Record::new(&setup, &[answer], &[], notes, circumstances)
         .ok_or("there is nothing to report".to_owned())?;
     output::record(&record, args.json, args.out.as_deref())

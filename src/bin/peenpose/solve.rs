@@ -38,7 +38,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         .answers
         .first()
         .ok_or("there is no contact to choose".to_owned())?;
-    let notes = validity::notes(&setup, &best.choice);
+    let notes = validity::notes(&setup, &best.choice, best.evaluation.as_ref());
     let circumstances = Circumstances {
         source: &source,
         status: solution.status.into(),

@@ -43,6 +43,7 @@ impl Limit {
     pub const DENSITY: Self = to(1.0, 1e5, "a density from 1 kg/m3 to 100000 kg/m3");
     pub const SPEED: Self = to(1e-6, 1e4, "a speed from 1 um/s to 10000 m/s");
     pub const IMPULSE: Self = to(1e-18, 1e6, "an impulse above 0 N.s");
+    pub const MASS_FLOW: Self = to(1e-12, 1e6, "a mass flow above 0 kg/min");
     pub const INCIDENCE: Self = to(
         1e-6,
         FRAC_PI_2 + ROUNDING,
