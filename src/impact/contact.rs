@@ -140,6 +140,14 @@ impl Restitution {
         }
     }
 
+    /// E, at the speed at which it was measured where it falls with speed.
+    pub fn reference(self) -> f64 {
+        match self {
+            Self::Constant(value) => value,
+            Self::Falling { reference, .. } => reference,
+        }
+    }
+
     /// The normal speed, m/s, at which N*/m = (1 + E) |v_n| is `impulse`, m/s.
     pub fn approach_speed(self, impulse: f64) -> f64 {
         match self {

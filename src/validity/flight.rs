@@ -46,14 +46,14 @@ pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
     }
 }
 
-/// Speed at the end of the flight, m/s: dv/dx = -decay(v) v, by the midpoint rule.
+/// Speed at the end of the flight, m/s: dv/dx = -decay(v) v, each step with the decay of its middle.
 fn speed_left(diameter: f64, density: f64, choice: &Choice) -> f64 {
     let step = choice.standoff / STEPS as f64;
-    let slope = |speed: f64| -decay(diameter, density, speed) * speed;
+    let after = |speed: f64, at: f64, way: f64| speed * (-decay(diameter, density, at) * way).exp();
     let mut speed = choice.speed;
     for _ in 0..STEPS {
-        let middle = (speed + 0.5 * step * slope(speed)).max(0.0);
-        speed = (speed + step * slope(middle)).max(0.0);
+        let middle = after(speed, speed, 0.5 * step);
+        speed = after(speed, middle, step);
     }
     speed
 }
@@ -66,9 +66,7 @@ fn decay(diameter: f64, density: f64, speed: f64) -> f64 {
     if reynolds >= 1000.0 {
         return 0.75 * 0.44 * air / (density * diameter);
     }
-    if speed == 0.0 {
-        return 0.0;
-    }
-    // C_d goes with 1/Re, so the density of the air drops out of the first factor.
+    // C_d goes with 1/Re, so the density of the air drops out of the first factor. A shot that has
+    // come to rest has an infinite decay, and stays.
     18.0 * viscosity / (density * diameter * diameter * speed) * (1.0 + 0.15 * reynolds.powf(0.687))
 }

@@ -86,7 +86,13 @@ impl Stream {
         let axis = self.velocity.normalize();
         let back = -rebound.dot(&axis);
         let sideways = (rebound + axis * back).norm();
-        let until = |way: f64, speed: f64| if speed > 0.0 { way / speed } else { f64::INFINITY };
+        let until = |way: f64, speed: f64| {
+            if speed > 0.0 {
+                way / speed
+            } else {
+                f64::INFINITY
+            }
+        };
         let time = until(self.length, back).min(until(self.radius, sideways));
         let cross_section = std::f64::consts::PI * diameter * diameter;
         self.density * cross_section * (self.velocity - rebound).norm() * time

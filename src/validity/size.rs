@@ -14,7 +14,7 @@ const OF_A_FILLET: f64 = 0.5;
 /// The same: at most this part of the width of an opening.
 const OF_AN_OPENING: f64 = 0.25;
 /// Walls face each other when their normals are opposed within this angle.
-const FACING: f64 = 30.0 / 180.0 * std::f64::consts::PI;
+const FACING: f64 = 10.0 / 180.0 * std::f64::consts::PI;
 /// Chords that stand in for arcs where gaps are measured turn by at most this angle.
 const CHORD_ANGLE: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 

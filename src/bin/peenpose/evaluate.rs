@@ -12,6 +12,7 @@ use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
 use peenpose::solve::{ANSWERS, Answer, clearance_violation};
 use peenpose::units::{self, Dimension};
+use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 use peenpose::verdict::Verdict;
 
@@ -50,7 +51,8 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         },
     };
     let notes = validity::notes(&setup, &choice, answer.evaluation.as_ref());
-    let record = Record::new(&setup, &[answer], &[], notes, circumstances)
+    let unknowns = Unknowns::of(&setup, &choice);
+    let record = Record::new(&setup, &[answer], &[], notes, unknowns, circumstances)
         .ok_or("there is nothing to report".to_owned())?;
     output::record(&record, args.json, args.out.as_deref())
 }
