@@ -214,12 +214,12 @@ fn the_sheet_names_the_one_that_moves_the_result_most() {
     // J is 0.0000798 at E = 0.5, 0.0247 at 0.3 and 0.0103 at 0.7.
     assert!(
         joined.contains(
-            "Restitution moves J most, by 0.024 over its range: it turns the rebound by 21.6 deg"
+            "Over its range restitution moves J most, by 0.024 and turns the rebound by 21.6 deg"
         ),
         "{text}"
     );
     assert!(
-        joined.contains("friction moves J by 0 (it turns the rebound by 4.5 deg)"),
+        joined.contains("friction moves J by 0 and turns the rebound by 4.5 deg"),
         "{text}"
     );
     assert!(joined.contains("restitution 0.3 22.8 33.7"), "{text}");

@@ -103,48 +103,39 @@ fn turn(range: &UnknownRangeRecord) -> Option<f64> {
     Some((range.at_high.rebound_angle_deg? - range.at_low.rebound_angle_deg?).abs())
 }
 
+/// Which one moves J most, and by how far each turns the rebound.
 fn sentence(unknowns: &UnknownsRecord) -> Option<String> {
     let nominal = &unknowns.nominal;
     let mut ranges: Vec<&UnknownRangeRecord> = unknowns.ranges.iter().collect();
     ranges.sort_by(|a, b| movement(b, nominal).total_cmp(&movement(a, nominal)));
-    let first = *ranges.first()?;
-    let word = |range: &UnknownRangeRecord| match range.quantity {
+    let (first, others) = ranges.split_first()?;
+    let does = |range: &UnknownRangeRecord| {
+        let moves = significant(movement(range, nominal), 2);
+        match turn(range) {
+            Some(turn) => format!("by {moves} and turns the rebound by {} deg", fixed(turn, 1)),
+            None => format!("by {moves}; no rebound from the target was seen"),
+        }
+    };
+    let word = word(first.quantity);
+    let text = match others {
+        [] => format!("Over its range {word} moves J {}.", does(first)),
+        _ if movement(first, nominal) <= MOVES * nominal.objective => format!(
+            "Neither restitution nor friction moves J by more than {} % of it.",
+            plain(MOVES * 100.0)
+        ),
+        [other, ..] => format!(
+            "Over its range {word} moves J most, {}; {} moves J {}.",
+            does(first),
+            self::word(other.quantity),
+            does(other)
+        ),
+    };
+    Some(text)
+}
+
+const fn word(quantity: QuantityRecord) -> &'static str {
+    match quantity {
         QuantityRecord::Restitution => "restitution",
         QuantityRecord::Friction => "friction",
-    };
-    let turned = |range: &UnknownRangeRecord| {
-        turn(range).map_or_else(
-            || "no rebound from the target".into(),
-            |turn| format!("it turns the rebound by {} deg", fixed(turn, 1)),
-        )
-    };
-    if movement(first, nominal) <= MOVES * nominal.objective {
-        return Some(format!(
-            "Neither end of what is unknown moves J by more than {} % of it.",
-            plain(MOVES * 100.0)
-        ));
     }
-    let others: Vec<String> = ranges[1..]
-        .iter()
-        .map(|range| {
-            format!(
-                "; {} moves J by {} ({})",
-                word(range),
-                significant(movement(range, nominal), 2),
-                turned(range)
-            )
-        })
-        .collect();
-    Some(format!(
-        "{} moves J {}, by {} over its range: {}{}.",
-        if first.quantity == QuantityRecord::Restitution {
-            "Restitution"
-        } else {
-            "Friction"
-        },
-        if others.is_empty() { "alone" } else { "most" },
-        significant(movement(first, nominal), 2),
-        turned(first),
-        others.concat()
-    ))
 }
