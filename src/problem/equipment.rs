@@ -121,6 +121,8 @@ pub struct SurfaceRule {
     pub weight: Option<f64>,
     /// Its own contact, whatever contact is chosen.
     pub contact: Option<Contact>,
+    /// Standard deviation of the tilt of its normal, rad; 0 for a smooth surface.
+    pub roughness: f64,
     /// What a hit on it counts as.
     pub role: Role,
 }

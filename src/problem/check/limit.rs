@@ -1,6 +1,6 @@
 //! What a number may be, and how that is said.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 
 /// An interval of allowed values in SI.
 ///
@@ -50,6 +50,11 @@ impl Limit {
         "an angle above 0 deg, up to 90 deg",
     );
     pub const DIVERGENCE: Self = below(0.0, FRAC_PI_2, "a half-angle from 0 deg to below 90 deg");
+    pub const ROUGHNESS: Self = to(
+        0.0,
+        FRAC_PI_6 + ROUNDING,
+        "a standard deviation from 0 deg to 30 deg",
+    );
     pub const TURN: Self = to(
         -TAU - ROUNDING,
         TAU + ROUNDING,

@@ -153,6 +153,8 @@ pub(in crate::problem) struct SurfaceEntry {
     pub weight: Field<f64>,
     /// Its own contact, whatever contact is chosen.
     pub contact: Field<ContactEntry>,
+    /// Standard deviation of the tilt of its normal; 0 deg where absent.
+    pub roughness: Field<Angle>,
     /// What a hit on it counts as; `part` where absent.
     pub role: Field<RoleEntry>,
 }
