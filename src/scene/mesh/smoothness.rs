@@ -86,3 +86,43 @@ struct Side {
     triangle: u32,
     backwards: bool,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles along the x axis, the second one raised by 10 deg.
+    fn hinge(second_runs_alike: bool) -> Vec<[Point3<f64>; 3]> {
+        let (sin, cos) = 10.0_f64.to_radians().sin_cos();
+        let (start, end) = (Point3::origin(), Point3::new(1.0, 0.0, 0.0));
+        let raised = Point3::new(0.0, cos, sin);
+        let second = if second_runs_alike {
+            [start, end, raised]
+        } else {
+            [end, start, raised]
+        };
+        vec![[end, start, Point3::new(0.0, -1.0, 0.0)], second]
+    }
+
+    #[test]
+    fn winding_does_not_matter_and_edges_above_the_limit_do_not_count() {
+        for runs_alike in [true, false] {
+            let mesh = Mesh::joined(hinge(runs_alike));
+            assert_eq!(mesh.vertices.len(), 4);
+            let angle = mesh.largest_smooth_angle(0.5).unwrap();
+            assert!((angle.to_degrees() - 10.0).abs() < 1e-12, "{angle}");
+            assert_eq!(mesh.largest_smooth_angle(0.1), None);
+        }
+    }
+
+    #[test]
+    fn slivers_and_forks_have_no_angle() {
+        let mut triangles = hinge(true);
+        let (start, end) = (Point3::origin(), Point3::new(1.0, 0.0, 0.0));
+        triangles[0] = [end, start, Point3::new(-0.0, 0.0, 0.0)];
+        assert_eq!(Mesh::joined(triangles).largest_smooth_angle(0.5), None);
+        let mut fork = hinge(true);
+        fork.push([start, end, Point3::new(0.0, 0.0, 1.0)]);
+        assert_eq!(Mesh::joined(fork).largest_smooth_angle(0.5), None);
+    }
+}
