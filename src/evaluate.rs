@@ -35,6 +35,8 @@ pub struct Evaluation {
     pub target: TargetReceipt,
     /// What every secondary surface receives; indices are the scene's.
     pub surfaces: Vec<SurfaceReceipt>,
+    /// Mean number of impacts of a path, those on the target included.
+    pub impacts_per_shot: f64,
     /// How the paths ended: share of all shots.
     pub ends: BTreeMap<End, f64>,
 }
@@ -113,6 +115,7 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
     let surfaces = (0..setup.surfaces.len())
         .map(|index| receipt(replicates.iter().map(|r| &r.surfaces[index])))
         .collect();
+    let impacts: usize = replicates.iter().map(|r| r.impacts).sum();
     Evaluation {
         shots,
         is_exact: fresh.is_one_ray(),
@@ -123,6 +126,7 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
         standard_error,
         target: target_receipt(goals, choice.speed, &replicates),
         surfaces,
+        impacts_per_shot: impacts as f64 / shots as f64,
         ends,
     }
 }

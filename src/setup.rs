@@ -109,6 +109,13 @@ impl Setup {
         reduced
     }
 
+    /// The contact of the mean shot with a surface of the scene: its own one, or the chosen one.
+    pub fn contact_on(&self, surface: u32, choice: &Choice) -> Contact {
+        self.surfaces[surface as usize]
+            .contact
+            .unwrap_or_else(|| self.problem.contacts[choice.contact].at(choice.static_friction))
+    }
+
     fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
         let surfaces = surface_limits(&problem, &scene, target.surface)?;
         Ok(Self {

@@ -145,19 +145,6 @@ impl Facets {
         ))
     }
 
-    /// STUB
-    pub fn first_touch(
-        &self,
-        ray: &Ray,
-        _radius: f64,
-        leaving: Option<Spot>,
-        on_this_part: bool,
-        limit: f64,
-    ) -> Option<(Crossing, Vector3<f64>)> {
-        self.first_crossing(ray, leaving, on_this_part, limit)
-            .map(|(c, n)| (c, if c.front { n } else { -n }))
-    }
-
     /// The nearest crossing of a ray within `limit`.
     #[inline(always)]
     fn nearest(&self, ray: &Ray, start: &Start, limit: f64) -> Option<Nearest> {
