@@ -95,7 +95,8 @@ impl Frame {
             skipped = entry(&origin, &inverse, self.reach)?;
             origin += ray.direction * skipped;
         }
-        let backwards = ray.direction.map(|component| component < 0.0);
+        // The sign of the inverse, which tells -0 from 0.
+        let backwards = inverse.map(|component| component < 0.0);
         let axes = [0, 1, 2];
         Some(FlatRay {
             origin: axes.map(|axis| f32x8::splat(origin[axis] as f32)),
