@@ -47,7 +47,12 @@ fn grid(
         .collect()
 }
 
-/// A cube of 20 mm seen from inside, turned so that nothing lies along an axis. Each face is cut at
+/// So that nothing lies along an axis.
+fn turn() -> Rotation3<f64> {
+    Rotation3::from_euler_angles(0.4, -0.9, 1.7)
+}
+
+/// A cube of 20 mm seen from inside. Each face is cut at
 /// its own shares.
 fn cube(cuts: [&[f64]; 6]) -> Vec<Triangle> {
     let mut triangles = Vec::new();
@@ -61,8 +66,7 @@ fn cube(cuts: [&[f64]; 6]) -> Vec<Triangle> {
         };
         triangles.extend(inwards);
     }
-    let turn = Rotation3::from_euler_angles(0.4, -0.9, 1.7);
-    let turned = |corners: Triangle| corners.map(|corner| turn * corner);
+    let turned = |corners: Triangle| corners.map(|corner| turn() * corner);
     triangles.into_iter().map(turned).collect()
 }
 
@@ -114,10 +118,11 @@ fn moller_trumbore(ray: &Ray, [a, b, c]: &Triangle) -> Option<f64> {
 }
 
 /// Rays from inside the cube at points of the mesh; counts what leaks through for the naive test
-/// and asserts that nothing does for ours.
+/// and asserts that nothing does for ours, and that the wall is where it should be to within `slack`.
 fn naive_leaks(
     setup: &Setup,
     rays: usize,
+    slack: f64,
     aim: impl Fn(&Triangle, &mut Random) -> Point3<f64>,
 ) -> usize {
     let triangles: Vec<Triangle> = setup.scene.surface_triangles(0).collect();
@@ -135,7 +140,7 @@ fn naive_leaks(
         // As near as the slope of the ray on the wall allows.
         let slope = -hit.normal.dot(&ray.direction);
         let off = (hit.distance - (at - origin).norm()).abs();
-        assert!(off * slope < 1e-13, "{off} {slope}");
+        assert!(off * slope < slack, "{off} {slope}");
         let found = |triangle| moller_trumbore(&ray, triangle).is_some();
         leaks += usize::from(!triangles.iter().any(found));
     }
@@ -152,16 +157,25 @@ fn at_a_corner(corners: &Triangle, random: &mut Random) -> Point3<f64> {
     corners[(3.0 * random.uniform()) as usize]
 }
 
+/// What the reader of the mesh noticed about edges that do not join two triangles.
+fn open_edges(setup: &Setup) -> Option<&String> {
+    let mut warnings = setup.scene.warnings().iter();
+    warnings.find(|warning| warning.contains("edge"))
+}
+
+/// Rounding in a part of this size, m.
+const EXACT: f64 = 1e-13;
+
 const EVEN: &[f64] = &[0.0, 0.25, 0.5, 0.75, 1.0];
 
 #[test]
 fn rays_leak_through_edges_of_a_closed_mesh_in_the_naive_test_and_not_in_ours() {
     let room = room([EVEN; 6]);
-    assert_eq!(room.scene.warnings(), &[] as &[String]);
-    let leaks = naive_leaks(&room, 20_000, on_an_edge);
-    assert!(leaks > 20, "{leaks}");
-    let leaks = naive_leaks(&room, 20_000, at_a_corner);
-    assert!(leaks > 0, "{leaks}");
+    assert!(open_edges(&room).is_none());
+    let leaks = naive_leaks(&room, 20_000, EXACT, on_an_edge);
+    assert!(leaks > 500, "{leaks}");
+    let leaks = naive_leaks(&room, 20_000, EXACT, at_a_corner);
+    assert!(leaks > 500, "{leaks}");
 }
 
 /// Faces whose cuts do not meet: on every edge of the cube lie vertices of one side only, which
@@ -177,55 +191,83 @@ fn rays_do_not_leak_through_t_junctions() {
         &[0.0, 0.11, 0.22, 0.33, 0.44, 0.55, 1.0],
     ];
     let room = room(CUTS);
-    assert!(!room.scene.warnings().is_empty());
-    let leaks = naive_leaks(&room, 20_000, on_an_edge);
-    assert!(leaks > 20, "{leaks}");
-    naive_leaks(&room, 20_000, at_a_corner);
+    assert!(open_edges(&room).is_some());
+    let leaks = naive_leaks(&room, 20_000, EXACT, on_an_edge);
+    assert!(leaks > 500, "{leaks}");
+    naive_leaks(&room, 20_000, EXACT, at_a_corner);
 }
 
-/// Strips that are far narrower than long, down to 200 times the distance within which points count
-/// as one.
+/// Strips that are far narrower than long. The narrowest are 10 times as far apart as points that
+/// count as one, and thinner than an atom: rays still do not leak.
 #[test]
-fn slivers_neither_leak_nor_turn_shots_aside() {
-    for width in [1e-4, 1e-7, 1e-10] {
-        let cuts: &[f64] = &[0.0, 0.3, 0.3 + width, 0.7 - width, 0.7, 1.0];
-        let room = room([cuts; 6]);
-        naive_leaks(&room, 5_000, on_an_edge);
-        naive_leaks(&room, 5_000, at_a_corner);
-        // Rays at the slivers themselves: a normal can be wrong by no more than rounding of the
-        // corners over the width.
+fn rays_do_not_leak_through_slivers() {
+    for width in [1e-4, 1e-6, 1e-8, 1e-10, 1e-11] {
+        let room = room([&with_strips(width); 6]);
+        // Rounding over the width decides where on a sliver a ray meets it.
+        let slack = EXACT + f64::EPSILON * 20e-3 / width;
+        naive_leaks(&room, 2_000, slack, on_an_edge);
+        naive_leaks(&room, 2_000, slack, at_a_corner);
+        naive_leaks(&room, 2_000, slack, somewhere);
+    }
+}
+
+fn with_strips(width: f64) -> [f64; 6] {
+    [0.0, 0.3, 0.3 + width, 0.7 - width, 0.7, 1.0]
+}
+
+fn somewhere([a, b, c]: &Triangle, random: &mut Random) -> Point3<f64> {
+    let (s, t) = (random.uniform(), random.uniform());
+    let (s, t) = if s + t > 1.0 {
+        (1.0 - s, 1.0 - t)
+    } else {
+        (s, t)
+    };
+    a + (b - a) * s + (c - a) * t
+}
+
+/// Rebounds off slivers of a width that files in single precision can hold: the normal is off by
+/// no more than rounding over the width, and no neighbour is hit from behind.
+#[test]
+fn slivers_do_not_turn_shots_aside() {
+    let size = 20e-3;
+    for width in [1e-4, 1e-6, 1e-7] {
+        let room = room([&with_strips(width); 6]);
         let triangles: Vec<Triangle> = room.scene.surface_triangles(0).collect();
-        let size = 20e-3;
-        let slack = 1e-14 + 8.0 * f64::EPSILON / width;
-        let turn = Rotation3::from_euler_angles(0.4, -0.9, 1.7);
-        let mut slivers = 0;
-        for [a, b, c] in &triangles {
-            let area = (b - a).cross(&(c - a)).norm();
-            if area > 1.1 * width * size * size {
-                continue;
-            }
-            slivers += 1;
-            let centre = Point3::from((a.coords + b.coords + c.coords) / 3.0);
-            let direction = centre.coords.normalize();
-            let ray = Ray {
-                origin: Point3::origin(),
-                direction,
+        let is_sliver =
+            |[a, b, c]: &&Triangle| (b - a).cross(&(c - a)).norm() < 1.1 * width * size * size;
+        let slivers: Vec<&Triangle> = triangles.iter().filter(is_sliver).collect();
+        // In each face two strips across either way, less where they cross.
+        assert_eq!(slivers.len(), 6 * (2 * 5 + 2 * 5 - 4) * 2);
+        let mut random = Random(23);
+        for number in 0..10_000 {
+            // Away from the ends, which lie at the edges of the cube.
+            let [a, b, c] = slivers[number % slivers.len()];
+            let inner = 0.25 * (random.uniform() + 0.2);
+            let at = a + (b - a) * (0.5 - inner) + (c - a) * inner;
+            let origin = Point3::from(random.vector() * 5e-3);
+            let direction = (at - origin).normalize();
+            let hit = room
+                .scene
+                .first_hit(&Ray { origin, direction }, None)
+                .unwrap();
+            let flat = turn().inverse() * hit.normal;
+            let aside = (flat - Vector3::ith(flat.iamax(), flat[flat.iamax()].signum())).norm();
+            assert!(
+                aside < 1e-14 + 8.0 * f64::EPSILON / width,
+                "{width}: {aside}"
+            );
+            let away = Ray {
+                origin: hit.point,
+                direction: direction - hit.normal * (2.0 * direction.dot(&hit.normal)),
             };
-            let hit = room.scene.first_hit(&ray, None).unwrap();
-            let flat = turn.inverse() * hit.normal;
-            let off = (flat.amax() - 1.0)
-                .abs()
-                .max((flat.norm_squared() - flat.amax().powi(2)).abs().sqrt());
-            assert!(off < slack, "{width}: {off} over {slack}");
-            assert!((hit.distance / centre.coords.norm() - 1.0).abs() < 1e-12);
+            let next = room.scene.first_hit(&away, Some(hit.spot)).unwrap();
+            assert!(next.distance > 1e-4, "{width}: {}", next.distance);
         }
-        assert!(slivers >= 6 * 2 * 2 * 5, "{slivers}");
     }
 }
 
 /// The plate as two triangles, turned so that rounding plays its part.
-fn plate(copies: usize, flipped: usize) -> (Setup, Rotation3<f64>) {
-    let turn = Rotation3::from_euler_angles(0.4, -0.9, 1.7);
+fn plate(copies: usize, flipped: usize) -> Setup {
     let flat = grid(
         Vector3::new(-50.0, -50.0, 0.0),
         [Vector3::x() * 100.0, Vector3::y() * 100.0],
@@ -233,7 +275,7 @@ fn plate(copies: usize, flipped: usize) -> (Setup, Rotation3<f64>) {
     );
     let turned: Vec<Triangle> = flat
         .into_iter()
-        .map(|corners| corners.map(|corner| turn * corner))
+        .map(|corners| corners.map(|corner| turn() * corner))
         .collect();
     let mut triangles = Vec::new();
     for _ in 0..copies {
@@ -242,18 +284,21 @@ fn plate(copies: usize, flipped: usize) -> (Setup, Rotation3<f64>) {
     for _ in 0..flipped {
         triangles.extend(turned.iter().map(|[a, b, c]| [*a, *c, *b]));
     }
-    let (normal, along) = (turn * Vector3::z(), turn * Vector3::x());
+    let (normal, along) = (turn() * Vector3::z(), turn() * Vector3::x());
     let target = format!(
         "plate.all, aim: [0, 0, 0], along: [{:?}, {:?}, {:?}], facing: [{:?}, {:?}, {:?}]",
         along.x, along.y, along.z, normal.x, normal.y, normal.z
     );
-    (of_mesh(&triangles, &target), turn)
+    of_mesh(&triangles, &target)
 }
 
 /// Triangles that are there twice, the wrong way round, or both, count as one surface.
 #[test]
 fn duplicate_and_flipped_triangles_are_hit_once() {
-    let reference = setup(&edited(PLATE, &[("divergence: 0 deg", "divergence: 20 deg")]));
+    let reference = setup(&edited(
+        PLATE,
+        &[("divergence: 0 deg", "divergence: 20 deg")],
+    ));
     let choice = Choice {
         incidence: 0.9,
         ..held(&reference)
@@ -261,7 +306,7 @@ fn duplicate_and_flipped_triangles_are_hit_once() {
     let shots = Samples::new(&reference.problem, Stream::Search, 2000).deviates;
     let expected = Tally::trace(&reference, &choice, 10.0, &shots);
     for (copies, flipped) in [(1, 0), (0, 1), (2, 0), (1, 1), (2, 2)] {
-        let (plate, _) = plate(copies, flipped);
+        let plate = plate(copies, flipped);
         let found = Tally::trace(&plate, &choice, 10.0, &shots);
         // One ray to the plate and one away from it.
         assert_eq!(found.rays, expected.rays, "{copies} {flipped}");
@@ -277,13 +322,16 @@ fn duplicate_and_flipped_triangles_are_hit_once() {
 /// behind it and hit it again, if only a positive distance is asked for.
 #[test]
 fn rebounds_hit_the_surface_that_they_leave_in_the_naive_test_and_not_in_ours() {
-    let (plate, turn) = plate(1, 1);
+    let plate = plate(1, 1);
     let triangles: Vec<Triangle> = plate.scene.surface_triangles(0).collect();
     let mut random = Random(22);
     let mut naive_hits = 0;
     for _ in 0..5000 {
-        let at = turn * (random.vector().component_mul(&Vector3::new(0.04, 0.04, 0.0)));
-        let origin = Point3::from(turn * (Vector3::z() * 0.02 + random.vector() * 0.01));
+        let at = turn()
+            * (random
+                .vector()
+                .component_mul(&Vector3::new(0.04, 0.04, 0.0)));
+        let origin = Point3::from(turn() * (Vector3::z() * 0.02 + random.vector() * 0.01));
         let direction = (at - origin.coords).normalize();
         let ray = Ray { origin, direction };
         let hit = plate.scene.first_hit(&ray, None).unwrap();

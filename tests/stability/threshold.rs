@@ -120,7 +120,10 @@ fn plate(law: &str, divergence: &str) -> Setup {
                 &format!("restitution: 0.25, law: {law} }}"),
             ),
             ("divergence: 0 deg", &format!("divergence: {divergence}")),
-            ("40 uN.s }", "40 uN.s }\n  tangential_impulse: { limit: 0.1 uN.s }"),
+            (
+                "40 uN.s }",
+                "40 uN.s }\n  tangential_impulse: { limit: 0.1 uN.s }",
+            ),
         ],
     ))
 }
@@ -180,7 +183,11 @@ fn a_wide_jet_crosses_the_threshold_shot_by_shot() {
     let naive: Vec<f64> = angles.map(|angle| slope(angle, 1e-6)).collect();
     let typical = naive.iter().filter(|slope| **slope * true_slope < 0.0);
     assert!(typical.count() > 50, "{naive:?}");
-    assert!(naive.iter().any(|slope| slope.abs() > 20.0 * true_slope.abs()));
+    assert!(
+        naive
+            .iter()
+            .any(|slope| slope.abs() > 20.0 * true_slope.abs())
+    );
 }
 
 /// A normal impulse that is reached only at steep angles, and a tangential limit that sticking
