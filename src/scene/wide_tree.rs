@@ -106,7 +106,8 @@ impl Frame {
             skipped = entry(&origin, &inverse, self.reach + grown)?;
             origin += ray.direction * skipped;
         }
-        let backwards = ray.direction.map(|component| component < 0.0);
+        // The sign of the inverse, which tells -0 from 0.
+        let backwards = inverse.map(|component| component < 0.0);
         let axes = [0, 1, 2];
         let moved = |by: f64| {
             axes.map(|axis| {
