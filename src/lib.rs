@@ -62,6 +62,7 @@
 //!
 //! // The complete result, and the sheet for the shop.
 //! let circumstances = Circumstances {
+//!     ladder: &solution.ladder,
 //!     source: &source,
 //!     status: solution.status.into(),
 //!     command: "peenpose solve floor.yaml".into(),

@@ -27,11 +27,11 @@ pub struct Note {
 /// The notes on an answer; `evaluation` is what it does, when that is known.
 pub fn notes(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluation>) -> Vec<Note> {
     let mut notes = vec![
-        size::point_shots(setup),
         flight::gravity(choice),
         flight::drag(setup, choice),
         restitution::note(setup, choice, evaluation),
     ];
+    notes.extend(size::point_shots(setup));
     if setup.problem.tolerance == Default::default() {
         notes.push(Note {
             name: "no_tolerance",

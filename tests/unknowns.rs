@@ -10,7 +10,7 @@ use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::report::sheet;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
-use peenpose::solve::Answer;
+use peenpose::solve::{Answer, Ladder};
 use peenpose::unknowns::{Quantity, Unknowns};
 use peenpose::verdict::{Subject, Verdict};
 
@@ -196,6 +196,7 @@ fn record(case: &Case) -> Record {
         source: &case.source,
         status: StatusRecord::Evaluated,
         command: "peenpose evaluate plate.yaml".into(),
+        ladder: &Ladder::of(&case.setup),
         work: WorkRecord {
             poses: 1,
             shots_per_pose: 4096,

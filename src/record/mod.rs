@@ -3,6 +3,7 @@
 //! Angles are in degrees, everything else is SI, and every key ends with its unit.
 
 mod answer;
+mod model;
 mod question;
 mod unknowns;
 mod window;
@@ -11,6 +12,7 @@ pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
     SpreadRecord, TargetRecord, VerdictRecord,
 };
+pub use model::{ModelRecord, RungRecord};
 pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use unknowns::{EffectRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord};
 pub use window::{DriftRecord, WindowRecord};
@@ -19,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::problem::Source;
 use crate::setup::Setup;
-use crate::solve::{Answer, Status, Window};
+use crate::solve::{Answer, Ladder, Status, Window};
 use crate::unknowns::Unknowns;
 use crate::validity::Note;
 
@@ -36,6 +38,9 @@ pub struct Record {
     pub windows: Vec<WindowRecord>,
     /// The best settings of each contact, best first.
     pub choices: Vec<AnswerRecord>,
+    /// Which effects were searched with, and what each of them does.
+    #[serde(default)]
+    pub model: ModelRecord,
     /// What was left out.
     pub notes: Vec<NoteRecord>,
     /// What restitution and friction do at the ends of their ranges; absent where they are known.
@@ -120,6 +125,8 @@ pub struct Circumstances<'a> {
     pub status: StatusRecord,
     /// The command that gives the same answer again.
     pub command: String,
+    /// Which effects were searched with.
+    pub ladder: &'a Ladder,
     /// Work done.
     pub work: WorkRecord,
 }
@@ -147,6 +154,7 @@ impl Record {
                 .map(|window| WindowRecord::new(setup, window))
                 .collect(),
             choices,
+            model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
             work: circumstances.work,

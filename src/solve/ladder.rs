@@ -67,9 +67,17 @@ const DESCENT_SETTLED: f64 = 0.3;
 /// Share of the accuracy by which leaving out effects may change J or worsen the best settings.
 const TOLERABLE: f64 = 0.5;
 /// What shots for verdicts are drawn for.
-const VERDICTS: u32 = 2;
+const VERDICTS: u32 = 3;
 
 impl Ladder {
+    /// Nothing was measured yet.
+    pub fn of(setup: &Setup) -> Self {
+        Self {
+            model: setup.problem.model.clone(),
+            ..Self::default()
+        }
+    }
+
     /// The effects that the search does without.
     pub fn left_out(&self) -> Vec<Effect> {
         let left_out = self.rungs.iter().filter(|rung| rung.left_out);
@@ -230,15 +238,14 @@ impl<'a> Bench<'a> {
         let changes = self.changes(&reduced);
         let [whole, fewer] = common_shots(self.setup, &reduced, DESCENT_SHOTS);
         let best_with = self.best;
-        let is_idle = changes.iter().all(|change| *change == 0.0);
-        let best_without = if is_idle {
-            best_with
-        } else {
-            let Self {
-                effort, control, ..
-            } = self;
-            descend(&reduced, &self.leading[0], &fewer, effort, control)
-        };
+        // An effect that does nothing here may be the cliff that the best settings keep away from.
+        let best_without = descend(
+            &reduced,
+            &self.leading[0],
+            &fewer,
+            self.effort,
+            self.control,
+        );
         let [without, with] =
             [&best_without, &best_with].map(|choice| objective(self.setup, choice, &whole));
         let before = self.passes.iter();

@@ -7,8 +7,7 @@ use super::control::Control;
 use super::judge::Effort;
 use super::ladder::{Ladder, common_shots, objective};
 use super::search::Search;
-use crate::problem::model::{Effect, Model};
-use crate::problem::setting::{Choice, Setting};
+use crate::problem::model::Model;
 use crate::setup::Setup;
 
 /// The models of one problem.
@@ -24,15 +23,12 @@ pub(super) struct Models<'a> {
 
 impl<'a> Models<'a> {
     pub fn new(whole: &'a Setup) -> Self {
-        let asked = whole.without(&unasked(whole), &middle(whole));
+        let asked = whole.as_asked();
         Self {
             whole,
             searched: asked.clone(),
             asked,
-            ladder: Ladder {
-                model: whole.problem.model.clone(),
-                ..Ladder::default()
-            },
+            ladder: Ladder::of(whole),
         }
     }
 
@@ -46,7 +42,7 @@ impl<'a> Models<'a> {
 
     /// Measures what the effects do that were not asked for.
     pub fn measure_unasked(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
-        let unasked = unasked(self.whole);
+        let unasked = self.whole.unasked();
         if !unasked.is_empty() {
             self.ladder.climb(self.whole, searches, effort, control);
             self.ladder.mark(&unasked);
@@ -103,33 +99,3 @@ impl<'a> Models<'a> {
 /// J of a candidate with the model that is searched and with the one that is asked for; `None`
 /// where the nozzle does not fit.
 pub(super) type Claim = Option<(f64, f64)>;
-
-/// The effects that a problem has and that its model does not name.
-fn unasked(setup: &Setup) -> Vec<Effect> {
-    let Model::Only(named) = &setup.problem.model else {
-        return Vec::new();
-    };
-    let effects = setup.problem.effects().into_iter();
-    effects.filter(|effect| !named.contains(effect)).collect()
-}
-
-/// The middle of all settings.
-fn middle(setup: &Setup) -> Choice {
-    let settings = &setup.problem.settings;
-    let anywhere = Choice {
-        incidence: 0.0,
-        azimuth: 0.0,
-        standoff: 0.0,
-        speed: 0.0,
-        aim_along: 0.0,
-        aim_across: 0.0,
-        contact: 0,
-        static_friction: 0.0,
-    };
-    let settings = Setting::OF_THE_NOZZLE
-        .into_iter()
-        .filter_map(|setting| Some((setting, settings.range(setting)?)));
-    settings.fold(anywhere, |choice, (setting, range)| {
-        setting.with(&choice, range.at(0.5))
-    })
-}

@@ -18,17 +18,18 @@ const FACING: f64 = 10.0 / 180.0 * std::f64::consts::PI;
 /// Chords that stand in for arcs where gaps are measured turn by at most this angle.
 const CHORD_ANGLE: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 
-pub(super) fn point_shots(setup: &Setup) -> Note {
+/// Shots that fly as points.
+pub(super) fn point_shots(setup: &Setup) -> Option<Note> {
     let radius = setup.problem.shot.radius;
-    Note {
+    (!setup.problem.paths.shot_size).then(|| Note {
         name: "point_shots",
         value: radius,
         text: format!(
-            "shots fly as points: a real one touches a wall {:.3} mm before its centre would, which \
-             matters where that is not small against the groove",
+            "shots fly as points, as the file asks: a real one touches a wall {:.3} mm before its centre \
+             would, which matters where that is not small against the groove",
             radius * 1e3
         ),
-    }
+    })
 }
 
 /// Shots that are too large for the smallest fillet of the part that holds the target.

@@ -10,7 +10,7 @@ use peenpose::problem::fault::nearest_name;
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{ANSWERS, Answer, clearance_violation};
+use peenpose::solve::{ANSWERS, Answer, Ladder, clearance_violation};
 use peenpose::units::{self, Dimension};
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
@@ -29,6 +29,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
     }
+    let setup = setup.as_asked();
     let choice = choice(args, &setup.problem)?;
     let fresh = Replicates::new(&setup.problem, ANSWERS, args.shots as usize);
     let evaluation = peenpose::evaluate::evaluate(&setup, &choice, &fresh);
@@ -43,6 +44,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         source: &source,
         status: StatusRecord::Evaluated,
         command: command(args, &setup, &choice),
+        ladder: &Ladder::of(&setup),
         work: WorkRecord {
             poses: 1,
             shots_per_pose: fresh.shots(),

@@ -33,6 +33,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         ..Control::default()
     };
     let solution = solve(&setup, &control);
+    let setup = setup.as_asked();
     let windows = passing_windows(&setup, &solution);
     watcher.finish();
     let best = solution
@@ -46,6 +47,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         source: &source,
         status: solution.status.into(),
         command: command(args, &setup),
+        ladder: &solution.ladder,
         work: WorkRecord {
             poses: solution.poses,
             shots_per_pose: solution.shots_per_pose,

@@ -5,6 +5,7 @@ mod cause;
 mod closing;
 mod contacts;
 mod headline;
+mod model;
 mod objective;
 mod received;
 mod scatter;
@@ -20,7 +21,7 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 14] = [
+    let blocks: [Option<Block>; 15] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best),
@@ -33,6 +34,7 @@ pub fn sheet(record: &Record) -> String {
         objective::block(best),
         contacts::block(record),
         closing::validity(record),
+        model::block(record),
         Some(closing::reproduce(record)),
         Some(closing::work(record)),
     ];
