@@ -83,7 +83,7 @@ fn spheres_in_a_closed_room_touch_what_a_search_finds() {
     let mut random = Random(11);
     for (chord_angle, radius) in [(0.8, 0.15), (0.1, 0.05), (0.02, 0.25), (0.1, 0.45)] {
         let touches = compare(&room(chord_angle), radius, 300, &mut random);
-        assert!(touches > 300, "{radius}: {touches}");
+        assert!(touches > 200, "{radius}: {touches}");
     }
     let block = tessellate::block(Point3::new(-1.0, -0.5, -0.25), Point3::new(1.0, 0.5, 0.25));
     for radius in [1e-3, 0.2, 3.0] {
