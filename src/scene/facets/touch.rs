@@ -129,7 +129,7 @@ impl Search<'_> {
                 let lane = lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
                 let index = bundle.triangles()[lane];
-                if self.left == Some(index) || reached.enters[lane] > cost {
+                if reached.enters[lane] > cost {
                     continue;
                 }
                 let near = near >> lane & 1 == 1;
@@ -160,17 +160,20 @@ impl Search<'_> {
     ) -> Option<Touch> {
         let (plate, folds) = plates.plate(lane, self.facets.corners(index));
         let folds = if self.all_folds { Folds::ALL } else { folds };
-        if near {
-            match self.sphere.placed(&plate, folds) {
-                Placed::Apart => {}
-                Placed::Touching(touch) => return touch,
-                Placed::Overlapping => {
-                    self.overlaps |= !self.all_folds;
-                    return None;
-                }
-            }
+        let placed = if near {
+            self.sphere.placed(&plate, folds)
+        } else {
+            Placed::Apart
+        };
+        self.overlaps |= matches!(placed, Placed::Overlapping);
+        if self.left == Some(index) {
+            return None;
         }
-        self.sphere.touch(&plate, folds, limit)
+        match placed {
+            Placed::Apart => self.sphere.touch(&plate, folds, limit),
+            Placed::Touching(touch) => touch,
+            Placed::Overlapping => None,
+        }
     }
 }
 
