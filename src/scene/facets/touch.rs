@@ -201,7 +201,7 @@ fn plate(corners: [Point3<f64>; 3], vertices: [u32; 3], flat: f64) -> Plate {
         Vector3::zeros()
     };
     let clear = has_plane && tilt * lengths[longest] <= flat;
-    let plate = Plate {
+    Plate {
         corners,
         normal,
         clear,
@@ -210,8 +210,7 @@ fn plate(corners: [Point3<f64>; 3], vertices: [u32; 3], flat: f64) -> Plate {
             let backwards = vertices[corner] > vertices[(corner + 1) % 3];
             bits | u8::from(backwards) << corner
         }),
-    };
-    plate
+    }
 }
 
 /// Triangles whose normals may be off by more than this (rad) have no plane.

@@ -162,7 +162,8 @@ impl<'a> Sphere<'a> {
             let inside = (self.ray.origin - plate.corners[edge]).dot(inward);
             let faster = self.ray.direction.dot(inward);
             let least = (inside + faster * from).min(inside + faster * to);
-            if !(least > self.slack) {
+            let stays_inside = least > self.slack;
+            if !stays_inside {
                 passed |= bits;
             }
         }
@@ -211,7 +212,8 @@ impl<'a> Sphere<'a> {
         // The distance between the two lines is that of their common perpendicular.
         let passing = start.dot(&both);
         let within = self.radius * self.radius * sine_squared - passing * passing;
-        if !(within > 0.0) {
+        let comes_within = within > 0.0;
+        if !comes_within {
             return None;
         }
         let across = start - along * start.dot(&along);
@@ -232,7 +234,8 @@ impl<'a> Sphere<'a> {
         let nearest = -start.dot(&self.ray.direction);
         let passing = start + self.ray.direction * nearest;
         let within = self.radius * self.radius - passing.norm_squared();
-        if !(within > 0.0) {
+        let comes_within = within > 0.0;
+        if !comes_within {
             return None;
         }
         self.settle(nearest - within.sqrt(), |centre| centre - corner)
@@ -248,7 +251,8 @@ impl<'a> Sphere<'a> {
         let there = at(distance);
         let gap = there.norm() - self.radius;
         let sinking = -self.ray.direction.dot(&there) / there.norm();
-        if !(sinking > HEADING_IN) {
+        let heads_in = sinking > HEADING_IN;
+        if !heads_in {
             return None;
         }
         let distance = distance + gap / sinking;

@@ -69,7 +69,7 @@ fn dot(a: &[f64x4; 3], b: &[f64x4; 3]) -> f64x4 {
 }
 
 impl Plates {
-    pub fn new(ready: &[Ready]) -> Self {
+    pub(super) fn new(ready: &[Ready]) -> Self {
         let mut plates = Self {
             normal: [f64x4::ZERO; 3],
             height: f64x4::ZERO,
@@ -104,7 +104,7 @@ impl Plates {
 
     /// One of the triangles, given its corners.
     #[inline(always)]
-    pub fn plate(&self, lane: usize, corners: [Point3<f64>; 3]) -> (Plate, Folds) {
+    pub(super) fn plate(&self, lane: usize, corners: [Point3<f64>; 3]) -> (Plate, Folds) {
         let of = |wide: &[f64x4; 3]| {
             Vector3::new(
                 wide[0].as_array()[lane],
@@ -129,7 +129,7 @@ impl Plates {
     /// Which triangles the sphere may touch within `limit`; with `all_folds` any edge and corner
     /// may be touched.
     #[inline(always)]
-    pub fn reached(&self, sphere: &WideSphere, limit: f64, all_folds: bool) -> Reached {
+    pub(super) fn reached(&self, sphere: &WideSphere, limit: f64, all_folds: bool) -> Reached {
         let (zero, slack) = (f64x4::ZERO, sphere.slack);
         let reach = sphere.radius + slack;
         let height = dot(&self.normal, &sphere.origin) - self.height;
@@ -173,9 +173,9 @@ impl Plates {
             let inside = dot(&self.inward[edge], &sphere.origin) - self.begin[edge];
             let faster = dot(&self.inward[edge], &sphere.direction);
             let past = (inside + faster * from).fast_max(inside + faster * to);
-            on_edges = on_edges & past.simd_ge(-reach);
+            on_edges &= past.simd_ge(-reach);
             let past = (inside + faster * face_first).fast_max(inside + faster * face_last);
-            on_face = on_face & past.simd_ge(-sphere.margin);
+            on_face &= past.simd_ge(-sphere.margin);
         }
         let touched = in_time & (on_face | on_edges);
         // A plane that is not clear says nothing about when.
