@@ -26,6 +26,10 @@ impl Facets {
     /// A triangle that the sphere touches or overlaps at its start is hit at once if the centre
     /// heads towards it, and never otherwise: the distance to it, a convex body, then only grows.
     /// The piece of `leaving`, if it is `on_this_part`, is not hit at all.
+    #[cfg_attr(
+        not(test),
+        expect(dead_code, reason = "shots of finite size are not traced yet")
+    )]
     pub fn first_touch(
         &self,
         ray: &Ray,
@@ -64,21 +68,15 @@ impl Facets {
 
     fn build_plates(&self) -> Vec<Plates> {
         let flat = LIFT * self.slack;
-        let shapes: Vec<(Plate, bool)> = (0..self.count() as u32)
+        let shapes: Vec<Plate> = (0..self.count() as u32)
             .into_par_iter()
             .map(|index| plate(self.corners(index), self.corners[index as usize], flat))
             .collect();
-        let clear: Vec<bool> = shapes.iter().map(|(_, clear)| *clear).collect();
+        let clear: Vec<bool> = shapes.iter().map(|plate| plate.clear).collect();
         let folds = folds::folds(&self.vertices, &self.corners, &clear, flat);
-        let ready = |&index: &u32| {
-            let index = index as usize;
-            let (plate, clear) = shapes[index];
-            let folds = folds[index];
-            Ready {
-                plate,
-                folds,
-                clear,
-            }
+        let ready = |&index: &u32| Ready {
+            plate: shapes[index as usize],
+            folds: folds[index as usize],
         };
         let bundles = self.bundles.par_iter();
         let plates = bundles.map(|bundle| {
@@ -131,11 +129,11 @@ impl Search<'_> {
                 let lane = lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
                 let index = bundle.triangles()[lane];
-                if self.left == Some(index) {
+                if reached.enters[lane] > cost {
                     continue;
                 }
-                let touch = self.touch(plates, lane, index, near >> lane & 1 == 1);
-                if let Some(touch) = touch {
+                let near = near >> lane & 1 == 1;
+                if let Some(touch) = self.touch(plates, lane, index, near, cost) {
                     let farther = if touch.on_face { 0.0 } else { slack };
                     let other = touch.distance + farther;
                     let first = best.as_ref().is_none_or(|best| index < best.index);
@@ -150,26 +148,38 @@ impl Search<'_> {
         best
     }
 
-    fn touch(&mut self, plates: &Plates, lane: usize, index: u32, near: bool) -> Option<Touch> {
+    /// Where the sphere touches a triangle; it need not be told of touches beyond `limit`.
+    #[inline(always)]
+    fn touch(
+        &mut self,
+        plates: &Plates,
+        lane: usize,
+        index: u32,
+        near: bool,
+        limit: f64,
+    ) -> Option<Touch> {
         let (plate, folds) = plates.plate(lane, self.facets.corners(index));
         let folds = if self.all_folds { Folds::ALL } else { folds };
-        if near {
-            match self.sphere.placed(&plate, folds) {
-                Placed::Apart => {}
-                Placed::Touching(touch) => return touch,
-                Placed::Overlapping => {
-                    self.overlaps |= !self.all_folds;
-                    return None;
-                }
-            }
+        let placed = if near {
+            self.sphere.placed(&plate, folds)
+        } else {
+            Placed::Apart
+        };
+        self.overlaps |= matches!(placed, Placed::Overlapping);
+        if self.left == Some(index) {
+            return None;
         }
-        self.sphere.touch(&plate, folds)
+        match placed {
+            Placed::Apart => self.sphere.touch(&plate, folds, limit),
+            Placed::Touching(touch) => touch,
+            Placed::Overlapping => None,
+        }
     }
 }
 
-/// A triangle as spheres meet it, and whether rounding moves its plane by less than `flat` (m) at
-/// its corners.
-fn plate(corners: [Point3<f64>; 3], vertices: [u32; 3], flat: f64) -> (Plate, bool) {
+/// A triangle as spheres meet it, clear if rounding moves its plane by less than `flat` (m) at its
+/// corners.
+fn plate(corners: [Point3<f64>; 3], vertices: [u32; 3], flat: f64) -> Plate {
     let edges = [0, 1, 2].map(|corner| corners[(corner + 1) % 3] - corners[corner]);
     let lengths = edges.map(|edge| edge.norm());
     // The two shorter edges tell the plane best.
@@ -190,16 +200,17 @@ fn plate(corners: [Point3<f64>; 3], vertices: [u32; 3], flat: f64) -> (Plate, bo
     } else {
         Vector3::zeros()
     };
-    let plate = Plate {
+    let clear = has_plane && tilt * lengths[longest] <= flat;
+    Plate {
         corners,
         normal,
+        clear,
         inward: edges.map(|edge| normal.cross(&edge).try_normalize(0.0).unwrap_or_default()),
         backwards: (0..3).fold(0, |bits, corner| {
             let backwards = vertices[corner] > vertices[(corner + 1) % 3];
             bits | u8::from(backwards) << corner
         }),
-    };
-    (plate, has_plane && tilt * lengths[longest] <= flat)
+    }
 }
 
 /// Triangles whose normals may be off by more than this (rad) have no plane.

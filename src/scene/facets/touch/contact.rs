@@ -22,6 +22,8 @@ pub(super) struct Plate {
     /// Bit i tells to compute with edge i from its end, so that both triangles at an edge compute
     /// the same.
     pub backwards: u8,
+    /// Whether rounding leaves it a plane to judge by.
+    pub clear: bool,
 }
 
 /// A sphere whose centre moves along a ray.
@@ -101,8 +103,10 @@ impl<'a> Sphere<'a> {
         }))
     }
 
-    /// Where the sphere, which starts apart from it, touches a triangle.
-    pub fn touch(&self, plate: &Plate, folds: Folds) -> Option<Touch> {
+    /// Where the sphere, which starts apart from it, touches a triangle; it may miss touches beyond
+    /// `limit`.
+    #[inline(always)]
+    pub fn touch(&self, plate: &Plate, folds: Folds, limit: f64) -> Option<Touch> {
         let height = plate.height(&self.ray.origin);
         let approach = self.ray.direction.dot(&plate.normal);
         if let Some(touch) = self.touch_face(plate, height, approach) {
@@ -122,20 +126,48 @@ impl<'a> Sphere<'a> {
             }
         };
         let either = folds.front | folds.behind;
+        if either == 0 {
+            return None;
+        }
+        let passed = self.passed(plate, height, approach, limit);
         for bit in 0..3 {
-            if either >> bit & 1 == 1 {
+            if (either & passed) >> bit & 1 == 1 {
                 let (from, to) = plate.edge(bit);
                 if let Some(touch) = self.touch_edge(from, to) {
                     consider(bit, touch);
                 }
             }
-            if either >> (bit + 3) & 1 == 1
+            if (either & passed) >> (bit + 3) & 1 == 1
                 && let Some(touch) = self.touch_corner(plate.corners[bit as usize])
             {
                 consider(bit + 3, touch);
             }
         }
         first
+    }
+
+    /// The edges, and the corners at them, that the centre is not always on the inner side of while
+    /// it may touch the triangle: where it touches them, it is not.
+    fn passed(&self, plate: &Plate, height: f64, approach: f64, limit: f64) -> u8 {
+        if !plate.clear {
+            return Folds::ALL.front;
+        }
+        let gap = height.abs() - self.radius - self.slack;
+        let sinking = -approach * height.signum();
+        let from = if gap > 0.0 { gap / sinking } else { 0.0 };
+        let to = limit.min(FARTHEST);
+        let mut passed = 0;
+        for (edge, bits) in [0b01_1001, 0b11_0010, 0b10_1100].into_iter().enumerate() {
+            let inward = &plate.inward[edge];
+            let inside = (self.ray.origin - plate.corners[edge]).dot(inward);
+            let faster = self.ray.direction.dot(inward);
+            let least = (inside + faster * from).min(inside + faster * to);
+            let stays_inside = least > self.slack;
+            if !stays_inside {
+                passed |= bits;
+            }
+        }
+        passed
     }
 
     /// Past an edge by at most this the face still counts, so that no sphere slips between two
@@ -180,7 +212,8 @@ impl<'a> Sphere<'a> {
         // The distance between the two lines is that of their common perpendicular.
         let passing = start.dot(&both);
         let within = self.radius * self.radius * sine_squared - passing * passing;
-        if !(within > 0.0) {
+        let comes_within = within > 0.0;
+        if !comes_within {
             return None;
         }
         let across = start - along * start.dot(&along);
@@ -201,7 +234,8 @@ impl<'a> Sphere<'a> {
         let nearest = -start.dot(&self.ray.direction);
         let passing = start + self.ray.direction * nearest;
         let within = self.radius * self.radius - passing.norm_squared();
-        if !(within > 0.0) {
+        let comes_within = within > 0.0;
+        if !comes_within {
             return None;
         }
         self.settle(nearest - within.sqrt(), |centre| centre - corner)
@@ -217,7 +251,8 @@ impl<'a> Sphere<'a> {
         let there = at(distance);
         let gap = there.norm() - self.radius;
         let sinking = -self.ray.direction.dot(&there) / there.norm();
-        if !(sinking > HEADING_IN) {
+        let heads_in = sinking > HEADING_IN;
+        if !heads_in {
             return None;
         }
         let distance = distance + gap / sinking;
@@ -225,6 +260,9 @@ impl<'a> Sphere<'a> {
         (distance >= 0.0).then_some((distance, normal))
     }
 }
+
+/// Stands for no limit, so that 0 times it stays 0.
+pub(super) const FARTHEST: f64 = 1e30;
 
 /// Spheres that start this many slacks nearer than their radius overlap a triangle; after a rebound
 /// they are nearer by rounding only, or by what faces that count as one differ.

@@ -145,8 +145,9 @@ fn sides(
         return Sides::default();
     }
     // Written so that what is not a number counts as standing out.
+    let (hollow_in_front, hollow_behind) = (sine >= CLEAR_FOLD, sine <= -CLEAR_FOLD);
     Sides {
-        front: !(sine >= CLEAR_FOLD),
-        behind: !(sine <= -CLEAR_FOLD),
+        front: !hollow_in_front,
+        behind: !hollow_behind,
     }
 }

@@ -4,7 +4,7 @@
 use nalgebra::{Point3, Vector3};
 use wide::f64x4;
 
-use super::contact::{Plate, Sphere};
+use super::contact::{FARTHEST, Plate, Sphere};
 use super::folds::Folds;
 
 /// The planes of one to four triangles and of their edges.
@@ -29,8 +29,6 @@ pub(in crate::scene::facets) struct Plates {
 pub(super) struct Ready {
     pub plate: Plate,
     pub folds: Folds,
-    /// Whether its plane may be judged by.
-    pub clear: bool,
 }
 
 /// A [`Sphere`] for four triangles at once.
@@ -61,6 +59,8 @@ pub(super) struct Reached {
     pub touched: u32,
     /// Whether their planes are in reach from the start.
     pub near: u32,
+    /// How far the centre travels at least before it may touch each, m.
+    pub enters: [f64; 4],
 }
 
 #[inline(always)]
@@ -69,7 +69,7 @@ fn dot(a: &[f64x4; 3], b: &[f64x4; 3]) -> f64x4 {
 }
 
 impl Plates {
-    pub fn new(ready: &[Ready]) -> Self {
+    pub(super) fn new(ready: &[Ready]) -> Self {
         let mut plates = Self {
             normal: [f64x4::ZERO; 3],
             height: f64x4::ZERO,
@@ -80,15 +80,7 @@ impl Plates {
             backwards: [0; 4],
             unclear: 0,
         };
-        for (
-            lane,
-            Ready {
-                plate,
-                folds,
-                clear,
-            },
-        ) in ready.iter().enumerate()
-        {
+        for (lane, Ready { plate, folds }) in ready.iter().enumerate() {
             let first = plate.corners[0].coords;
             plates.height.as_mut_array()[lane] = plate.normal.dot(&first);
             for axis in 0..3 {
@@ -105,14 +97,14 @@ impl Plates {
             plates.folded[1].as_mut_array()[lane] = f64::from(folds.behind);
             plates.folds[lane] = *folds;
             plates.backwards[lane] = plate.backwards;
-            plates.unclear |= u32::from(!clear) << lane;
+            plates.unclear |= u32::from(!plate.clear) << lane;
         }
         plates
     }
 
     /// One of the triangles, given its corners.
     #[inline(always)]
-    pub fn plate(&self, lane: usize, corners: [Point3<f64>; 3]) -> (Plate, Folds) {
+    pub(super) fn plate(&self, lane: usize, corners: [Point3<f64>; 3]) -> (Plate, Folds) {
         let of = |wide: &[f64x4; 3]| {
             Vector3::new(
                 wide[0].as_array()[lane],
@@ -129,6 +121,7 @@ impl Plates {
                 of(&self.inward[2]),
             ],
             backwards: self.backwards[lane],
+            clear: self.unclear >> lane & 1 == 0,
         };
         (plate, self.folds[lane])
     }
@@ -136,7 +129,7 @@ impl Plates {
     /// Which triangles the sphere may touch within `limit`; with `all_folds` any edge and corner
     /// may be touched.
     #[inline(always)]
-    pub fn reached(&self, sphere: &WideSphere, limit: f64, all_folds: bool) -> Reached {
+    pub(super) fn reached(&self, sphere: &WideSphere, limit: f64, all_folds: bool) -> Reached {
         let (zero, slack) = (f64x4::ZERO, sphere.slack);
         let reach = sphere.radius + slack;
         let height = dot(&self.normal, &sphere.origin) - self.height;
@@ -152,6 +145,15 @@ impl Plates {
         // to the far side, or back to the near side.
         let gap = height - reach;
         let enters = (gap * inverse).fast_max(zero);
+        let limit = f64x4::splat(limit.min(FARTHEST));
+        let in_time = (near | sinks) & enters.simd_le(limit);
+        if in_time.to_bitmask() == 0 {
+            return Reached {
+                touched: self.unclear,
+                near: self.unclear,
+                enters: [0.0; 4],
+            };
+        }
         let leaves = sinks.select(height + reach, -gap) * inverse;
         let all = f64x4::splat(f64::from(u8::from(all_folds)));
         let here = (in_front.select(self.folded[0], self.folded[1]) + all).simd_gt(zero);
@@ -159,7 +161,6 @@ impl Plates {
         let crosses_first = (height - slack) * inverse;
         let crosses_last = (height + slack) * inverse;
         let from = here.select(enters, crosses_first.fast_max(zero));
-        let limit = f64x4::splat(limit.min(FARTHEST));
         let to = (beyond | !sinks)
             .select(leaves, crosses_last)
             .fast_min(limit);
@@ -172,18 +173,17 @@ impl Plates {
             let inside = dot(&self.inward[edge], &sphere.origin) - self.begin[edge];
             let faster = dot(&self.inward[edge], &sphere.direction);
             let past = (inside + faster * from).fast_max(inside + faster * to);
-            on_edges = on_edges & past.simd_ge(-reach);
+            on_edges &= past.simd_ge(-reach);
             let past = (inside + faster * face_first).fast_max(inside + faster * face_last);
-            on_face = on_face & past.simd_ge(-sphere.margin);
+            on_face &= past.simd_ge(-sphere.margin);
         }
-        let in_time = (near | sinks) & enters.simd_le(limit);
         let touched = in_time & (on_face | on_edges);
+        // A plane that is not clear says nothing about when.
+        let enters = if self.unclear == 0 { enters } else { zero };
         Reached {
+            enters: enters.to_array(),
             touched: touched.to_bitmask() | self.unclear,
             near: near.to_bitmask() | self.unclear,
         }
     }
 }
-
-/// Stands for no limit, so that 0 times it stays 0.
-const FARTHEST: f64 = 1e30;
