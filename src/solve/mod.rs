@@ -69,7 +69,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let asked = models.asked.clone();
     let answer = |search: &Search| Answer::of(&asked, search.best(), &fresh, &effort);
     let mut claims = models.claims(&searches, shots);
-    while models.put_back(&mut searches, &claims) && !control.is_stopped() {
+    while models.put_back(&mut searches, &claims, &effort, control) && !control.is_stopped() {
         refine(
             &models.searched,
             &mut searches,

@@ -51,7 +51,13 @@ impl<'a> Models<'a> {
 
     /// Puts back the effect that matters most, when the whole model disagrees with the one that
     /// is searched about J by more than the accuracy; returns whether it did.
-    pub fn put_back(&mut self, searches: &mut [Search], claims: &[Claim]) -> bool {
+    pub fn put_back(
+        &mut self,
+        searches: &mut [Search],
+        claims: &[Claim],
+        effort: &Effort,
+        control: &Control,
+    ) -> bool {
         let least = least_objective(searches);
         let accuracy = self.asked.problem.accuracy;
         let disagrees = |(search, claim): (&Search, &Claim)| {
@@ -61,7 +67,7 @@ impl<'a> Models<'a> {
         };
         let must = searches.iter().zip(claims).any(disagrees);
         if must {
-            self.ladder.put_back();
+            self.ladder.put_back(&self.asked, searches, effort, control);
             self.reduce(searches);
         }
         must

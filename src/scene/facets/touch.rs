@@ -26,10 +26,6 @@ impl Facets {
     /// A triangle that the sphere touches or overlaps at its start is hit at once if the centre
     /// heads towards it, and never otherwise: the distance to it, a convex body, then only grows.
     /// The piece of `leaving`, if it is `on_this_part`, is not hit at all.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "shots of finite size are not traced yet")
-    )]
     pub fn first_touch(
         &self,
         ray: &Ray,
