@@ -62,7 +62,16 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let answer = |search: &Search| Answer::of(setup, search.best(), &fresh, &effort);
     let mut answers: Vec<Answer> = searches.par_iter().map(answer).collect();
     let accuracy = setup.problem.accuracy;
-    let mut open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);
+    let unsettled = |searches: &[Search], answers: &[Answer], shots: usize| {
+        unsettled(
+            searches,
+            answers,
+            &setup.problem,
+            shots,
+            control.fresh_shots,
+        )
+    };
+    let mut open = unsettled(&searches, &answers, shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         let samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
@@ -82,7 +91,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
             answers[index] = found;
         }
         tell(control, &effort, &searches);
-        open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);
+        open = unsettled(&searches, &answers, shots);
     }
     answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
     let status = match answers.first() {
