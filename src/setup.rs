@@ -2,11 +2,14 @@
 
 use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::impact::Contact;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
+use crate::problem::model::Effect;
 use crate::problem::part::{Part, Target};
+use crate::problem::setting::Choice;
 use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
 use crate::scene::{Scene, Walls};
@@ -17,7 +20,7 @@ pub struct Setup {
     /// What was asked.
     pub problem: Problem,
     /// What is there.
-    pub scene: Scene,
+    pub scene: Arc<Scene>,
     /// What is to be peened.
     pub target: Patch,
     /// One for each surface of the scene.
@@ -35,6 +38,8 @@ pub struct SurfaceLimits {
     pub weight: f64,
     /// Its own contact, whatever contact is chosen.
     pub contact: Option<Contact>,
+    /// Standard deviation of the tilt of its normal about each direction in it, rad.
+    pub roughness: f64,
     /// Whether hits on it belong to the flight.
     pub deflector: bool,
 }
@@ -83,11 +88,39 @@ impl Setup {
         }
     }
 
+    /// The same without some effects; what depends on the speed becomes what it is at a choice.
+    #[must_use]
+    pub fn without(&self, effects: &[Effect], choice: &Choice) -> Self {
+        let mut reduced = self.clone();
+        let normal_speed = choice.speed * choice.incidence.sin();
+        for effect in effects {
+            effect.remove_from(&mut reduced.problem, normal_speed);
+        }
+        for surface in &mut reduced.surfaces {
+            if effects.contains(&Effect::Roughness) {
+                surface.roughness = 0.0;
+            }
+            if effects.contains(&Effect::FallingRestitution)
+                && let Some(contact) = &mut surface.contact
+            {
+                contact.restitution = contact.restitution.held_at(normal_speed);
+            }
+        }
+        reduced
+    }
+
+    /// The contact of the mean shot with a surface of the scene: its own one, or the chosen one.
+    pub fn contact_on(&self, surface: u32, choice: &Choice) -> Contact {
+        self.surfaces[surface as usize]
+            .contact
+            .unwrap_or_else(|| self.problem.contacts[choice.contact].at(choice.static_friction))
+    }
+
     fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
         let surfaces = surface_limits(&problem, &scene, target.surface)?;
         Ok(Self {
             problem,
-            scene,
+            scene: Arc::new(scene),
             target,
             surfaces,
         })
@@ -171,6 +204,7 @@ fn surface_limits(
         share: rebound.map_or(DEFAULT_REBOUND_SHARE, |goal| goal.share),
         weight: rebound.map_or(1.0, |goal| goal.weight),
         contact: None,
+        roughness: 0.0,
         deflector: false,
     };
     let mut limits = vec![usual; scene.surfaces().len()];
@@ -188,6 +222,7 @@ fn surface_limits(
                     share: rule.share.unwrap_or(usual.share),
                     weight: rule.weight.unwrap_or(usual.weight),
                     contact: rule.contact,
+                    roughness: rule.roughness,
                     deflector: rule.role == Role::Deflector,
                 };
             }

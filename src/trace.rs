@@ -25,6 +25,8 @@ pub struct Tracer<'a> {
     speed: f64,
     /// Of the mean shot, kg.
     mass: f64,
+    /// Of the mean shot in flight, m; 0 where shots fly as points.
+    radius: f64,
     has_deflectors: bool,
     /// The pose that is asked for.
     pose: Pose,
@@ -101,6 +103,11 @@ impl<'a> Tracer<'a> {
             contact,
             speed,
             mass: setup.problem.shot.mass(),
+            radius: if setup.problem.paths.shot_size {
+                setup.problem.shot.radius
+            } else {
+                0.0
+            },
         }
     }
 
@@ -123,7 +130,8 @@ impl<'a> Tracer<'a> {
     ) -> (End, usize) {
         let setup = self.setup;
         let limits = setup.problem.paths;
-        let mass = self.mass * deviate.mass;
+        let mass = self.mass * deviate.mass();
+        let radius = self.radius * deviate.size;
         let mut ray = start;
         let mut velocity = ray.direction * (self.speed * deviate.speed);
         let mut rolling = Vector3::zeros();
@@ -132,7 +140,12 @@ impl<'a> Tracer<'a> {
         let (mut number, mut deflections, mut rays) = (0, 0, 0);
         loop {
             rays += 1;
-            let Some(hit) = setup.scene.first_hit(&ray, leaving) else {
+            let met = if radius > 0.0 {
+                setup.scene.first_touch(&ray, radius, leaving)
+            } else {
+                setup.scene.first_hit(&ray, leaving)
+            };
+            let Some(hit) = met else {
                 return (End::Left, rays);
             };
             let surface = &setup.surfaces[hit.surface as usize];
@@ -166,8 +179,11 @@ impl<'a> Tracer<'a> {
             if number == limits.impacts || deflections == MOST_DEFLECTIONS {
                 return (End::Limit, rays);
             }
+            if !limits.spin {
+                rolling = Vector3::zeros();
+            }
             ray = Ray {
-                origin: hit.point,
+                origin: hit.point + hit.normal * radius,
                 direction: unit(velocity.into()).into(),
             };
             leaving = Some(hit.spot);

@@ -551,7 +551,7 @@ fn scatter_is_normal_and_cut_at_two_deviations() {
     let variance = 1.0 - 4.0 * 0.053_990_966_513_188 / 0.954_499_736_103_642;
     with_both(&problem, |samples| {
         let speed = |d: &Deviate| (d.speed - 1.0) / 0.05;
-        let size = |d: &Deviate| (d.mass.cbrt() - 1.0) / 0.02;
+        let size = |d: &Deviate| (d.size - 1.0) / 0.02;
         for deviate in &samples.deviates {
             assert!(speed(deviate).abs() <= 2.0 + 1e-9 && size(deviate).abs() <= 2.0 + 1e-9);
         }

@@ -469,6 +469,7 @@ fn rule(surface: &str) -> SurfaceRule {
         share: None,
         weight: None,
         contact: None,
+        roughness: 0.0,
         role: Role::Part,
     }
 }

@@ -123,6 +123,17 @@ impl Restitution {
         }
     }
 
+    /// Whether E is the same at every speed.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
+    /// E at a normal approach speed (m/s), for every speed.
+    #[must_use]
+    pub fn held_at(self, normal_speed: f64) -> Self {
+        Self::Constant(self.at(normal_speed))
+    }
+
     /// The same law with E shifted by `change` where it was measured, kept within 0 to 1.
     pub fn shifted(self, change: f64) -> Self {
         let shift = |value: f64| (value + change).clamp(0.0, 1.0);
@@ -137,6 +148,34 @@ impl Restitution {
                 speed,
                 exponent,
             },
+        }
+    }
+
+    /// E, at the speed at which it was measured where it falls with speed.
+    pub fn reference(self) -> f64 {
+        match self {
+            Self::Constant(value) => value,
+            Self::Falling { reference, .. } => reference,
+        }
+    }
+
+    /// The normal speed, m/s, at which N*/m = (1 + E) |v_n| is `impulse`, m/s.
+    pub fn approach_speed(self, impulse: f64) -> f64 {
+        match self {
+            Self::Constant(value) => impulse / (1.0 + value),
+            // (1 + E) v rises with v, and E lies within 0 to 1.
+            Self::Falling { .. } => {
+                let (mut low, mut high) = (0.5 * impulse, impulse);
+                for _ in 0..f64::MANTISSA_DIGITS {
+                    let middle = 0.5 * (low + high);
+                    if (1.0 + self.at(middle)) * middle < impulse {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                high
+            }
         }
     }
 

@@ -16,8 +16,8 @@ pub struct Deviate {
     pub cone: [f64; 3],
     /// Factor on the speed, setup tolerance included.
     pub speed: f64,
-    /// Factor on the mass.
-    pub mass: f64,
+    /// Factor on the radius.
+    pub size: f64,
     /// Sine and cosine of the error in incidence.
     pub incidence: [f64; 2],
     /// Sine and cosine of the error in azimuth.
@@ -40,7 +40,7 @@ impl Deviate {
         exit: [0.0; 2],
         cone: [0.0, 0.0, 1.0],
         speed: 1.0,
-        mass: 1.0,
+        size: 1.0,
         incidence: [0.0, 1.0],
         azimuth: [0.0, 1.0],
         standoff: 0.0,
@@ -49,6 +49,12 @@ impl Deviate {
         friction: 1.0,
         weight: 1.0,
     };
+
+    /// Factor on the mass.
+    #[inline(always)]
+    pub fn mass(&self) -> f64 {
+        self.size.powi(3)
+    }
 
     /// Whether the pose is the one that was asked for.
     #[inline]
@@ -100,7 +106,15 @@ impl Replicates {
         Self::of(problem, purpose, shots.div_ceil(Self::COUNT).max(1), 0)
     }
 
+    /// One shot, when all shots of a problem are the same.
     fn of(problem: &Problem, purpose: u32, jet: usize, rim: usize) -> Self {
+        if problem.has_one_ray() {
+            let only = Replicate {
+                jet: Samples::new(problem, Stream::Fresh(0), 1),
+                rim: Samples { deviates: vec![] },
+            };
+            return Self { sets: vec![only] };
+        }
         let rim_share = rim as f64 / (jet + rim) as f64;
         let sets = (0..Self::COUNT as u32)
             .into_par_iter()
@@ -119,6 +133,11 @@ impl Replicates {
             })
             .collect();
         Self { sets }
+    }
+
+    /// Whether all shots are the same, so that figures from one of them are exact.
+    pub fn is_one_ray(&self) -> bool {
+        self.sets.len() == 1
     }
 
     /// Number of shots of the jet in all sets together.
@@ -154,7 +173,11 @@ impl Samples {
     /// and of the tolerance box, where rare harm comes from, and stands for accordingly less.
     ///
     /// Averages weighted with [`Deviate::weight`] estimate the same as those over [`Samples::new`].
+    /// When all shots of a problem are the same, there is one.
     pub fn with_rim(problem: &Problem, stream: Stream, count: usize) -> Self {
+        if problem.has_one_ray() {
+            return Self::new(problem, stream, 1);
+        }
         let shot = |index| weighted(problem, stream, index / 2, index % 2 == 1, 0.5);
         Self {
             deviates: (0..count as u32).into_par_iter().map(shot).collect(),
@@ -186,9 +209,7 @@ fn deviate(problem: &Problem, point: &mut Point) -> Deviate {
         cone: cone_direction(jet.divergence, jet.spread, point),
         speed: point.scatter(jet.speed_spread, Dimension::SpeedScatter)
             * (1.0 + point.within(tolerance.speed, Dimension::SpeedSetting)),
-        mass: point
-            .scatter(problem.shot.size_spread, Dimension::Size)
-            .powi(3),
+        size: point.scatter(problem.shot.size_spread, Dimension::Size),
         incidence: point
             .within(tolerance.incidence, Dimension::Incidence)
             .sin_cos()

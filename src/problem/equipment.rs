@@ -38,6 +38,9 @@ pub struct Jet {
     pub spread: Spread,
     /// Standard deviation of the speed relative to its mean, cut at two.
     pub speed_spread: f64,
+    /// Mass of shot per time, kg/s, where it is known. No path depends on it; it tells whether
+    /// shots get into each other's way.
+    pub mass_flow: Option<f64>,
 }
 
 /// How directions fill the cone of the jet.
@@ -118,6 +121,8 @@ pub struct SurfaceRule {
     pub weight: Option<f64>,
     /// Its own contact, whatever contact is chosen.
     pub contact: Option<Contact>,
+    /// Standard deviation of the tilt of its normal about each direction in it, rad.
+    pub roughness: f64,
     /// What a hit on it counts as.
     pub role: Role,
 }
@@ -139,4 +144,8 @@ pub struct PathLimits {
     pub impacts: usize,
     /// Share of its first kinetic energy below which a shot is followed no further.
     pub least_energy: f64,
+    /// Whether shots have their size in flight; otherwise they fly as points.
+    pub shot_size: bool,
+    /// Whether a shot takes its spin from one impact to the next.
+    pub spin: bool,
 }

@@ -14,7 +14,7 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 
 use equipment::{ContactEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
 use scene::{PartEntry, TargetEntry};
-use settings::{GoalsEntry, SettingsEntry, SolveEntry, ToleranceEntry};
+use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 
 use super::field::Field;
 
@@ -50,6 +50,8 @@ pub(super) struct ProblemFile {
     pub paths: Field<PathsEntry>,
     /// How exactly a shop sets the settings: half-widths.
     pub tolerance: Field<ToleranceEntry>,
+    /// Which effects are modelled: `auto`, `full` or a list; `auto` where absent.
+    pub model: Field<OneOrMany>,
     /// How the answer is searched.
     pub solve: Field<SolveEntry>,
 }
@@ -85,6 +87,11 @@ pub(super) struct Impulse(pub f64);
 #[serde(rename = "density")]
 pub(super) struct Density(pub f64);
 
+/// A mass flow with its unit, such as `5 kg/min`; here in kg/s.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename = "mass flow")]
+pub(super) struct MassFlow(pub f64);
+
 /// A percentage, such as `5 %`; here as a fraction of 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename = "percentage")]
@@ -106,7 +113,7 @@ macro_rules! quantities {
     )*};
 }
 
-quantities! { Length Angle Speed Impulse Density Percentage }
+quantities! { Length Angle Speed Impulse Density MassFlow Percentage }
 
 impl Quantity for f64 {
     fn si(self) -> f64 {

@@ -22,6 +22,7 @@
 pub mod equipment;
 pub mod fault;
 pub mod goal;
+pub mod model;
 pub mod part;
 pub mod setting;
 
@@ -41,6 +42,7 @@ pub use source::Source;
 
 use equipment::{ContactChoice, Jet, Nozzle, PathLimits, Shot, SurfaceRule};
 use goal::Goals;
+use model::Model;
 use part::{Part, Target};
 use setting::{Settings, Tolerance};
 
@@ -71,6 +73,8 @@ pub struct Problem {
     pub paths: PathLimits,
     /// How exactly a shop can set it.
     pub tolerance: Tolerance,
+    /// Which effects are modelled.
+    pub model: Model,
     /// Accuracy asked for, relative to J.
     pub accuracy: f64,
     /// Seed of every sample.

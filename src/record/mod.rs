@@ -4,6 +4,7 @@
 
 mod answer;
 mod question;
+mod unknowns;
 mod window;
 
 pub use answer::{
@@ -11,6 +12,7 @@ pub use answer::{
     SpreadRecord, TargetRecord, VerdictRecord,
 };
 pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use unknowns::{EffectRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord};
 pub use window::{DriftRecord, WindowRecord};
 
 use serde::{Deserialize, Serialize};
@@ -18,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::problem::Source;
 use crate::setup::Setup;
 use crate::solve::{Answer, Status, Window};
+use crate::unknowns::Unknowns;
 use crate::validity::Note;
 
 /// The result of a search.
@@ -35,6 +38,9 @@ pub struct Record {
     pub choices: Vec<AnswerRecord>,
     /// What was left out.
     pub notes: Vec<NoteRecord>,
+    /// What restitution and friction do at the ends of their ranges; absent where they are known.
+    #[serde(default)]
+    pub unknowns: Option<UnknownsRecord>,
     /// Work done.
     pub work: WorkRecord,
     /// Checksum of the problem file.
@@ -125,6 +131,7 @@ impl Record {
         answers: &[Answer],
         windows: &[Window],
         notes: Vec<Note>,
+        unknowns: Option<Unknowns>,
         circumstances: Circumstances,
     ) -> Option<Self> {
         let choices: Vec<AnswerRecord> = answers
@@ -141,6 +148,7 @@ impl Record {
                 .collect(),
             choices,
             notes: notes.into_iter().map(NoteRecord::from).collect(),
+            unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
             work: circumstances.work,
             problem_sha256: circumstances.source.sha256.clone(),
             version: env!("CARGO_PKG_VERSION").into(),

@@ -3,11 +3,14 @@
 //! The arithmetic has no branches, so that compilers work on many rays at once.
 
 mod cylinder;
+mod edge;
 mod plane;
+mod touch;
 
 use super::profile::Curve;
 use crate::precision::Real;
 pub(super) use cylinder::Cylinder;
+pub(super) use edge::Edge;
 pub(super) use plane::Plane;
 
 /// The surface that one piece of a cross-section becomes.
@@ -22,6 +25,8 @@ pub(super) enum Form {
 pub(super) struct Flight<R> {
     pub origin: [R; 3],
     pub direction: [R; 3],
+    /// Of the shot, m; 0 for a point.
+    pub radius: R,
     /// Whether it starts on the wall that is asked.
     pub from_here: bool,
     /// Whether it runs on the front of what it starts from; without a start it does.
@@ -39,6 +44,9 @@ pub(super) struct Extent<R> {
 pub(super) trait Wall<R> {
     /// Where a flight meets it. `LEAVES`: whether it starts on a surface.
     fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R>;
+
+    /// Where a shot of finite size touches it.
+    fn touch(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R>;
 }
 
 /// Where a ray meets a wall.
@@ -142,6 +150,31 @@ impl Form {
         match self {
             Self::Plane(plane) => plane.meet::<LEAVES>(flight, extent),
             Self::Cylinder(cylinder) => cylinder.meet::<LEAVES>(flight, extent),
+        }
+    }
+
+    /// Where a shot of finite size touches the wall.
+    pub fn touch(&self, flight: &Flight<f64>, extent: &Extent<f64>) -> Meeting<f64> {
+        match self {
+            Self::Plane(plane) => plane.touch(flight, extent),
+            Self::Cylinder(cylinder) => cylinder.touch(flight, extent),
+        }
+    }
+
+    /// Distance between the wall and a point of the cross-section.
+    #[inline]
+    pub fn distance(&self, to: [f64; 2]) -> f64 {
+        match self {
+            Self::Plane(plane) => plane.distance(to),
+            Self::Cylinder(cylinder) => cylinder.distance(to),
+        }
+    }
+
+    /// The point of the wall, in the cross-section, that is nearest to another.
+    pub fn nearest(&self, to: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Plane(plane) => plane.nearest(to),
+            Self::Cylinder(cylinder) => cylinder.nearest(to),
         }
     }
 

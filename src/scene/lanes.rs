@@ -20,6 +20,10 @@ pub struct Rays<R> {
     pub origin: [Lane<R>; 3],
     /// Unit directions.
     pub direction: [Lane<R>; 3],
+    /// Whether the shots have a size; their centres move along the rays.
+    pub are_spheres: bool,
+    /// Radii of the shots, m.
+    pub radius: Lane<R>,
     /// The spots that they start from, if they do.
     pub leaving: Option<Spots>,
 }
@@ -92,6 +96,8 @@ impl<R: Real> Rays<R> {
             count: 0,
             origin: [[R::ZERO; LANES]; 3],
             direction,
+            are_spheres: false,
+            radius: [R::ZERO; LANES],
             leaving: None,
         }
     }

@@ -22,7 +22,7 @@ mod wide_tree;
 
 use nalgebra::{Point3, Vector3};
 
-use crate::precision::{Real, along, scaled};
+use crate::precision::{Real, along, scaled, unit};
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::Fault;
 use crate::problem::part::Part;
@@ -162,7 +162,38 @@ impl Scene {
         hit
     }
 
-    /// What many rays meet first; the same as [`Self::first_hit`] for each of them in f64.
+    /// What a shot of some radius touches first when its centre moves along a ray; the distance is
+    /// that of the centre, the place that of the contact. `leaving` is the spot that it touches at
+    /// the start, if any.
+    pub fn first_touch(&self, ray: &Ray, radius: f64, leaving: Option<Spot>) -> Option<Hit> {
+        let mut nearest = f64::INFINITY;
+        let mut hit = None;
+        for (index, part) in (0..).zip(&self.parts) {
+            let on_it = leaving.is_some_and(|spot| spot.part == index);
+            let Some((crossing, front)) = part.first_touch(ray, radius, leaving, on_it, nearest)
+            else {
+                continue;
+            };
+            nearest = crossing.distance;
+            let normal = if crossing.front { front } else { -front };
+            let normal = Vector3::from(unit(normal.into()));
+            hit = Some(Hit {
+                distance: crossing.distance,
+                point: ray.origin + ray.direction * crossing.distance + normal * -radius,
+                normal,
+                surface: crossing.surface,
+                spot: Spot {
+                    part: index,
+                    piece: crossing.piece,
+                    front: crossing.front,
+                },
+            });
+        }
+        hit
+    }
+
+    /// What many rays meet first; the same as [`Self::first_hit`] or [`Self::first_touch`] for each
+    /// of them in f64.
     #[inline(always)]
     pub fn first_hits<R: Real>(&self, rays: &Rays<R>, hits: &mut Hits<R>) {
         let count = padded(rays.count);
@@ -174,8 +205,18 @@ impl Scene {
         for i in 0..count {
             let side = if hits.spots.front[i] { R::ONE } else { -R::ONE };
             let normal = scaled(components(&hits.normal, i), side);
+            let normal = if rays.are_spheres {
+                unit(normal)
+            } else {
+                normal
+            };
             let (origin, direction) = (components(&rays.origin, i), components(&rays.direction, i));
-            let point = along(along(origin, direction, hits.distance[i]), normal, lift);
+            let above = if rays.are_spheres {
+                -rays.radius[i]
+            } else {
+                lift
+            };
+            let point = along(along(origin, direction, hits.distance[i]), normal, above);
             put(&mut hits.normal, i, normal);
             put(&mut hits.point, i, point);
         }

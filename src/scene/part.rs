@@ -150,6 +150,36 @@ impl BuiltPart {
         }
     }
 
+    /// The first contact of a shot of some radius, nearer than `limit`, and the unit normal on the
+    /// front there.
+    #[inline]
+    pub fn first_touch(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        leaving: Option<Spot>,
+        on_this_part: bool,
+        limit: f64,
+    ) -> Option<(Crossing, Vector3<f64>)> {
+        match &self.prism {
+            Some(prism) => prism.first_touch(ray, radius, leaving, on_this_part, limit),
+            None => self.touch_facets(ray, radius, leaving, on_this_part, limit),
+        }
+    }
+
+    fn touch_facets(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        leaving: Option<Spot>,
+        on_this_part: bool,
+        limit: f64,
+    ) -> Option<(Crossing, Vector3<f64>)> {
+        let facets = &self.facets;
+        let (crossing, normal) = facets.first_touch(ray, radius, leaving, on_this_part, limit)?;
+        Some((crossing, if crossing.front { normal } else { -normal }))
+    }
+
     /// Takes the first crossings that are nearer than what the rays have hit so far; `index` is
     /// that of this part. Normals are those on the fronts.
     #[inline(always)]
@@ -165,9 +195,13 @@ impl BuiltPart {
             let leaving = rays.leaving.as_ref().map(|spots| spots.at(i));
             let on_it = leaving.is_some_and(|spot| spot.part == index);
             let limit = hits.distance[i].wide();
-            let crossing = self
-                .facets
-                .first_crossing(&rays.at(i), leaving, on_it, limit);
+            let ray = rays.at(i);
+            let crossing = if rays.are_spheres {
+                let radius = rays.radius[i].wide();
+                self.touch_facets(&ray, radius, leaving, on_it, limit)
+            } else {
+                self.facets.first_crossing(&ray, leaving, on_it, limit)
+            };
             let Some((crossing, normal)) = crossing else {
                 continue;
             };

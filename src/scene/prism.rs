@@ -1,11 +1,12 @@
 //! Rays against prismatic parts, exact: the walls are planes and cylinders, not facets.
 
 mod many;
+mod touch;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::form::{Extent, Flight, Form, Meeting};
-use super::profile::Profile;
+use super::form::{Edge, Extent, Flight, Form, Meeting};
+use super::profile::{Corner, Profile};
 use super::ray::{Crossing, Ray, Spot};
 use super::start::Start;
 use crate::problem::part::{Ends, Place};
@@ -17,6 +18,10 @@ pub struct Prism {
     caps: Vec<Cap>,
     /// Of each wall, then of each cap.
     surfaces: Vec<u32>,
+    /// Those that stick out into free space.
+    edges: Vec<Edge<f64>>,
+    /// The surfaces of the two walls beside each edge.
+    edge_surfaces: Vec<[u32; 2]>,
     extent: Extent<f64>,
     rotation: Matrix3<f64>,
     shift: Vector3<f64>,
@@ -57,7 +62,15 @@ impl Prism {
         }
         let of_caps = profile.surfaces.len()..profile.surfaces.len() + caps.len();
         let of_walls = pieces.iter().map(|piece| piece.surface);
+        let corners = profile.convex_corners();
+        let surface = |wall: usize| surface_base + pieces[wall].surface;
+        let edge = |corner: &Corner| Edge {
+            point: corner.point.into(),
+            towards_second: corner.towards_second.into(),
+        };
         Self {
+            edges: corners.iter().map(edge).collect(),
+            edge_surfaces: corners.iter().map(|c| c.walls.map(surface)).collect(),
             walls: pieces.iter().map(|piece| Form::of(&piece.curve)).collect(),
             caps,
             surfaces: of_walls
@@ -92,6 +105,7 @@ impl Prism {
             let flight = Flight {
                 origin: local.origin.into(),
                 direction: local.direction.into(),
+                radius: 0.0,
                 from_here: start.piece == Some(piece),
                 on_front: start.front.unwrap_or(true),
             };

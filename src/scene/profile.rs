@@ -22,6 +22,31 @@ pub struct Piece {
     pub surface: u32,
 }
 
+/// Where two pieces of a cross-section meet at an edge that sticks out into free space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// The place.
+    pub point: Point2<f64>,
+    /// Indices of the two pieces.
+    pub walls: [usize; 2],
+    /// Points to the side of the bisector on which the second piece is.
+    pub towards_second: Vector2<f64>,
+}
+
+impl Corner {
+    /// The end of an outline that is not closed.
+    fn free(point: Point2<f64>, wall: usize) -> Self {
+        Self {
+            point,
+            walls: [wall; 2],
+            towards_second: Vector2::x(),
+        }
+    }
+}
+
+/// Pieces whose directions differ by less than this, rad, go on smoothly.
+const SMOOTH: f64 = 1e-9;
+
 /// A straight line or a circular arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Curve {
@@ -88,6 +113,17 @@ impl Curve {
             } => {
                 let (sin, cos) = (start + sweep * fraction).sin_cos();
                 centre + Vector2::new(cos, sin) * radius
+            }
+        }
+    }
+
+    /// Unit direction at `fraction` (0 to 1) of its length.
+    pub fn tangent(&self, fraction: f64) -> Vector2<f64> {
+        match *self {
+            Self::Line { from, to } => (to - from).normalize(),
+            Self::Arc { start, sweep, .. } => {
+                let (sin, cos) = (start + sweep * fraction).sin_cos();
+                Vector2::new(-sin, cos) * sweep.signum()
             }
         }
     }
@@ -199,6 +235,39 @@ impl Profile {
             profile.push(fillet(half - root, 0.0), "root_pos");
         }
         profile
+    }
+
+    /// The corners at which free space takes more than a half turn, and the ends of open outlines.
+    pub fn convex_corners(&self) -> Vec<Corner> {
+        let curves = || self.pieces.iter().map(|piece| &piece.curve);
+        let meet =
+            |a: Point2<f64>, b: Point2<f64>| (a - b).amax() <= 1e-9 * (a.coords.amax() + 1e-9);
+        let mut corners = Vec::new();
+        for (first, before) in curves().enumerate() {
+            let end = before.at(1.0);
+            let second = curves().position(|after| meet(after.at(0.0), end));
+            let Some(second) = second else {
+                corners.push(Corner::free(end, first));
+                continue;
+            };
+            let after = &self.pieces[second].curve;
+            let (incoming, outgoing) = (before.tangent(1.0), after.tangent(0.0));
+            let turn = incoming.perp(&outgoing).atan2(incoming.dot(&outgoing));
+            if turn < -SMOOTH || turn >= std::f64::consts::PI - SMOOTH {
+                corners.push(Corner {
+                    point: end,
+                    walls: [first, second],
+                    towards_second: incoming + outgoing,
+                });
+            }
+        }
+        for (first, curve) in curves().enumerate() {
+            let start = curve.at(0.0);
+            if !curves().any(|before| meet(before.at(1.0), start)) {
+                corners.push(Corner::free(start, first));
+            }
+        }
+        corners
     }
 
     /// The points along each piece, both ends included, when arcs become chords that turn by at

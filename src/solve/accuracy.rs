@@ -1,6 +1,7 @@
 //! When the answer is good enough.
 
 use super::answer::Answer;
+use super::models::Claim;
 use super::search::Search;
 use crate::problem::Problem;
 use crate::problem::goal::Goals;
@@ -20,7 +21,7 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 }
 
 /// The searches that could still change the answer: among the contacts within reach of the best,
-/// those whose J on fresh shots is above J on the shots of the search by more than the accuracy
+/// those whose J on fresh shots is above what is claimed for the shots of the search by more than the accuracy
 /// asked for and the statistical error.
 ///
 /// The least J on any set of shots is on average below the least true J, and the true J of the
@@ -31,7 +32,7 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 /// seen as many shots as stand behind the figures. What is left of J where every goal is reached is
 /// rounding, of which no accuracy can be asked.
 pub(super) fn unsettled(
-    searches: &[Search],
+    claims: &[Claim],
     answers: &[Answer],
     problem: &Problem,
     shots: usize,
@@ -48,17 +49,17 @@ pub(super) fn unsettled(
         .filter_map(|answer| Some(fresh(answer)?.0))
         .fold(f64::INFINITY, f64::min);
     let rounding = rounding_of_objective(&problem.goals);
-    let is_unsettled = |search: &Search, answer: &Answer| {
-        let (claimed, (found, error)) = search.best().standing.objective().zip(fresh(answer))?;
+    let is_unsettled = |claim: &Claim, answer: &Answer| {
+        let ((_, claimed), (found, error)) = claim.zip(fresh(answer))?;
         let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
         let gap = found - claimed;
         let wanted = (problem.accuracy * found).max(rounding);
         let is_vague = error > VAGUE * wanted && shots < fresh_shots;
         Some(in_reach && (is_vague || gap > TOLERABLE * wanted + error))
     };
-    let pairs = searches.iter().zip(answers).enumerate();
+    let pairs = claims.iter().zip(answers).enumerate();
     pairs
-        .filter(|(_, (search, answer))| is_unsettled(search, answer).unwrap_or(false))
+        .filter(|(_, (claim, answer))| is_unsettled(claim, answer).unwrap_or(false))
         .map(|(index, _)| index)
         .collect()
 }

@@ -49,7 +49,16 @@ fn impact_of(volley: &Volley<f64>, i: usize) -> PathImpact {
     }
 }
 
+/// As points and with the size that they have.
 fn same_paths(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
+    for shot_size in [false, true] {
+        let mut setup = setup.clone();
+        setup.problem.paths.shot_size = shot_size;
+        same_paths_in(&setup, choice, shots);
+    }
+}
+
+fn same_paths_in(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
     let tracer = Tracer::new(setup, choice, choice.speed);
     let mut told: Vec<Story> = Vec::new();
     let mut scribe = Scribe {

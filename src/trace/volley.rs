@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use super::{End, MOST_DEFLECTIONS, Tracer, energy};
 use crate::impact::{Coefficients, Friction, collide};
 use crate::jet::Deviate;
-use crate::precision::{Real, Triple, dot, unit};
+use crate::precision::{Real, Triple, along, dot, unit};
 use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
 
 /// Up to [`LANES`] shots in flight, side by side.
@@ -139,6 +139,7 @@ impl<R: Real> Volley<R> {
         let as_asked = deviates.iter().all(Deviate::leaves_pose);
         self.rays.count = deviates.len().min(LANES);
         self.rays.leaving = None;
+        self.rays.are_spheres = tracer.radius > 0.0;
         for (i, deviate) in deviates.iter().take(LANES).enumerate() {
             let ray = if as_asked {
                 tracer.pose.shot(deviate)
@@ -150,10 +151,11 @@ impl<R: Real> Volley<R> {
             let velocity = ray.direction * (tracer.speed * deviate.speed);
             put(&mut self.velocity, i, narrow(&velocity));
             put(&mut self.rolling, i, [R::ZERO; 3]);
+            self.rays.radius[i] = R::of(tracer.radius * deviate.size);
             self.shot[i] = i as u32;
             self.number[i] = R::ZERO;
             self.weight[i] = R::of(deviate.weight);
-            self.mass[i] = R::of(tracer.mass * deviate.mass);
+            self.mass[i] = R::of(tracer.mass * deviate.mass());
             if let Some(contact) = &tracer.only_contact {
                 let (restitution, factor) =
                     (contact.restitution + deviate.restitution, deviate.friction);
@@ -194,6 +196,9 @@ impl<R: Real> Volley<R> {
             }
             witness.impacts(self);
             self.end_paths(flights, witness);
+            if !tracer.setup.problem.paths.spin {
+                self.rolling = [[R::ZERO; LANES]; 3];
+            }
             self.leave();
         }
         rays
@@ -284,7 +289,12 @@ impl<R: Real> Volley<R> {
         }
         self.rays.count = count;
         let kept = &kept[..count];
-        for vectors in [&mut self.velocity, &mut self.rolling, &mut self.hits.point] {
+        for vectors in [
+            &mut self.velocity,
+            &mut self.rolling,
+            &mut self.hits.point,
+            &mut self.hits.normal,
+        ] {
             vectors.iter_mut().for_each(|lane| keep(lane, kept));
         }
         for lane in [
@@ -295,6 +305,7 @@ impl<R: Real> Volley<R> {
             &mut self.restitution,
             &mut self.holds,
             &mut self.slides,
+            &mut self.rays.radius,
         ] {
             keep(lane, kept);
         }
@@ -304,10 +315,29 @@ impl<R: Real> Volley<R> {
         keep(&mut self.hits.spots.front, kept);
     }
 
+    /// From the places of contact to the centres of the shots.
+    #[inline(always)]
+    fn rise_by_radius(&mut self) {
+        for i in 0..padded(self.rays.count) {
+            let (point, normal) = (
+                components(&self.rays.origin, i),
+                components(&self.hits.normal, i),
+            );
+            put(
+                &mut self.rays.origin,
+                i,
+                along(point, normal, self.rays.radius[i]),
+            );
+        }
+    }
+
     /// The rays on which the shots leave the surfaces that they have hit.
     #[inline(always)]
     fn leave(&mut self) {
         self.rays.origin = self.hits.point;
+        if self.rays.are_spheres {
+            self.rise_by_radius();
+        }
         self.rays.leaving = Some(self.hits.spots.clone());
         for i in 0..padded(self.rays.count) {
             put(

@@ -6,6 +6,7 @@ use peenpose::impact::Contact;
 use peenpose::problem::Problem;
 use peenpose::problem::equipment::{Body, ContactChoice, Jet, Nozzle, PathLimits, Shot, Spread};
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
+use peenpose::problem::model::Model;
 use peenpose::problem::part::{Keyway, Part, Place, Shape, Target};
 use peenpose::problem::setting::{Range, Settings, Tolerance};
 
@@ -51,6 +52,7 @@ pub fn keyway(length: f64) -> Problem {
             divergence: degrees(4.0),
             spread: Spread::Uniform,
             speed_spread: 0.05,
+            mass_flow: None,
         },
         nozzle: Nozzle {
             body: vec![Body::Ball { radius: 3e-3 }],
@@ -108,8 +110,11 @@ pub fn keyway(length: f64) -> Problem {
         paths: PathLimits {
             impacts: 6,
             least_energy: 0.01,
+            shot_size: false,
+            spin: true,
         },
         tolerance: Tolerance::default(),
+        model: Model::Full,
         accuracy: 0.01,
         seed: 1,
     }

@@ -264,6 +264,9 @@ fn needle(seed: u32) -> Setup {
                 "aim: [0, 0, 0]",
                 "within: { min: [-2, -2, -1], max: [2, 2, 1] }, aim: [0, 0, 0]",
             ),
+            // Small against the hole, whether or not shots fly as spheres.
+            ("radius: 0.5 mm", "radius: 0.05 mm"),
+            ("40 uN.s", "0.04 uN.s"),
             ("divergence: 0 deg", "divergence: 1 deg"),
             ("incidence: 60 deg", "incidence: [25 deg, 88 deg]"),
             ("azimuth: 0 deg", "azimuth: [-180 deg, 180 deg]"),

@@ -207,6 +207,7 @@ fn one_shot_on_target_is_enough_to_count() {
         broken: 0,
         counted: 1,
         allowed: 0.05,
+        is_exact: false,
     };
     assert!(verdict.passes() && !verdict.is_certain());
     wide.target.within = Some((place + around * 1e3, place + around * 1e3));

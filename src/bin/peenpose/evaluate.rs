@@ -12,6 +12,7 @@ use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
 use peenpose::solve::{ANSWERS, Answer, clearance_violation};
 use peenpose::units::{self, Dimension};
+use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 use peenpose::verdict::Verdict;
 
@@ -49,8 +50,9 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
             seconds: started.elapsed().as_secs_f64(),
         },
     };
-    let notes = validity::notes(&setup, &choice);
-    let record = Record::new(&setup, &[answer], &[], notes, circumstances)
+    let notes = validity::notes(&setup, &choice, answer.evaluation.as_ref());
+    let unknowns = Unknowns::of(&setup, &choice);
+    let record = Record::new(&setup, &[answer], &[], notes, unknowns, circumstances)
         .ok_or("there is nothing to report".to_owned())?;
     output::record(&record, args.json, args.out.as_deref())
 }

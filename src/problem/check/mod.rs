@@ -8,6 +8,7 @@ mod coordinates;
 mod goals;
 mod limit;
 mod mesh;
+mod model;
 mod nozzle;
 mod profile;
 mod scene;
@@ -92,6 +93,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         .solve
         .or(Default::default())
         .and_then(|entry| solve(&root.of("solve"), &entry));
+    let model = model::check(&root, &file.model);
     let title = file.title.or(path
         .file_stem()
         .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()));
@@ -113,6 +115,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
             goals: goals?,
             surfaces: surfaces?,
             paths: paths?,
+            model: model?,
             tolerance: tolerance?,
             accuracy,
             seed,
@@ -141,6 +144,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
     let exit_diameter = scope.needed("exit_diameter", &entry.exit_diameter, Limit::LENGTH_OR_ZERO);
     let divergence = scope.needed("divergence", &entry.divergence, Limit::DIVERGENCE);
     let speed_spread = scope.optional("speed_spread", &entry.speed_spread, Limit::SPREAD, 0.0);
+    let mass_flow = scope.maybe("mass_flow", &entry.mass_flow, Limit::MASS_FLOW);
     let spread = entry
         .spread
         .or(SpreadEntry::Uniform)
@@ -153,6 +157,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
         divergence: divergence?,
         spread: spread?,
         speed_spread: speed_spread?,
+        mass_flow: mass_flow?,
     })
 }
 
@@ -174,6 +179,8 @@ fn paths(scope: &Scope<'_>, entry: &PathsEntry) -> Option<PathLimits> {
     Some(PathLimits {
         impacts: impacts?,
         least_energy: least_energy?,
+        shot_size: true,
+        spin: true,
     })
 }
 

@@ -39,6 +39,7 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
     let allow = scope.maybe("allow", &entry.allow, Limit::IMPULSE);
     let share = scope.maybe("share", &entry.share, Limit::SHARE);
     let weight = scope.maybe("weight", &entry.weight, Limit::WEIGHT);
+    let roughness = scope.optional("roughness", &entry.roughness, Limit::ROUGHNESS, 0.0);
     let contact = match &entry.contact {
         Field::Missing => Some(None),
         Field::Faulty => None,
@@ -69,6 +70,7 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
         share: share?,
         weight: weight?,
         contact: contact?,
+        roughness: roughness?,
         role: role?,
     })
 }

@@ -11,6 +11,7 @@ mod scatter;
 mod setting;
 mod settings;
 mod subject;
+mod unknowns;
 mod verdicts;
 
 use super::layout::Block;
@@ -19,7 +20,7 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 13] = [
+    let blocks: [Option<Block>; 14] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best),
@@ -28,6 +29,7 @@ pub fn sheet(record: &Record) -> String {
         verdicts::block(best, &record.problem.goals),
         received::surfaces(record),
         cause::block(record),
+        unknowns::block(record),
         objective::block(best),
         contacts::block(record),
         closing::validity(record),

@@ -94,6 +94,50 @@ impl<R: Real> Cylinder<R> {
     }
 }
 
+impl Cylinder<f64> {
+    /// Distance to a point of the cross-section.
+    #[inline]
+    pub fn distance(&self, to: [f64; 2]) -> f64 {
+        let relative = self.relative(to);
+        let from_centre = dot(relative, relative).sqrt();
+        if dot(relative, self.towards) * self.radius >= self.reach * from_centre {
+            return (from_centre - self.radius).abs();
+        }
+        let [x, y] = self.nearest(to);
+        let offset = [to[0] - x, to[1] - y];
+        dot(offset, offset).sqrt()
+    }
+
+    /// The point of its arc in the cross-section that is nearest to another.
+    pub fn nearest(&self, to: [f64; 2]) -> [f64; 2] {
+        let relative = self.relative(to);
+        let distance = dot(relative, relative).sqrt();
+        let direction = if distance > 0.0 {
+            [relative[0] / distance, relative[1] / distance]
+        } else {
+            self.towards
+        };
+        let cos_reach = (self.reach / self.radius).max(-1.0);
+        let direction = if dot(direction, self.towards) >= cos_reach {
+            direction
+        } else {
+            self.nearer_end(direction, cos_reach)
+        };
+        [
+            self.centre[0] + self.radius * direction[0],
+            self.centre[1] + self.radius * direction[1],
+        ]
+    }
+
+    /// The direction of the end of the arc that is nearer to another direction.
+    fn nearer_end(&self, direction: [f64; 2], cos_reach: f64) -> [f64; 2] {
+        let [x, y] = self.towards;
+        let sin_reach = (1.0 - cos_reach * cos_reach).sqrt();
+        let across = (x * direction[1] - y * direction[0]).signum() * sin_reach;
+        [cos_reach * x - across * y, cos_reach * y + across * x]
+    }
+}
+
 impl<R: Real> Wall<R> for Cylinder<R> {
     #[inline(always)]
     fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R> {
@@ -113,5 +157,10 @@ impl<R: Real> Wall<R> for Cylinder<R> {
         }
         let touching = flight.touching(self.front(relative));
         chosen(touches & (touching.rank == R::ZERO), touching, ahead)
+    }
+
+    #[inline(always)]
+    fn touch(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R> {
+        self.touched(flight, extent)
     }
 }

@@ -23,7 +23,7 @@ impl<R: Real> Plane<R> {
 
     /// A quarter turn counter-clockwise from the tangent.
     #[inline(always)]
-    fn front(&self) -> [R; 2] {
+    pub(super) fn front(&self) -> [R; 2] {
         [-self.tangent[1], self.tangent[0]]
     }
 
@@ -42,6 +42,26 @@ impl<R: Real> Plane<R> {
     #[inline(always)]
     pub fn spans(&self, along: R, margin: R) -> bool {
         (along >= -margin) & (along <= self.length + margin)
+    }
+}
+
+impl Plane<f64> {
+    /// Distance to a point of the cross-section.
+    #[inline]
+    pub fn distance(&self, to: [f64; 2]) -> f64 {
+        let (height, along) = self.place(to);
+        let beyond = (along - self.length).max(-along).max(0.0);
+        (height * height + beyond * beyond).sqrt()
+    }
+
+    /// The point of its line in the cross-section that is nearest to another.
+    pub fn nearest(&self, to: [f64; 2]) -> [f64; 2] {
+        let (_, along) = self.place(to);
+        let along = along.clamp(0.0, self.length);
+        [
+            self.from[0] + self.tangent[0] * along,
+            self.from[1] + self.tangent[1] * along,
+        ]
     }
 }
 
@@ -74,5 +94,10 @@ impl<R: Real> Wall<R> for Plane<R> {
             ..met
         };
         chosen(flight.from_here, nowhere, met)
+    }
+
+    #[inline(always)]
+    fn touch(&self, flight: &Flight<R>, extent: &Extent<R>) -> Meeting<R> {
+        self.touched(flight, extent)
     }
 }

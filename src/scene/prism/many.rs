@@ -24,6 +24,7 @@ struct Flights<'a, R> {
     count: usize,
     origin: &'a [Lane<R>; 3],
     direction: &'a [Lane<R>; 3],
+    radius: &'a Lane<R>,
     /// Index of the wall or cap; negative for none of this prism.
     piece: Lane<R>,
     on_front: [bool; LANES],
@@ -39,6 +40,7 @@ impl Prism {
             count: rays.count,
             origin: &rays.origin,
             direction: &rays.direction,
+            radius: &rays.radius,
             piece: [-R::ONE; LANES],
             on_front: [true; LANES],
         };
@@ -62,12 +64,19 @@ impl Prism {
                 flights.piece[i] = if here { piece } else { -R::ONE };
             }
             flights.on_front = spots.front;
-            self.cross_walls::<R, true>(&flights, &mut best);
-        } else {
-            self.cross_walls::<R, false>(&flights, &mut best);
         }
-        if !self.caps.is_empty() {
-            self.cross_caps_one_by_one(rays.leaving.is_some(), &flights, &mut best);
+        let leaves = rays.leaving.is_some();
+        if rays.are_spheres {
+            self.touch_walls(&flights, &mut best);
+            self.touch_ends_one_by_one(leaves, &flights, &mut best);
+        } else {
+            match leaves {
+                true => self.cross_walls::<R, true>(&flights, &mut best),
+                false => self.cross_walls::<R, false>(&flights, &mut best),
+            }
+            if !self.caps.is_empty() {
+                self.cross_caps_one_by_one(leaves, &flights, &mut best);
+            }
         }
         if self.moved {
             best.normal = self.turned(&best.normal, rays.count, false);
@@ -77,21 +86,78 @@ impl Prism {
 
     #[inline(always)]
     fn cross_walls<R: Real, const LEAVES: bool>(&self, flights: &Flights<R>, best: &mut Best<R>) {
-        let extent = Extent {
-            length: R::of(self.extent.length),
-            slack: R::of(self.extent.slack * R::COARSENESS),
-        };
+        let extent = self.extent_in();
         let mut piece = R::ZERO;
         for wall in &self.walls {
             match wall {
                 Form::Plane(plane) => {
-                    best.take::<_, LEAVES>(flights, piece, &plane.with(), &extent);
+                    best.take::<_, LEAVES, false>(flights, piece, &plane.with(), &extent);
                 }
                 Form::Cylinder(cylinder) => {
-                    best.take::<_, LEAVES>(flights, piece, &cylinder.with(), &extent);
+                    best.take::<_, LEAVES, false>(flights, piece, &cylinder.with(), &extent);
                 }
             }
             piece = piece + R::ONE;
+        }
+    }
+
+    #[inline(always)]
+    fn touch_walls<R: Real>(&self, flights: &Flights<R>, best: &mut Best<R>) {
+        let extent = self.extent_in();
+        let mut piece = R::ZERO;
+        for wall in &self.walls {
+            match wall {
+                Form::Plane(plane) => {
+                    best.take::<_, true, true>(flights, piece, &plane.with(), &extent);
+                }
+                Form::Cylinder(cylinder) => {
+                    best.take::<_, true, true>(flights, piece, &cylinder.with(), &extent);
+                }
+            }
+            piece = piece + R::ONE;
+        }
+        piece = R::of(f64::from(self.first_edge()));
+        for edge in &self.edges {
+            best.take::<_, true, true>(flights, piece, &edge.with(), &extent);
+            piece = piece + R::ONE;
+        }
+    }
+
+    /// What is rare: contacts with caps, and with rims by shots that come near an end.
+    fn touch_ends_one_by_one<R: Real>(
+        &self,
+        leaves: bool,
+        flights: &Flights<R>,
+        best: &mut Best<R>,
+    ) {
+        let mut near = [false; LANES];
+        let caps = !self.caps.is_empty();
+        let length = R::of(self.extent.length);
+        let slack = R::of(self.extent.slack * R::COARSENESS);
+        let farthest = R::of(f64::from(f32::MAX).sqrt());
+        for i in 0..padded(flights.count) {
+            let from = flights.origin[2][i];
+            let ahead = if best.rank[i] < farthest {
+                best.rank[i]
+            } else {
+                farthest
+            };
+            let to = from + flights.direction[2][i] * ahead;
+            let (low, high) = if from < to { (from, to) } else { (to, from) };
+            near[i] = caps | (low <= slack) | (high >= length - slack);
+        }
+        for i in (0..flights.count).filter(|&i| near[i]) {
+            let (ray, start) = flights.one(i, leaves);
+            let mut nearest = Nearest::within(best.rank[i].wide());
+            self.touch_ends(&ray, flights.radius[i].wide(), &start, &mut nearest);
+            best.take_one(i, &nearest);
+        }
+    }
+
+    fn extent_in<R: Real>(&self) -> Extent<R> {
+        Extent {
+            length: R::of(self.extent.length),
+            slack: R::of(self.extent.slack * R::COARSENESS),
         }
     }
 
@@ -102,22 +168,10 @@ impl Prism {
         best: &mut Best<R>,
     ) {
         for i in 0..flights.count {
-            let ray = Ray {
-                origin: components(flights.origin, i).map(Real::wide).into(),
-                direction: components(flights.direction, i).map(Real::wide).into(),
-            };
-            let piece = flights.piece[i].wide();
-            let start = Start {
-                piece: (piece >= 0.0).then_some(piece as u32),
-                front: leaves.then_some(flights.on_front[i]),
-            };
+            let (ray, start) = flights.one(i, leaves);
             let mut nearest = Nearest::within(best.rank[i].wide());
             self.cross_caps(&ray, &start, &mut nearest);
-            let Some(piece) = nearest.piece else { continue };
-            best.distance[i] = R::of(nearest.best.distance);
-            best.rank[i] = best.distance[i];
-            best.code[i] = R::of(f64::from(2 * piece + u32::from(nearest.best.front)));
-            put(&mut best.normal, i, [R::ZERO, R::ZERO, R::of(nearest.cap)]);
+            best.take_one(i, &nearest);
         }
     }
 
@@ -147,7 +201,8 @@ impl Prism {
         }
         for i in 0..count {
             if spots.part[i] == part {
-                hits.surface[i] = self.surfaces[spots.piece[i] as usize];
+                let normal = [best.normal[0][i].wide(), best.normal[1][i].wide()];
+                hits.surface[i] = self.surface_touched(spots.piece[i], normal);
             }
         }
     }
@@ -186,10 +241,36 @@ fn shifted<R: Real>(points: &[Lane<R>; 3], shift: &Vector3<f64>, count: usize) -
     moved
 }
 
+impl<R: Real> Flights<'_, R> {
+    /// One of them, in f64, and what is known about its start.
+    fn one(&self, i: usize, leaves: bool) -> (Ray, Start) {
+        let ray = Ray {
+            origin: components(self.origin, i).map(Real::wide).into(),
+            direction: components(self.direction, i).map(Real::wide).into(),
+        };
+        let piece = self.piece[i].wide();
+        let start = Start {
+            piece: (piece >= 0.0).then_some(piece as u32),
+            front: leaves.then_some(self.on_front[i]),
+        };
+        (ray, start)
+    }
+}
+
 impl<R: Real> Best<R> {
+    /// Takes what one ray has met, if it has met anything.
+    fn take_one(&mut self, i: usize, nearest: &Nearest) {
+        let Some(piece) = nearest.piece else { return };
+        let [x, y] = nearest.best.normal;
+        self.distance[i] = R::of(nearest.best.distance);
+        self.rank[i] = self.distance[i];
+        self.code[i] = R::of(f64::from(2 * piece + u32::from(nearest.best.front)));
+        put(&mut self.normal, i, [x, y, nearest.cap].map(R::of));
+    }
+
     /// Takes the meetings with one wall that are nearer.
     #[inline(always)]
-    fn take<W: Wall<R>, const LEAVES: bool>(
+    fn take<W: Wall<R>, const LEAVES: bool, const BALLS: bool>(
         &mut self,
         flights: &Flights<R>,
         piece: R,
@@ -201,10 +282,15 @@ impl<R: Real> Best<R> {
             let flight = Flight {
                 origin: components(flights.origin, i),
                 direction: components(flights.direction, i),
+                radius: flights.radius[i],
                 from_here: flights.piece[i] == piece,
                 on_front: flights.on_front[i],
             };
-            let met = wall.meet::<LEAVES>(&flight, extent);
+            let met = if BALLS {
+                wall.touch(&flight, extent)
+            } else {
+                wall.meet::<LEAVES>(&flight, extent)
+            };
             let nearer = met.rank < self.rank[i];
             let code = if met.front { double + R::ONE } else { double };
             self.distance[i] = if nearer {

@@ -1,0 +1,170 @@
+//! What is modelled: which effects, and who decides.
+
+use super::Problem;
+use super::setting::Tolerance;
+use crate::impact::Restitution;
+
+/// Something that a model may have or leave out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Effect {
+    /// Shots have their size in flight.
+    ShotSize,
+    /// Impacts after the first.
+    Rebounds,
+    /// Impacts after the second.
+    LaterRebounds,
+    /// The spin that a shot takes from one impact to the next.
+    Spin,
+    /// The width of the exit.
+    ExitWidth,
+    /// The divergence of the jet.
+    Divergence,
+    /// The scatter of the speed.
+    SpeedScatter,
+    /// The scatter of the size.
+    SizeScatter,
+    /// Restitution that falls as speed rises.
+    FallingRestitution,
+    /// The tilt of rough walls.
+    Roughness,
+}
+
+/// Which effects are modelled.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Model {
+    /// Those that matter in the scene at hand; figures always have all.
+    #[default]
+    Auto,
+    /// All that the problem has.
+    Full,
+    /// These of them.
+    Only(Vec<Effect>),
+}
+
+impl Effect {
+    /// All of them, those first whose absence saves most.
+    pub const ALL: [Self; 10] = [
+        Self::ShotSize,
+        Self::Rebounds,
+        Self::LaterRebounds,
+        Self::FallingRestitution,
+        Self::Roughness,
+        Self::Spin,
+        Self::ExitWidth,
+        Self::Divergence,
+        Self::SpeedScatter,
+        Self::SizeScatter,
+    ];
+
+    /// Its name in problem files and results.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ShotSize => "shot_size",
+            Self::Rebounds => "rebounds",
+            Self::LaterRebounds => "later_rebounds",
+            Self::Spin => "spin",
+            Self::ExitWidth => "exit_width",
+            Self::Divergence => "divergence",
+            Self::SpeedScatter => "speed_scatter",
+            Self::SizeScatter => "size_scatter",
+            Self::FallingRestitution => "falling_restitution",
+            Self::Roughness => "roughness",
+        }
+    }
+
+    /// The effect of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|effect| effect.name() == name)
+    }
+
+    /// What it is, for people.
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::ShotSize => "size of the shot in flight",
+            Self::Rebounds => "impacts after the first",
+            Self::LaterRebounds => "impacts after the second",
+            Self::Spin => "spin between impacts",
+            Self::ExitWidth => "width of the exit",
+            Self::Divergence => "divergence of the jet",
+            Self::SpeedScatter => "scatter of the speed",
+            Self::SizeScatter => "scatter of the size",
+            Self::FallingRestitution => "fall of restitution with speed",
+            Self::Roughness => "tilt of rough walls",
+        }
+    }
+
+    /// Whether a problem has it.
+    pub fn is_in(self, problem: &Problem) -> bool {
+        match self {
+            Self::ShotSize => problem.paths.shot_size,
+            Self::Rebounds => problem.paths.impacts > 1,
+            Self::LaterRebounds => problem.paths.impacts > 2,
+            Self::Spin => problem.paths.spin && problem.paths.impacts > 1,
+            Self::ExitWidth => problem.jet.exit_diameter > 0.0,
+            Self::Divergence => problem.jet.divergence > 0.0,
+            Self::SpeedScatter => problem.jet.speed_spread > 0.0,
+            Self::SizeScatter => problem.shot.size_spread > 0.0,
+            Self::FallingRestitution => restitutions(problem).any(|e| !e.is_constant()),
+            Self::Roughness => problem.surfaces.iter().any(|rule| rule.roughness > 0.0),
+        }
+    }
+
+    /// Takes it out of a problem. Restitution that falls with speed becomes what it is at
+    /// `normal_speed`, m/s.
+    pub fn remove_from(self, problem: &mut Problem, normal_speed: f64) {
+        match self {
+            Self::ShotSize => problem.paths.shot_size = false,
+            Self::Rebounds => problem.paths.impacts = 1,
+            Self::LaterRebounds => problem.paths.impacts = problem.paths.impacts.min(2),
+            Self::Spin => problem.paths.spin = false,
+            Self::ExitWidth => problem.jet.exit_diameter = 0.0,
+            Self::Divergence => problem.jet.divergence = 0.0,
+            Self::SpeedScatter => problem.jet.speed_spread = 0.0,
+            Self::SizeScatter => problem.shot.size_spread = 0.0,
+            Self::FallingRestitution => {
+                let chosen = problem
+                    .contacts
+                    .iter_mut()
+                    .map(|choice| &mut choice.contact);
+                let own = problem
+                    .surfaces
+                    .iter_mut()
+                    .filter_map(|rule| rule.contact.as_mut());
+                for contact in chosen.chain(own) {
+                    contact.restitution = contact.restitution.held_at(normal_speed);
+                }
+            }
+            Self::Roughness => {
+                for rule in &mut problem.surfaces {
+                    rule.roughness = 0.0;
+                }
+            }
+        }
+    }
+}
+
+fn restitutions(problem: &Problem) -> impl Iterator<Item = Restitution> + '_ {
+    let chosen = problem.contacts.iter().map(|choice| choice.contact);
+    let own = problem.surfaces.iter().filter_map(|rule| rule.contact);
+    chosen.chain(own).map(|contact| contact.restitution)
+}
+
+impl Problem {
+    /// The effects that it has, in the order of [`Effect::ALL`].
+    pub fn effects(&self) -> Vec<Effect> {
+        let all = Effect::ALL.into_iter();
+        all.filter(|effect| effect.is_in(self)).collect()
+    }
+
+    /// Whether every shot is the same: then one ray is enough.
+    pub fn has_one_ray(&self) -> bool {
+        let scatters = [
+            Effect::ExitWidth,
+            Effect::Divergence,
+            Effect::SpeedScatter,
+            Effect::SizeScatter,
+            Effect::Roughness,
+        ];
+        self.tolerance == Tolerance::default() && !scatters.iter().any(|effect| effect.is_in(self))
+    }
+}
