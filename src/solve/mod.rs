@@ -81,8 +81,8 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
         claims = models.claims(&searches, shots);
     }
     let mut answers: Vec<Answer> = searches.par_iter().map(answer).collect();
-    let accuracy = setup.problem.accuracy;
-    let mut open = unsettled(&claims, &answers, accuracy, shots, control.fresh_shots);
+    let problem = &setup.problem;
+    let mut open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         refine(
@@ -101,7 +101,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
             answers[index] = found;
         }
         claims = models.claims(&searches, shots);
-        open = unsettled(&claims, &answers, accuracy, shots, control.fresh_shots);
+        open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     }
     if !control.is_stopped() {
         models.measure_unasked(&searches, &effort, control);

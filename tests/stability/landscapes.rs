@@ -255,15 +255,18 @@ fn needle(seed: u32) -> Setup {
             (
                 PLATE_BOX,
                 "plate: { box: { min: [-50, -50, -10], max: [50, 50, 0] } }
-  west: { box: { min: [-50, -50, 10], max: [5, 50, 12] } }
-  east: { box: { min: [9, -50, 10], max: [50, 50, 12] } }
-  south: { box: { min: [5, -50, 10], max: [9, 1, 12] } }
-  north: { box: { min: [5, 5, 10], max: [9, 50, 12] } }",
+  west: { box: { min: [-50, -50, 10], max: [4.5, 50, 12] } }
+  east: { box: { min: [9.5, -50, 10], max: [50, 50, 12] } }
+  south: { box: { min: [4.5, -50, 10], max: [9.5, 0.5, 12] } }
+  north: { box: { min: [4.5, 5.5, 10], max: [9.5, 50, 12] } }",
             ),
             (
                 "aim: [0, 0, 0]",
                 "within: { min: [-2, -2, -1], max: [2, 2, 1] }, aim: [0, 0, 0]",
             ),
+            // Small against the hole, whether or not shots fly as spheres.
+            ("radius: 0.5 mm", "radius: 0.05 mm"),
+            ("40 uN.s", "0.04 uN.s"),
             ("divergence: 0 deg", "divergence: 1 deg"),
             ("incidence: 60 deg", "incidence: [25 deg, 88 deg]"),
             ("azimuth: 0 deg", "azimuth: [-180 deg, 180 deg]"),
@@ -285,7 +288,8 @@ fn a_needle_is_found_where_a_plain_descent_stays_on_the_plateau() {
         };
         terms(&scene, &choice, 64).total()
     };
-    // How much of the range sees the target at all: few in a hundred.
+    // How much of the range sees the target at all: less than 3 in a hundred. (A screening of two
+    // settings judges 96 points: of needles below a hundredth it sees some and misses others.)
     let grid = 60;
     let settings = &scene.problem.settings;
     let at = |i: usize, j: usize| {
@@ -299,7 +303,7 @@ fn a_needle_is_found_where_a_plain_descent_stays_on_the_plateau() {
         .filter(|k| at(k / grid, k % grid) < 0.999)
         .count();
     let share = seen as f64 / (grid * grid) as f64;
-    assert!((0.005..0.05).contains(&share), "{share}");
+    assert!((0.005..0.03).contains(&share), "{share}");
 
     // From the middle of the ranges: every corner is as bad as every other.
     let middle = [settings.incidence.at(0.5), settings.azimuth.at(0.5)];
@@ -309,17 +313,15 @@ fn a_needle_is_found_where_a_plain_descent_stays_on_the_plateau() {
         let solution = search(&needle(seed));
         let best = best_objective(&solution);
         assert!(best < 0.01, "{seed}: {best} on {share} of the range");
-        // Through the hole: 7 mm along, 3 mm across, and 10 to 12 mm up; azimuth is where it goes.
+        // The way through the hole: 7 mm along, 3 mm across and 11 mm up, within half of its width.
         let Choice {
             incidence, azimuth, ..
         } = solution.answers[0].choice;
-        let across = 3.0_f64.atan2(7.0);
-        assert!(apart(azimuth, across + PI) < 0.2 || apart(azimuth, PI - across) < 0.2);
-        let slope = 11.0_f64.atan2(58_f64.sqrt());
+        let heading = Vector3::new(-azimuth.cos(), azimuth.sin().abs(), 0.0);
+        let through = heading * (11.0 / incidence.tan());
         assert!(
-            (incidence - slope).abs() < 0.15,
-            "{}",
-            incidence.to_degrees()
+            (through - Vector3::new(7.0, 3.0, 0.0)).amax() < 2.5,
+            "{through}"
         );
     }
 }

@@ -5,7 +5,7 @@ use peenpose::evaluate::evaluate;
 use peenpose::jet::{Replicates, Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::setup::Setup;
-use peenpose::solve::Status;
+use peenpose::solve::{Control, Status, solve};
 use peenpose::trace::Tracer;
 use peenpose::verdict::{Subject, Verdict};
 
@@ -138,6 +138,33 @@ fn equal_contacts_are_equal_and_stay_in_their_order() {
             for k in 1..4 {
                 assert_eq!(total(k).to_bits(), total(0).to_bits());
             }
+        }
+    }
+}
+
+/// A parallel jet on a plate gives exactly what is wanted at some speed: what is left of J is
+/// rounding, and no reason to go on.
+#[test]
+fn a_goal_that_is_reached_to_rounding_is_reached() {
+    for wanted in [31, 37, 41, 43, 47, 53] {
+        for seed in 1..=3 {
+            let exact = setup(&edited(
+                PLATE,
+                &[
+                    ("target: 40 uN.s", &format!("target: {wanted} uN.s")),
+                    ("incidence: 60 deg", "incidence: [50 deg, 80 deg]"),
+                    ("speed: 10 m/s", "speed: [5 m/s, 20 m/s]"),
+                    ("goals:", &format!("solve: {{ seed: {seed} }}\ngoals:")),
+                ],
+            ));
+            let control = Control {
+                fresh_shots: 4096,
+                ..Control::default()
+            };
+            let solution = solve(&exact, &control);
+            assert!(best_objective(&solution) < 1e-29);
+            assert_eq!(solution.status, Status::Converged, "{wanted} {seed}");
+            assert_eq!(solution.shots_per_pose, 4096);
         }
     }
 }
