@@ -30,7 +30,7 @@ use crate::jet::{Replicates, Samples, Stream};
 use crate::setup::Setup;
 use accuracy::{is_in_reach, least_objective, unsettled};
 use judge::Judge;
-use models::Models;
+use models::{Claim, Models};
 use search::{STAGES, Search, Stage};
 
 /// What a search found.
@@ -68,18 +68,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let fresh = Replicates::new(&models.asked.problem, ANSWERS, control.fresh_shots);
     let asked = models.asked.clone();
     let answer = |search: &Search| Answer::of(&asked, search.best(), &fresh, &effort);
-    let mut claims = models.claims(&searches, shots);
-    while models.put_back(&mut searches, &claims, &effort, control) && !control.is_stopped() {
-        refine(
-            &models.searched,
-            &mut searches,
-            None,
-            shots,
-            control,
-            &effort,
-        );
-        claims = models.claims(&searches, shots);
-    }
+    let (mut claims, _) = agree(&mut models, &mut searches, shots, control, &effort);
     let mut answers: Vec<Answer> = searches.par_iter().map(answer).collect();
     let problem = &setup.problem;
     let mut open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
@@ -88,19 +77,21 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
         refine(
             &models.searched,
             &mut searches,
-            Some(&open),
+            &open,
             shots,
             control,
             &effort,
         );
-        let found: Vec<Answer> = open
+        let all_change;
+        (claims, all_change) = agree(&mut models, &mut searches, shots, control, &effort);
+        let changed = if all_change { all(&searches) } else { open };
+        let found: Vec<Answer> = changed
             .par_iter()
             .map(|&index| answer(&searches[index]))
             .collect();
-        for (index, found) in open.into_iter().zip(found) {
+        for (index, found) in changed.into_iter().zip(found) {
             answers[index] = found;
         }
-        claims = models.claims(&searches, shots);
         open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     }
     if !control.is_stopped() {
@@ -123,20 +114,42 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     }
 }
 
-/// Refines some of the searches, or all, with so many shots.
+/// Goes on with what was left out, as long as the whole model disagrees with the one that is
+/// searched. Returns J of the candidates, and whether anything was put back.
+fn agree(
+    models: &mut Models,
+    searches: &mut [Search],
+    shots: usize,
+    control: &Control,
+    effort: &Effort,
+) -> (Vec<Claim>, bool) {
+    let mut claims = models.claims(searches, shots);
+    let mut is_changed = false;
+    while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
+        let all = all(searches);
+        refine(&models.searched, searches, &all, shots, control, effort);
+        claims = models.claims(searches, shots);
+        is_changed = true;
+    }
+    (claims, is_changed)
+}
+
+fn all(searches: &[Search]) -> Vec<usize> {
+    (0..searches.len()).collect()
+}
+
+/// Refines some of the searches with so many shots.
 fn refine(
     setup: &Setup,
     searches: &mut [Search],
-    which: Option<&[usize]>,
+    which: &[usize],
     shots: usize,
     control: &Control,
     effort: &Effort,
 ) {
-    let all: Vec<usize> = (0..searches.len()).collect();
     let samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
     let judge = Judge::new(setup, &samples.deviates, effort, control.stop);
     let stage = Stage::beyond(shots);
-    let which = which.unwrap_or(&all);
     refine_in_turn(searches, which, &judge, &stage, setup.problem.accuracy);
     tell(control, effort, searches);
 }
