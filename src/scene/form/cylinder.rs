@@ -38,6 +38,13 @@ impl<R: Real> Cylinder<R> {
         [x + direction[0] * distance, y + direction[1] * distance]
     }
 
+    /// Distance between a point of the cross-section and the whole circle.
+    #[inline(always)]
+    pub fn distance_to_whole(&self, to: [R; 2]) -> R {
+        let relative = self.relative(to);
+        (dot(relative, relative).sqrt() - self.radius).abs()
+    }
+
     /// Unit normal on the front, at an offset from the centre.
     #[inline(always)]
     fn front(&self, offset: [R; 2]) -> [R; 2] {

@@ -34,6 +34,20 @@ impl<R: Real> Plane<R> {
         (dot(relative, self.front()), dot(relative, self.tangent))
     }
 
+    /// Squared distance to a point of the cross-section.
+    #[inline(always)]
+    pub fn squared_distance(&self, to: [R; 2]) -> R {
+        let (height, along) = self.place(to);
+        let beyond = if along < R::ZERO {
+            along
+        } else if along > self.length {
+            along - self.length
+        } else {
+            R::ZERO
+        };
+        height * height + beyond * beyond
+    }
+
     #[inline(always)]
     pub fn approach(&self, direction: [R; 2]) -> R {
         dot(direction, self.front())
@@ -49,9 +63,7 @@ impl Plane<f64> {
     /// Distance to a point of the cross-section.
     #[inline]
     pub fn distance(&self, to: [f64; 2]) -> f64 {
-        let (height, along) = self.place(to);
-        let beyond = (along - self.length).max(-along).max(0.0);
-        (height * height + beyond * beyond).sqrt()
+        self.squared_distance(to).sqrt()
     }
 
     /// The point of its line in the cross-section that is nearest to another.

@@ -1,5 +1,7 @@
 //! Many rays at once against a prism: wall by wall, all rays against each.
 
+mod ends;
+
 use nalgebra::Vector3;
 
 use super::{Nearest, Prism};
@@ -124,28 +126,14 @@ impl Prism {
     }
 
     /// What is rare: contacts with caps, and with rims by shots that come near an end.
+    #[inline(always)]
     fn touch_ends_one_by_one<R: Real>(
         &self,
         leaves: bool,
         flights: &Flights<R>,
         best: &mut Best<R>,
     ) {
-        let mut near = [false; LANES];
-        let caps = !self.caps.is_empty();
-        let length = R::of(self.extent.length);
-        let slack = R::of(self.extent.slack * R::COARSENESS);
-        let farthest = R::of(f64::from(f32::MAX).sqrt());
-        for (i, near) in near.iter_mut().enumerate().take(padded(flights.count)) {
-            let from = flights.origin[2][i];
-            let ahead = if best.rank[i] < farthest {
-                best.rank[i]
-            } else {
-                farthest
-            };
-            let to = from + flights.direction[2][i] * ahead;
-            let (low, high) = if from < to { (from, to) } else { (to, from) };
-            *near = caps | (low <= slack) | (high >= length - slack);
-        }
+        let near = self.near_ends(flights, best);
         for i in (0..flights.count).filter(|&i| near[i]) {
             let (ray, start) = flights.one(i, leaves);
             let mut nearest = Nearest::within(best.rank[i].wide());
@@ -154,6 +142,7 @@ impl Prism {
         }
     }
 
+    #[inline(always)]
     fn extent_in<R: Real>(&self) -> Extent<R> {
         Extent {
             length: R::of(self.extent.length),

@@ -1,0 +1,96 @@
+//! Which shots of many may touch something at the ends of a prism.
+
+use super::{Best, Flights};
+use crate::precision::Real;
+use crate::scene::form::Form;
+use crate::scene::lanes::{LANES, Lane, components, padded};
+use crate::scene::prism::Prism;
+
+/// Where shots that leave by an end pass it, and how far aside they may still touch something.
+struct Exits<R> {
+    x: Lane<R>,
+    y: Lane<R>,
+    /// m; infinite for shots that come from outside.
+    reach: Lane<R>,
+}
+
+impl Prism {
+    /// The shots that come so near to an end that they may touch a cap or a rim.
+    #[inline(always)]
+    pub(super) fn near_ends<R: Real>(&self, flights: &Flights<R>, best: &Best<R>) -> [bool; LANES] {
+        let mut near = [false; LANES];
+        let has_caps = !self.caps.is_empty();
+        let extent = self.extent_in::<R>();
+        let farthest = R::of(f64::from(f32::MAX).sqrt());
+        for (i, near) in near.iter_mut().enumerate().take(padded(flights.count)) {
+            let from = flights.origin[2][i];
+            let rank = best.rank[i];
+            let ahead = if rank < farthest { rank } else { farthest };
+            let to = from + flights.direction[2][i] * ahead;
+            let (low, high) = if from < to { (from, to) } else { (to, from) };
+            let radius = if has_caps { flights.radius[i] } else { R::ZERO };
+            let margin = extent.slack + radius;
+            *near = (low <= margin) | (high >= extent.length - margin);
+        }
+        if !has_caps {
+            self.drop_clear_exits(flights, &mut near);
+        }
+        near
+    }
+
+    /// Most shots leave far from any rim.
+    #[inline(always)]
+    fn drop_clear_exits<R: Real>(&self, flights: &Flights<R>, near: &mut [bool; LANES]) {
+        let exits = self.exits(flights);
+        let mut least = [R::INFINITY; LANES];
+        for wall in &self.walls {
+            match wall {
+                Form::Plane(plane) => {
+                    let plane = plane.with();
+                    for i in 0..padded(flights.count) {
+                        let square = plane.squared_distance([exits.x[i], exits.y[i]]);
+                        least[i] = if square < least[i] { square } else { least[i] };
+                    }
+                }
+                Form::Cylinder(cylinder) => {
+                    let cylinder = cylinder.with();
+                    for i in 0..padded(flights.count) {
+                        let apart = cylinder.distance_to_whole([exits.x[i], exits.y[i]]);
+                        let square = apart * apart;
+                        least[i] = if square < least[i] { square } else { least[i] };
+                    }
+                }
+            }
+        }
+        for i in 0..padded(flights.count) {
+            let is_clear = least[i] > exits.reach[i] * exits.reach[i];
+            near[i] &= !is_clear;
+        }
+    }
+
+    #[inline(always)]
+    fn exits<R: Real>(&self, flights: &Flights<R>) -> Exits<R> {
+        let zeros = [R::ZERO; LANES];
+        let mut exits = Exits {
+            x: zeros,
+            y: zeros,
+            reach: zeros,
+        };
+        let extent = self.extent_in::<R>();
+        for i in 0..padded(flights.count) {
+            let [x, y, z] = components(flights.origin, i);
+            let [u, v, w] = components(flights.direction, i);
+            let outwards = w > R::ZERO;
+            let end = if outwards { extent.length } else { R::ZERO };
+            let distance = (end - z) / w;
+            exits.x[i] = x + u * distance;
+            exits.y[i] = y + v * distance;
+            // Beyond the end it can touch something until it is its radius away from the end.
+            let aside = (u * u + v * v).sqrt() / w.abs();
+            let is_inside = (z >= R::ZERO) & (z <= extent.length) & (w != R::ZERO);
+            let reach = flights.radius[i] * (R::ONE + aside) + extent.slack;
+            exits.reach[i] = if is_inside { reach } else { R::INFINITY };
+        }
+        exits
+    }
+}
