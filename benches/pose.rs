@@ -63,11 +63,15 @@ fn rays(criterion: &mut Criterion) {
         ),
     ] {
         let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
-        let once = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
-        group.throughput(Throughput::Elements(once.rays as u64));
-        group.bench_function(name, |bencher| {
-            bencher.iter(|| Tally::trace(&setup, black_box(&choice), 1.0, &samples.deviates));
-        });
+        for (kind, shot_size) in [("points", false), ("shots of their size", true)] {
+            let mut setup = setup.clone();
+            setup.problem.paths.shot_size = shot_size;
+            let once = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
+            group.throughput(Throughput::Elements(once.rays as u64));
+            group.bench_function(format!("{name}, {kind}"), |bencher| {
+                bencher.iter(|| Tally::trace(&setup, black_box(&choice), 1.0, &samples.deviates));
+            });
+        }
     }
     group.finish();
 }

@@ -42,22 +42,23 @@ impl Prism {
     #[inline(always)]
     fn drop_clear_exits<R: Real>(&self, flights: &Flights<R>, near: &mut [bool; LANES]) {
         let exits = self.exits(flights);
+        let count = padded(flights.count);
         let mut least = [R::INFINITY; LANES];
         for wall in &self.walls {
             match wall {
                 Form::Plane(plane) => {
                     let plane = plane.with();
-                    for i in 0..padded(flights.count) {
+                    for (i, least) in least.iter_mut().enumerate().take(count) {
                         let square = plane.squared_distance([exits.x[i], exits.y[i]]);
-                        least[i] = if square < least[i] { square } else { least[i] };
+                        *least = if square < *least { square } else { *least };
                     }
                 }
                 Form::Cylinder(cylinder) => {
                     let cylinder = cylinder.with();
-                    for i in 0..padded(flights.count) {
+                    for (i, least) in least.iter_mut().enumerate().take(count) {
                         let apart = cylinder.distance_to_whole([exits.x[i], exits.y[i]]);
                         let square = apart * apart;
-                        least[i] = if square < least[i] { square } else { least[i] };
+                        *least = if square < *least { square } else { *least };
                     }
                 }
             }
