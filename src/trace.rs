@@ -14,6 +14,7 @@ use crate::precision::{Real, Triple, dot, unit};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::LANES;
 use crate::scene::ray::{Ray, Spot};
+use crate::scene::stand::Stand;
 use crate::setup::Setup;
 use volley::fire;
 
@@ -28,6 +29,8 @@ pub struct Tracer<'a> {
     /// Of the mean shot in flight, m; 0 where shots fly as points.
     radius: f64,
     has_deflectors: bool,
+    /// Whether parts of the scene move with the nozzle.
+    moves_parts: bool,
     /// The pose that is asked for.
     pose: Pose,
     /// The contact, when it is the same on every surface and at every speed.
@@ -97,6 +100,7 @@ impl<'a> Tracer<'a> {
         Self {
             pose: Pose::new(&setup.target.frame, choice),
             has_deflectors: setup.surfaces.iter().any(|surface| surface.deflector),
+            moves_parts: setup.scene.moves_with_nozzle(),
             only_contact,
             setup,
             aim: Aim::new(choice),
@@ -119,8 +123,8 @@ impl<'a> Tracer<'a> {
         self.follow_from(ray, deviate, report)
     }
 
-    /// Follows a shot that starts anywhere in the scene, with the mass, speed and contact that
-    /// `deviate` gives it.
+    /// Follows a shot that starts anywhere in the scene, with the mass, speed, contact and pose of
+    /// the nozzle that `deviate` gives it.
     #[inline]
     pub fn follow_from(
         &self,
@@ -132,6 +136,7 @@ impl<'a> Tracer<'a> {
         let limits = setup.problem.paths;
         let mass = self.mass * deviate.mass();
         let radius = self.radius * deviate.size;
+        let stand = self.moves_parts.then(|| self.stand(deviate));
         let mut ray = start;
         let mut velocity = ray.direction * (self.speed * deviate.speed);
         let mut rolling = Vector3::zeros();
@@ -140,11 +145,9 @@ impl<'a> Tracer<'a> {
         let (mut number, mut deflections, mut rays) = (0, 0, 0);
         loop {
             rays += 1;
-            let met = if radius > 0.0 {
-                setup.scene.first_touch(&ray, radius, leaving)
-            } else {
-                setup.scene.first_hit(&ray, leaving)
-            };
+            let met = setup
+                .scene
+                .first_contact(&ray, radius, leaving, stand.as_ref());
             let Some(hit) = met else {
                 return (End::Left, rays);
             };
@@ -203,6 +206,12 @@ impl<'a> Tracer<'a> {
             let rays = fire(self, &mut volley, shots, witness);
             end_volley(witness, shots, rays);
         }
+    }
+
+    /// Where the nozzle really stands for a shot.
+    fn stand(&self, deviate: &Deviate) -> Stand<f64> {
+        let frame = &self.setup.target.frame;
+        self.aim.pose_set_for(frame, deviate).stand()
     }
 
     /// The contact of a shot with a surface, when restitution and friction are not exactly known.

@@ -42,6 +42,7 @@ fn the_keyway_is_read_in_si() {
                 root_radius: 0.0,
             }),
             place: Place::default(),
+            on_nozzle: false,
         }]
     );
     assert_eq!(problem.target.surface, "hub.floor");

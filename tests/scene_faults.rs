@@ -217,6 +217,7 @@ fn surfaces_are_two_sided() {
             ends: Ends::default(),
         },
         place: Place::default(),
+        on_nozzle: false,
     }];
     problem.target = Target {
         surface: "pin.wall".into(),

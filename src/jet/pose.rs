@@ -6,6 +6,7 @@ use super::sample::Deviate;
 use crate::problem::setting::Choice;
 use crate::scene::patch::Frame;
 use crate::scene::ray::Ray;
+use crate::scene::stand::Stand;
 
 /// Where the exit is and how the jet points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +32,11 @@ impl Pose {
     pub fn rotation(&self) -> UnitQuaternion<f64> {
         let axes = Matrix3::from_columns(&[self.up, self.side, self.direction]);
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes))
+    }
+
+    /// The frame of the nozzle, for the parts that move with it.
+    pub fn stand(&self) -> Stand<f64> {
+        Stand::new([self.up, self.side, self.direction], self.exit)
     }
 
     /// The ray of a shot from this pose.
@@ -70,7 +76,13 @@ impl Aim {
     /// The ray of a shot from the pose that was really set for it.
     #[inline]
     pub fn shot(&self, frame: &Frame, deviate: &Deviate) -> Ray {
-        self.perturbed(deviate).pose(frame).shot(deviate)
+        self.pose_set_for(frame, deviate).shot(deviate)
+    }
+
+    /// The pose that was really set for a shot.
+    #[inline]
+    pub fn pose_set_for(&self, frame: &Frame, deviate: &Deviate) -> Pose {
+        self.perturbed(deviate).pose(frame)
     }
 
     fn perturbed(&self, deviate: &Deviate) -> Self {

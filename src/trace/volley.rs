@@ -11,6 +11,7 @@ use crate::impact::{Coefficients, Friction, collide};
 use crate::jet::Deviate;
 use crate::precision::{Real, Triple, along, dot, unit};
 use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
+use crate::scene::stand::Stands;
 
 /// Up to [`LANES`] shots in flight, side by side.
 pub(crate) struct Volley<R> {
@@ -164,6 +165,7 @@ impl<R: Real> Volley<R> {
                 self.slides[i] = R::of(contact.friction.slides * factor);
             }
         }
+        self.rays.stands = tracer.moves_parts.then(|| stands(tracer, deviates));
         let share = R::of(tracer.setup.problem.paths.least_energy);
         for i in 0..padded(self.rays.count) {
             self.least_energy[i] = share * energy(components(&self.velocity, i), [R::ZERO; 3]);
@@ -309,6 +311,9 @@ impl<R: Real> Volley<R> {
         ] {
             keep(lane, kept);
         }
+        if let Some(stands) = &mut self.rays.stands {
+            stands.lanes_mut().for_each(|lane| keep(lane, kept));
+        }
         keep(&mut self.shot, kept);
         keep(&mut self.hits.spots.part, kept);
         keep(&mut self.hits.spots.piece, kept);
@@ -347,6 +352,15 @@ impl<R: Real> Volley<R> {
             );
         }
     }
+}
+
+/// Where the nozzle really stands for each shot.
+fn stands<R: Real>(tracer: &Tracer, deviates: &[Deviate]) -> Box<Stands<R>> {
+    let mut stands = Box::new(Stands::none());
+    for (i, deviate) in deviates.iter().take(LANES).enumerate() {
+        stands.set(i, &tracer.stand(deviate));
+    }
+    stands
 }
 
 /// 1 for what is true, 0 for what is not.

@@ -31,6 +31,7 @@ pub fn keyway(length: f64) -> Problem {
                 root_radius: 0.0,
             }),
             place: Place::default(),
+            on_nozzle: false,
         }],
         target: Target {
             surface: "hub.floor".into(),
