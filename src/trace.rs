@@ -1,5 +1,6 @@
 //! Shots through the scene: from the exit, through every impact, to where the path ends.
 
+mod rough;
 #[cfg(test)]
 mod tests;
 mod volley;
@@ -29,6 +30,7 @@ pub struct Tracer<'a> {
     /// Of the mean shot in flight, m; 0 where shots fly as points.
     radius: f64,
     has_deflectors: bool,
+    has_rough_surfaces: bool,
     /// Whether parts of the scene move with the nozzle.
     moves_parts: bool,
     /// The pose that is asked for.
@@ -100,6 +102,7 @@ impl<'a> Tracer<'a> {
         Self {
             pose: Pose::new(&setup.target.frame, choice),
             has_deflectors: setup.surfaces.iter().any(|surface| surface.deflector),
+            has_rough_surfaces: setup.surfaces.iter().any(|surface| surface.roughness > 0.0),
             moves_parts: setup.scene.moves_with_nozzle(),
             only_contact,
             setup,
@@ -153,7 +156,13 @@ impl<'a> Tracer<'a> {
             };
             let surface = &setup.surfaces[hit.surface as usize];
             let contact = self.contact_with(hit.surface as usize, deviate);
-            let Some(after) = rebound(&contact, &velocity, &rolling, &hit.normal) else {
+            let normal = if surface.roughness > 0.0 {
+                let tilt = rough::tilt(deviate, rays as u32, surface.roughness);
+                rough_normal(&contact, &velocity, &rolling, &hit.normal, tilt)
+            } else {
+                hit.normal
+            };
+            let Some(after) = rebound(&contact, &velocity, &rolling, &normal) else {
                 return (End::Left, rays);
             };
             (velocity, rolling) = (after.velocity, after.rolling);
@@ -219,6 +228,22 @@ impl<'a> Tracer<'a> {
         let contact = self.setup.surfaces[surface].contact.unwrap_or(self.contact);
         perturbed(contact, deviate)
     }
+}
+
+/// The normal that a shot finds where a surface is rough.
+fn rough_normal(
+    contact: &Contact,
+    velocity: &Vector3<f64>,
+    rolling: &Vector3<f64>,
+    normal: &Vector3<f64>,
+    tilt: [f64; 2],
+) -> Vector3<f64> {
+    let departure = |normal: Triple<f64>| {
+        let after = rebound(contact, velocity, rolling, &normal.into());
+        after.map_or([0.0; 3], |after| after.velocity.into())
+    };
+    let (normal, velocity) = ((*normal).into(), (*velocity).into());
+    rough::normal_of_impact(normal, tilt, velocity, departure).into()
 }
 
 /// Kinetic energy per unit mass of a solid sphere, translation and rotation, J/kg.

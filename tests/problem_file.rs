@@ -175,7 +175,9 @@ fn the_plate_holds_every_setting_of_the_pose() {
         problem.paths,
         PathLimits {
             impacts: 6,
-            least_energy: 0.01
+            least_energy: 0.01,
+            shot_size: true,
+            spin: true,
         }
     );
     // N* = (1 + E) m v sin(60 deg) of the paper.
@@ -220,12 +222,13 @@ settings:
   speed: [18 km/h, 10 m/s]
   aim_along: [-2 mm, 2 mm]
   aim_across: 1 mm
+  aim_above: [0.5 mm, 3 mm]
   contact: scaled
 goals: { normal_impulse: { target: 40 µN s } }
 surfaces:
   pin.wall: { role: deflector, contact: { mu_s: 0.8, mu_d: 0.7, restitution: 0.4, law: always_slip } }
   slot.near: { allow: 5 uN.s, share: 0.1 %, weight: 2 }
-tolerance: { azimuth: 1 deg, friction: 10 %, aim_along: 0.5 mm, aim_across: 0.25 mm }
+tolerance: { azimuth: 1 deg, friction: 10 %, aim_along: 0.5 mm, aim_across: 0.25 mm, aim_above: 0.1 mm }
 paths: { impacts: 3, least_energy: 0 % }
 solve: { accuracy: 0.5 %, seed: 18446744073709551615 }
 ";
@@ -385,6 +388,13 @@ fn every_other_key_is_read() {
         }
     );
     assert_eq!(settings.aim_across, Range::held(0.001));
+    assert_eq!(
+        settings.aim_above,
+        Range {
+            min: 0.0005,
+            max: 0.003
+        }
+    );
     assert_eq!(settings.contact, [1]);
 
     let [pin_wall, slot_near] = problem.surfaces.as_slice() else {
@@ -401,12 +411,15 @@ fn every_other_key_is_read() {
     assert_eq!(problem.tolerance.friction, 0.1);
     assert_eq!(problem.tolerance.aim_along, 0.0005);
     assert_eq!(problem.tolerance.aim_across, 0.00025);
+    assert_eq!(problem.tolerance.aim_above, 0.0001);
     assert_eq!(problem.tolerance.azimuth, PI / 180.0);
     assert_eq!(
         problem.paths,
         PathLimits {
             impacts: 3,
-            least_energy: 0.0
+            least_energy: 0.0,
+            shot_size: true,
+            spin: true,
         }
     );
     assert_eq!((problem.accuracy, problem.seed), (0.005, u64::MAX));

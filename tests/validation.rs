@@ -318,6 +318,7 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
         speed: velocity.norm(),
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 0,
         static_friction: 0.0,
     };

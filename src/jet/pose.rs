@@ -60,6 +60,7 @@ pub(crate) struct Aim {
     standoff: f64,
     along: f64,
     across: f64,
+    above: f64,
 }
 
 impl Aim {
@@ -70,6 +71,7 @@ impl Aim {
             standoff: choice.standoff,
             along: choice.aim_along,
             across: choice.aim_across,
+            above: choice.aim_above,
         }
     }
 
@@ -92,6 +94,7 @@ impl Aim {
             standoff: self.standoff + deviate.standoff,
             along: self.along + deviate.aim[0],
             across: self.across + deviate.aim[1],
+            above: self.above + deviate.aim[2],
         }
     }
 
@@ -102,7 +105,10 @@ impl Aim {
         let heading = frame.along * cos_azimuth + frame.across * sin_azimuth;
         let side = frame.across * cos_azimuth - frame.along * sin_azimuth;
         let direction = heading * cos_incidence - frame.normal * sin_incidence;
-        let aim = frame.aim + frame.along * self.along + frame.across * self.across;
+        let aim = frame.aim
+            + frame.along * self.along
+            + frame.across * self.across
+            + frame.normal * self.above;
         Pose {
             exit: aim - direction * self.standoff,
             direction,

@@ -99,6 +99,7 @@ fn poses(setup: &Setup, count: u32) -> impl Iterator<Item = Choice> + '_ {
             speed: settings.speed.at(share(3)),
             aim_along: 0.0,
             aim_across: 0.0,
+            aim_above: 0.0,
             contact: settings.contact[index as usize % settings.contact.len()],
             static_friction: 0.2,
         }

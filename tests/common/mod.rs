@@ -82,6 +82,7 @@ pub fn keyway(length: f64) -> Problem {
             },
             aim_along: Range::held(0.0),
             aim_across: Range::held(0.0),
+            aim_above: Range::held(0.0),
             contact: vec![0, 1, 2],
         },
         goals: Goals {
