@@ -219,7 +219,7 @@ impl Known {
         if self.values[7].is_none() && !friction.is_held() {
             missing.push("mu_s");
         }
-        if choice.incidence == 0.0 && choice.aim_above <= 0.0 && missing.is_empty() {
+        if self.values[0] == Some(0.0) && choice.aim_above <= 0.0 {
             let message = "the incidence must be above 0 deg where aim_above is not above 0 mm";
             return Err(message.into());
         }
