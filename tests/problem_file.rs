@@ -200,9 +200,9 @@ scene:
     place: { at: [1, 2, 3], rotate: [90 deg, 0 deg, 90 deg] }
   groove:
     keyway: { bore: 30 mm, width: 8 mm, depth: 3.3 mm, length: 40 mm, root_radius: 0.4 mm }
-  pin: { bore: { diameter: 12 mm, length: 1 in, ends: closed } }
+  pin: { bore: { diameter: 12 mm, length: 1 in, ends: closed }, place: nozzle }
   mask: { mesh: parts/mask.obj, lengths_in: in, regions: { lip: { min: [0, 0, 0], max: [1, 2, 3] } } }
-  cover: { mesh: ./cover.stl }
+  cover: { mesh: ./cover.stl, place: { on: nozzle, at: [0, 0, 4] } }
 target: { surface: mask.rim, facing: [0, 0, -2] }
 shot: { radius: 250 um, density: 7.8 g/cm3, size_spread: 4 % }
 jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian }
@@ -370,6 +370,9 @@ fn every_other_key_is_read() {
     assert_eq!(sprung.contact.restitution, Restitution::Constant(1.0));
     assert_eq!(sprung.contact.law, Law::Irrotational);
 
+    let on_nozzle: Vec<bool> = problem.parts.iter().map(|part| part.on_nozzle).collect();
+    assert_eq!(on_nozzle, [false, false, true, false, true]);
+    assert_eq!(problem.parts[4].place.shift.z, 0.04);
     let settings = &problem.settings;
     assert_eq!(settings.incidence, Range::held(FRAC_PI_2));
     assert_eq!(settings.azimuth, Range { min: -PI, max: PI });
