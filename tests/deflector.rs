@@ -17,13 +17,17 @@ const MIRROR: &str = "
 format: 1
 lengths_in: mm
 scene:
-  wall: { box: { min: [-500, -500, -1], max: [500, 500, 0] } }
+  wall:
+    extrude:
+      length: 1000 mm
+      profile: [ { from: [500, 0], line_to: [-500, 0], surface: face } ]
+    place: { at: [0, -500, 0], rotate: [-90 deg, 0 deg, 0 deg] }
   mirror:
     extrude:
       length: 10 mm
       profile: [ { from: [5, 0], line_to: [-5, 0], surface: face } ]
     place: { on: nozzle, at: [0, 5, 10], rotate: [90 deg, 45 deg, 0 deg] }
-target: { surface: wall.z_max, aim: [0, 0, 0], along: [1, 0, 0] }
+target: { surface: wall.face, aim: [0, 0, 0], along: [1, 0, 0] }
 shot: { radius: 0.4 mm, density: 7800 kg/m3 }
 jet: { exit_diameter: 2 mm, divergence: 5 deg }
 contacts: { dry: { mu_s: 0.3, mu_d: 0.25, restitution: 0.5 } }
@@ -182,7 +186,7 @@ fn poses() -> impl Iterator<Item = Choice> {
     };
     let angles =
         steps(1.0, 90.0, 30).flat_map(move |i| steps(-90.0, 90.0, 13).map(move |a| (i, a)));
-    let angles = angles.flat_map(move |a| steps(2e-3, 50e-3, 13).map(move |s| (a, s)));
+    let angles = angles.flat_map(move |a| steps(2e-3, 50e-3, 25).map(move |s| (a, s)));
     let aims = angles.flat_map(move |(a, s)| steps(-6e-3, 6e-3, 5).map(move |along| (a, s, along)));
     aims.flat_map(move |((incidence, azimuth), standoff, along)| {
         steps(0.0, 6e-3, 3).map(move |above| Choice {
@@ -210,15 +214,21 @@ fn without_the_pin_no_pose_reaches_the_wall_steeply() {
     problem.nozzle.clearance = 0.0;
     let setup = Setup::new(problem, Walls::Exact).unwrap();
     let samples = Samples::new(&setup.problem, Stream::Search, 64);
-    let (mut fitting, mut best) = (0, 0.0_f64);
+    let (mut fitting, mut best, mut with) = (0, 0.0_f64, None);
     for choice in poses() {
-        if clearance_violation(&setup, &choice).is_none() {
+        // Round the bore is solid metal, of which the scene has the wall only.
+        let exit = Pose::new(&setup.target.frame, &choice).exit;
+        let in_bore = exit.x.hypot(exit.y) < 6e-3;
+        if in_bore && clearance_violation(&setup, &choice).is_none() {
             fitting += 1;
-            best = best.max(useful_share(&setup, &choice, &samples.deviates));
+            let share = useful_share(&setup, &choice, &samples.deviates);
+            if share > best {
+                (best, with) = (share, Some(choice));
+            }
         }
     }
     assert!(fitting > 1000, "{fitting}");
-    assert!(best < 0.01, "{best}");
+    assert!(best < 0.01, "{best} with {with:?}");
 
     let answer = &solve(&with_pin, &Control::default()).answers[0];
     assert!(answer.passes());
