@@ -137,7 +137,7 @@ impl Scene {
     }
 
     /// Whether a surface does.
-    pub(crate) fn surface_moves_with_nozzle(&self, surface: u32) -> bool {
+    pub fn surface_moves_with_nozzle(&self, surface: u32) -> bool {
         let mut moving = self.parts.iter().filter(|part| part.on_nozzle);
         moving.any(|part| part.facets.has_surface(surface))
     }

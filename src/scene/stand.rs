@@ -32,6 +32,12 @@ impl Stand<f64> {
         }
     }
 
+    /// A point of this frame, as it is in the scene, m.
+    pub fn point_back(&self, point: &Point3<f64>) -> Point3<f64> {
+        let turned = Point3::from(self.vector_back((*point).into()));
+        turned + Vector3::from(self.origin)
+    }
+
     /// A ray of the scene, as it is in this frame.
     pub fn ray_there(&self, ray: &Ray) -> Ray {
         Ray {
