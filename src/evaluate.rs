@@ -19,6 +19,8 @@ use ledger::{Ledger, SurfaceSums};
 pub struct Evaluation {
     /// Number of shots of the jet.
     pub shots: usize,
+    /// Whether all shots of the jet are the same: then the figures of one have no error.
+    pub is_exact: bool,
     /// Number of shots on its rim, which only the terms of the objective count.
     pub rim_shots: usize,
     /// Number of rays cast for them.
@@ -33,6 +35,8 @@ pub struct Evaluation {
     pub target: TargetReceipt,
     /// What every secondary surface receives; indices are the scene's.
     pub surfaces: Vec<SurfaceReceipt>,
+    /// Mean number of impacts of a path, those on the target included.
+    pub impacts_per_shot: f64,
     /// How the paths ended: share of all shots.
     pub ends: BTreeMap<End, f64>,
 }
@@ -98,7 +102,11 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
             of_jet.plus(&replicate.rim.sums(goals, choice.speed))
         })
         .collect();
-    let (terms, term_errors, standard_error) = jackknife(&sums, goals);
+    let (terms, term_errors, standard_error) = if fresh.is_one_ray() {
+        (sums[0].terms(goals), Terms::default(), 0.0)
+    } else {
+        jackknife(&sums, goals)
+    };
     let rays = replicates.iter().map(|r| r.tally.rays + r.rim.rays).sum();
     let mut ends = BTreeMap::new();
     for (&end, &count) in replicates.iter().flat_map(|replicate| &replicate.ends) {
@@ -107,8 +115,10 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
     let surfaces = (0..setup.surfaces.len())
         .map(|index| receipt(replicates.iter().map(|r| &r.surfaces[index])))
         .collect();
+    let impacts: usize = replicates.iter().map(|r| r.impacts).sum();
     Evaluation {
         shots,
+        is_exact: fresh.is_one_ray(),
         rim_shots: fresh.rim_shots(),
         rays,
         terms,
@@ -116,6 +126,7 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
         standard_error,
         target: target_receipt(goals, choice.speed, &replicates),
         surfaces,
+        impacts_per_shot: impacts as f64 / shots as f64,
         ends,
     }
 }

@@ -17,6 +17,7 @@
 //! use peenpose::scene::Walls;
 //! use peenpose::setup::Setup;
 //! use peenpose::solve::{Control, passing_windows, solve};
+//! use peenpose::unknowns::Unknowns;
 //! use peenpose::{problem, report, validity};
 //!
 //! // What is asked. In a file it is the same text; `Setup::load` reads one and builds its scene.
@@ -61,6 +62,7 @@
 //!
 //! // The complete result, and the sheet for the shop.
 //! let circumstances = Circumstances {
+//!     ladder: &solution.ladder,
 //!     source: &source,
 //!     status: solution.status.into(),
 //!     command: "peenpose solve floor.yaml".into(),
@@ -72,8 +74,9 @@
 //!     },
 //! };
 //! let windows = passing_windows(&setup, &solution);
-//! let notes = validity::notes(&setup, &best.choice);
-//! let record = Record::new(&setup, &solution.answers, &windows, notes, circumstances)
+//! let notes = validity::notes(&setup, &best.choice, best.evaluation.as_ref());
+//! let unknowns = Unknowns::of(&setup, &best.choice);
+//! let record = Record::new(&setup, &solution.answers, &windows, notes, unknowns, circumstances)
 //!     .ok_or("no contact to choose")?;
 //! assert_eq!(Record::from_json(&record.to_json()?)?, record);
 //! println!("{}", report::sheet(&record));
@@ -94,6 +97,7 @@
 //! | [`objective`] | impacts to terms to J, and the best speed |
 //! | [`evaluate`] | what settings do, on shots that nothing was tuned on |
 //! | [`verdict`] | whether that passes, goal by goal |
+//! | [`unknowns`] | which of restitution and friction, where they are not known exactly, moves the result most |
 //! | [`solve`] | the search over settings, and how far each may drift |
 //! | [`validity`] | what the model leaves out at the answer |
 //! | [`record`] | the complete result, JSON both ways |
@@ -123,6 +127,8 @@ pub mod objective;
 
 pub mod evaluate;
 pub mod verdict;
+
+pub mod unknowns;
 
 pub mod solve;
 pub mod validity;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::impact::Contact;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
-use crate::problem::model::Effect;
+use crate::problem::model::{Effect, Model};
 use crate::problem::part::{Part, Target};
 use crate::problem::setting::Choice;
 use crate::problem::{self, Problem, Reading, Source};
@@ -107,6 +107,29 @@ impl Setup {
             }
         }
         reduced
+    }
+
+    /// The effects that the problem has and that its model does not name.
+    pub fn unasked(&self) -> Vec<Effect> {
+        let Model::Only(named) = &self.problem.model else {
+            return Vec::new();
+        };
+        let effects = self.problem.effects().into_iter();
+        effects.filter(|effect| !named.contains(effect)).collect()
+    }
+
+    /// The same without the effects that are not asked for; what depends on the speed becomes what
+    /// it is at the middle of all settings.
+    #[must_use]
+    pub fn as_asked(&self) -> Self {
+        self.without(&self.unasked(), &self.problem.settings.middle())
+    }
+
+    /// The contact of the mean shot with a surface of the scene: its own one, or the chosen one.
+    pub fn contact_on(&self, surface: u32, choice: &Choice) -> Contact {
+        self.surfaces[surface as usize]
+            .contact
+            .unwrap_or_else(|| self.problem.contacts[choice.contact].at(choice.static_friction))
     }
 
     fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {

@@ -29,6 +29,8 @@ pub enum Dimension {
     Impulse,
     /// In kg/m3.
     Density,
+    /// In kg/s.
+    MassFlow,
     /// A percentage, as a fraction of 1.
     Fraction,
 }
@@ -72,16 +74,24 @@ const IMPULSES: &[Unit] = &[
     ("nN.s", Shift(-9)),
 ];
 const DENSITIES: &[Unit] = &[("kg/m3", Shift(0)), ("g/cm3", Shift(3))];
+const MASS_FLOWS: &[Unit] = &[
+    ("kg/min", Factor(1.0 / 60.0)),
+    ("kg/s", Shift(0)),
+    ("g/s", Shift(-3)),
+    ("g/min", Factor(1e-3 / 60.0)),
+    ("lb/min", Factor(0.453_592_37 / 60.0)),
+];
 const FRACTIONS: &[Unit] = &[("%", Shift(-2))];
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Length,
         Self::Angle,
         Self::Speed,
         Self::Impulse,
         Self::Density,
+        Self::MassFlow,
         Self::Fraction,
     ];
 
@@ -93,6 +103,7 @@ impl Dimension {
             Self::Speed => "speed",
             Self::Impulse => "impulse",
             Self::Density => "density",
+            Self::MassFlow => "mass flow",
             Self::Fraction => "percentage",
         }
     }
@@ -105,6 +116,7 @@ impl Dimension {
             Self::Speed => "a speed such as `10 m/s`",
             Self::Impulse => "an impulse such as `40 uN.s`",
             Self::Density => "a density such as `7000 kg/m3`",
+            Self::MassFlow => "a mass flow such as `5 kg/min`",
             Self::Fraction => "a percentage such as `5 %`",
         }
     }
@@ -121,6 +133,7 @@ impl Dimension {
             Self::Speed => SPEEDS,
             Self::Impulse => IMPULSES,
             Self::Density => DENSITIES,
+            Self::MassFlow => MASS_FLOWS,
             Self::Fraction => FRACTIONS,
         }
     }
@@ -148,6 +161,7 @@ impl Dimension {
             Self::Speed => "m/s",
             Self::Impulse => "uN.s",
             Self::Density => "kg/m3",
+            Self::MassFlow => "kg/min",
             Self::Fraction => "%",
         };
         match number.parse::<f64>() {

@@ -27,6 +27,8 @@ pub struct Verdict {
     pub counted: usize,
     /// Share that may break it.
     pub allowed: f64,
+    /// Whether all shots are the same, so that the share has no error.
+    pub is_exact: bool,
 }
 
 impl Verdict {
@@ -34,18 +36,21 @@ impl Verdict {
     pub fn all(setup: &Setup, evaluation: &Evaluation) -> Vec<Self> {
         let goals = &setup.problem.goals;
         let target = &evaluation.target;
+        let is_exact = evaluation.is_exact;
         let mut verdicts = vec![
             Self {
                 subject: Subject::Miss,
                 broken: evaluation.shots - target.hits,
                 counted: evaluation.shots,
                 allowed: goals.miss.share,
+                is_exact,
             },
             Self {
                 subject: Subject::NormalImpulse,
                 broken: target.off_target,
                 counted: target.hits,
                 allowed: goals.normal_impulse.share,
+                is_exact,
             },
         ];
         if let Some(goal) = goals.tangential_impulse {
@@ -54,6 +59,7 @@ impl Verdict {
                 broken: target.over_limit,
                 counted: target.hits,
                 allowed: goal.share,
+                is_exact,
             });
         }
         for (index, (limits, receipt)) in
@@ -65,6 +71,7 @@ impl Verdict {
                     broken: receipt.over,
                     counted: evaluation.shots,
                     allowed: limits.share,
+                    is_exact,
                 });
             }
         }
@@ -88,6 +95,9 @@ impl Verdict {
 
     /// 95 % interval of the share: Wilson's, or 0 to 3/n where no shot broke the goal.
     pub fn interval(&self) -> [f64; 2] {
+        if self.is_exact {
+            return [self.share(); 2];
+        }
         let n = self.counted as f64;
         if self.counted == 0 {
             return [0.0, 1.0];

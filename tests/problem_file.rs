@@ -70,6 +70,7 @@ fn the_keyway_is_read_in_si() {
             divergence: 4.0 * (PI / 180.0),
             spread: Spread::Uniform,
             speed_spread: 0.05,
+            mass_flow: None,
         }
     );
     assert_eq!(
@@ -205,7 +206,7 @@ scene:
   cover: { mesh: ./cover.stl, place: { on: nozzle, at: [0, 0, 4] } }
 target: { surface: mask.rim, facing: [0, 0, -2] }
 shot: { radius: 250 um, density: 7.8 g/cm3, size_spread: 4 % }
-jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian }
+jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min }
 nozzle:
   body:
     - { capsule: { length: 60 mm, radius: 2 mm } }
@@ -227,7 +228,7 @@ settings:
 goals: { normal_impulse: { target: 40 µN s } }
 surfaces:
   pin.wall: { role: deflector, contact: { mu_s: 0.8, mu_d: 0.7, restitution: 0.4, law: always_slip } }
-  slot.near: { allow: 5 uN.s, share: 0.1 %, weight: 2 }
+  slot.near: { allow: 5 uN.s, share: 0.1 %, weight: 2, roughness: 18 deg }
 tolerance: { azimuth: 1 deg, friction: 10 %, aim_along: 0.5 mm, aim_across: 0.25 mm, aim_above: 0.1 mm }
 paths: { impacts: 3, least_energy: 0 % }
 solve: { accuracy: 0.5 %, seed: 18446744073709551615 }
@@ -321,6 +322,7 @@ fn every_other_key_is_read() {
         }
     );
     assert_eq!(problem.jet.spread, Spread::Gaussian);
+    assert_eq!(problem.jet.mass_flow, Some(0.1));
     assert_eq!(
         (problem.jet.exit_diameter, problem.jet.divergence),
         (0.0, 0.0)
@@ -410,7 +412,9 @@ fn every_other_key_is_read() {
     assert_eq!(slot_near.allow, Some(5e-6));
     assert_eq!(slot_near.share, Some(0.001));
     assert_eq!(slot_near.weight, Some(2.0));
+    assert_eq!(slot_near.roughness, PI / 10.0);
     assert_eq!(slot_near.role, Role::Part);
+    assert_eq!(pin_wall.roughness, 0.0);
     assert_eq!(problem.tolerance.friction, 0.1);
     assert_eq!(problem.tolerance.aim_along, 0.0005);
     assert_eq!(problem.tolerance.aim_across, 0.00025);

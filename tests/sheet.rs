@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use peenpose::record::{AnswerRecord, Record, StatusRecord};
 use peenpose::report::sheet;
 
-const NAMES: [&str; 6] = [
+const NAMES: [&str; 7] = [
     "keyway",
     "long_keyway",
     "plate",
     "given_fails",
     "given_collides",
+    "given_unknown",
     "no_room",
 ];
 

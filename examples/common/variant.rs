@@ -4,6 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use peenpose::problem::Problem;
+use peenpose::problem::model::Model;
 use peenpose::problem::setting::Tolerance;
 use peenpose::setup::Setup;
 
@@ -51,6 +52,9 @@ impl Variant {
     /// The problem with its scene.
     pub fn setup(&self) -> Result<Setup, Box<dyn Error>> {
         let (mut setup, _) = Setup::load(&path(self.file))?;
+        // What is known as best was found for points, with everything else.
+        setup.problem.paths.shot_size = false;
+        setup.problem.model = Model::Full;
         let tolerance = &mut setup.problem.tolerance;
         if !self.tolerance {
             *tolerance = Tolerance::default();

@@ -7,7 +7,7 @@ use super::control::Control;
 use super::timing;
 use crate::jet::{Samples, Stream};
 use crate::objective::{Sums, Tally};
-use crate::problem::Problem;
+use crate::problem::model::{Effect as Modelled, Model};
 use crate::problem::setting::{Choice, Tolerance};
 use crate::setup::Setup;
 use crate::solve::solve;
@@ -39,7 +39,7 @@ struct Variant {
 
 /// The effects that the problem has; those that were reached when the control stops it.
 pub(super) fn effects(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Effect> {
-    let variants = solved_variants(setup, control);
+    let variants = solved_variants(setup, choice, control);
     if variants.is_empty() {
         return Vec::new();
     }
@@ -64,19 +64,15 @@ pub(super) fn effects(setup: &Setup, choice: &Choice, control: &Control) -> Vec<
     variants.iter().zip(&full[1..]).map(effect).collect()
 }
 
-fn solved_variants(setup: &Setup, control: &Control) -> Vec<Variant> {
-    let removals = without_each_effect(&setup.problem);
+fn solved_variants(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Variant> {
+    let removals = without_each_effect(setup, choice);
     let of = removals.len();
     let mut variants = Vec::new();
-    for (number, (name, problem)) in removals.into_iter().enumerate() {
+    for (number, (name, setup)) in removals.into_iter().enumerate() {
         if control.is_stopped() {
             break;
         }
         control.tell("effects", number, of);
-        let setup = Setup {
-            problem,
-            ..setup.clone()
-        };
         let solution = solve(&setup, &control.of_a_search());
         let best = solution.answers.first().filter(|_| !control.is_stopped());
         variants.extend(best.map(|best| Variant {
@@ -101,52 +97,19 @@ fn relative_cost(without: &Setup, with: &Setup, choice: &Choice) -> f64 {
     timing::ratio(|| trace(without, &fewer), || trace(with, &all))
 }
 
-/// The problem without each of the effects that it has.
-fn without_each_effect(problem: &Problem) -> Vec<(&'static str, Problem)> {
-    type Removal = (&'static str, fn(&Problem) -> bool, fn(&mut Problem));
-    const REMOVALS: [Removal; 7] = [
-        (
-            "impacts after the first",
-            |problem| problem.paths.impacts > 1,
-            |problem| problem.paths.impacts = 1,
-        ),
-        (
-            "impacts after the second",
-            |problem| problem.paths.impacts > 2,
-            |problem| problem.paths.impacts = 2,
-        ),
-        (
-            "width of the exit",
-            |problem| problem.jet.exit_diameter > 0.0,
-            |problem| problem.jet.exit_diameter = 0.0,
-        ),
-        (
-            "divergence of the jet",
-            |problem| problem.jet.divergence > 0.0,
-            |problem| problem.jet.divergence = 0.0,
-        ),
-        (
-            "scatter of the speed",
-            |problem| problem.jet.speed_spread > 0.0,
-            |problem| problem.jet.speed_spread = 0.0,
-        ),
-        (
-            "scatter of the size",
-            |problem| problem.shot.size_spread > 0.0,
-            |problem| problem.shot.size_spread = 0.0,
-        ),
-        (
-            "tolerance of the settings",
-            |problem| problem.tolerance != Tolerance::default(),
-            |problem| problem.tolerance = Tolerance::default(),
-        ),
-    ];
-    let present = REMOVALS.into_iter().filter(|(_, has, _)| has(problem));
-    present
-        .map(|(name, _, remove)| {
-            let mut problem = problem.clone();
-            remove(&mut problem);
-            (name, problem)
-        })
-        .collect()
+/// The setup without each of the effects that it has, and without its tolerance; searches for them
+/// leave out nothing else.
+fn without_each_effect(setup: &Setup, choice: &Choice) -> Vec<(&'static str, Setup)> {
+    let effects = setup.problem.effects().into_iter();
+    let without = |effect: Modelled| (effect.description(), setup.without(&[effect], choice));
+    let mut variants: Vec<(&'static str, Setup)> = effects.map(without).collect();
+    if setup.problem.tolerance != Tolerance::default() {
+        let mut exact = setup.clone();
+        exact.problem.tolerance = Tolerance::default();
+        variants.push(("tolerance of the settings", exact));
+    }
+    for (_, variant) in &mut variants {
+        variant.problem.model = Model::Full;
+    }
+    variants
 }

@@ -210,7 +210,7 @@ fn curves_of(
             let squares = sets.iter().map(|set| set[index].mean_squares[level]);
             PosePoint {
                 shots,
-                seconds: way.seconds(&samples.deviates[..shots]),
+                seconds: way.seconds(&samples.deviates[..shots.min(samples.deviates.len())]),
                 error: mean(squares).0.sqrt(),
             }
         });

@@ -83,7 +83,7 @@ impl Searches {
 /// Accuracies that are tried besides that of the file.
 const ACCURACIES: [f64; 5] = [0.3, 0.1, 0.03, 0.01, 0.003];
 /// Shots with which searches end that are not asked for an accuracy.
-const RUNGS: [usize; 5] = [64, 256, 1024, 4096, 16384];
+const RUNGS: [usize; 4] = [64, 256, 1024, 4096];
 
 fn methods(accuracy: f64) -> Vec<Method> {
     let mut accuracies = ACCURACIES.to_vec();

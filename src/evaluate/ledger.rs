@@ -17,6 +17,8 @@ pub(super) struct Ledger {
     pub rim: Tally,
     /// First hits on target that stick.
     pub sticking: usize,
+    /// Impacts of all paths.
+    pub impacts: usize,
     /// One for each surface of the scene.
     pub surfaces: Vec<SurfaceSums>,
     pub ends: BTreeMap<End, usize>,
@@ -43,6 +45,7 @@ impl Ledger {
             setup,
             score: Score::new(setup, choice.speed, shots.len()),
             sticking: 0,
+            impacts: 0,
             surfaces: vec![SurfaceSums::default(); setup.surfaces.len()],
             ends: BTreeMap::new(),
             seen: Marks::new(setup.surfaces.len()),
@@ -58,6 +61,7 @@ impl Ledger {
             tally: clerk.score.finish(),
             rim: Tally::trace(setup, choice, choice.speed, &replicate.rim.deviates),
             sticking: clerk.sticking,
+            impacts: clerk.impacts,
             surfaces: clerk.surfaces,
             ends: clerk.ends,
         }
@@ -69,6 +73,7 @@ struct Clerk<'a> {
     setup: &'a Setup,
     score: Score<f64>,
     sticking: usize,
+    impacts: usize,
     surfaces: Vec<SurfaceSums>,
     ends: BTreeMap<End, usize>,
     /// The surfaces that each shot of the volley has hit off target.
@@ -82,6 +87,7 @@ impl Witness<f64> for Clerk<'_> {
         self.score.impacts(volley);
         for i in (0..volley.rays.count).filter(|&i| volley.impacts.counts[i] != 0.0) {
             let number = volley.number[i] as usize;
+            self.impacts += 1;
             if self.score.is_on_target(i) {
                 self.sticking += usize::from(number == 1 && volley.impacts.sticks[i] != 0.0);
                 continue;

@@ -151,6 +151,34 @@ impl Restitution {
         }
     }
 
+    /// E, at the speed at which it was measured where it falls with speed.
+    pub fn reference(self) -> f64 {
+        match self {
+            Self::Constant(value) => value,
+            Self::Falling { reference, .. } => reference,
+        }
+    }
+
+    /// The normal speed, m/s, at which N*/m = (1 + E) |v_n| is `impulse`, m/s.
+    pub fn approach_speed(self, impulse: f64) -> f64 {
+        match self {
+            Self::Constant(value) => impulse / (1.0 + value),
+            // (1 + E) v rises with v, and E lies within 0 to 1.
+            Self::Falling { .. } => {
+                let (mut low, mut high) = (0.5 * impulse, impulse);
+                for _ in 0..f64::MANTISSA_DIGITS {
+                    let middle = 0.5 * (low + high);
+                    if (1.0 + self.at(middle)) * middle < impulse {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                high
+            }
+        }
+    }
+
     fn validate(self) -> Result<(), ContactFault> {
         let coefficient = |value: f64| {
             (0.0..=1.0)

@@ -110,7 +110,15 @@ impl Replicates {
         Self::of(problem, purpose, shots.div_ceil(Self::COUNT).max(1), 0)
     }
 
+    /// One shot, when all shots of a problem are the same.
     fn of(problem: &Problem, purpose: u32, jet: usize, rim: usize) -> Self {
+        if problem.has_one_ray() {
+            let only = Replicate {
+                jet: Samples::new(problem, Stream::Fresh(0), 1),
+                rim: Samples { deviates: vec![] },
+            };
+            return Self { sets: vec![only] };
+        }
         let rim_share = rim as f64 / (jet + rim) as f64;
         let sets = (0..Self::COUNT as u32)
             .into_par_iter()
@@ -129,6 +137,11 @@ impl Replicates {
             })
             .collect();
         Self { sets }
+    }
+
+    /// Whether all shots are the same, so that figures from one of them are exact.
+    pub fn is_one_ray(&self) -> bool {
+        self.sets.len() == 1
     }
 
     /// Number of shots of the jet in all sets together.
@@ -164,7 +177,11 @@ impl Samples {
     /// and of the tolerance box, where rare harm comes from, and stands for accordingly less.
     ///
     /// Averages weighted with [`Deviate::weight`] estimate the same as those over [`Samples::new`].
+    /// When all shots of a problem are the same, there is one.
     pub fn with_rim(problem: &Problem, stream: Stream, count: usize) -> Self {
+        if problem.has_one_ray() {
+            return Self::new(problem, stream, 1);
+        }
         let shot = |index| weighted(problem, stream, index / 2, index % 2 == 1, 0.5);
         Self {
             deviates: (0..count as u32).into_par_iter().map(shot).collect(),

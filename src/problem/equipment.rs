@@ -38,6 +38,9 @@ pub struct Jet {
     pub spread: Spread,
     /// Standard deviation of the speed relative to its mean, cut at two.
     pub speed_spread: f64,
+    /// Mass of shot per time, kg/s, where it is known. No path depends on it; it tells whether
+    /// shots get into each other's way.
+    pub mass_flow: Option<f64>,
 }
 
 /// How directions fill the cone of the jet.

@@ -87,6 +87,11 @@ pub(super) struct Impulse(pub f64);
 #[serde(rename = "density")]
 pub(super) struct Density(pub f64);
 
+/// A mass flow with its unit, such as `5 kg/min`; here in kg/s.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename = "mass flow")]
+pub(super) struct MassFlow(pub f64);
+
 /// A percentage, such as `5 %`; here as a fraction of 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename = "percentage")]
@@ -108,7 +113,7 @@ macro_rules! quantities {
     )*};
 }
 
-quantities! { Length Angle Speed Impulse Density Percentage }
+quantities! { Length Angle Speed Impulse Density MassFlow Percentage }
 
 impl Quantity for f64 {
     fn si(self) -> f64 {

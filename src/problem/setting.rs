@@ -169,6 +169,21 @@ impl Settings {
         self.aim_above.min > 0.0
     }
 
+    /// The middle of all ranges, with the first contact.
+    pub fn middle(&self) -> Choice {
+        Choice {
+            incidence: self.incidence.at(0.5),
+            azimuth: self.azimuth.at(0.5),
+            standoff: self.standoff.at(0.5),
+            speed: self.speed.at(0.5),
+            aim_along: self.aim_along.at(0.5),
+            aim_across: self.aim_across.at(0.5),
+            aim_above: self.aim_above.at(0.5),
+            contact: self.contact.first().copied().unwrap_or_default(),
+            static_friction: 0.0,
+        }
+    }
+
     /// The range of a setting of the nozzle; `None` for friction, which belongs to the contact.
     pub const fn range(&self, setting: Setting) -> Option<Range> {
         match setting {

@@ -3,21 +3,26 @@
 //! Angles are in degrees, everything else is SI, and every key ends with its unit.
 
 mod answer;
+mod model;
 mod question;
+mod unknowns;
 mod window;
 
 pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
     SpreadRecord, TargetRecord, VerdictRecord,
 };
+pub use model::{ModelRecord, RungRecord};
 pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use unknowns::{EffectRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord};
 pub use window::{DriftRecord, WindowRecord};
 
 use serde::{Deserialize, Serialize};
 
 use crate::problem::Source;
 use crate::setup::Setup;
-use crate::solve::{Answer, Status, Window};
+use crate::solve::{Answer, Ladder, Status, Window};
+use crate::unknowns::Unknowns;
 use crate::validity::Note;
 
 /// The result of a search.
@@ -33,8 +38,14 @@ pub struct Record {
     pub windows: Vec<WindowRecord>,
     /// The best settings of each contact, best first.
     pub choices: Vec<AnswerRecord>,
+    /// Which effects were searched with, and what each of them does.
+    #[serde(default)]
+    pub model: ModelRecord,
     /// What was left out.
     pub notes: Vec<NoteRecord>,
+    /// What restitution and friction do at the ends of their ranges; absent where they are known.
+    #[serde(default)]
+    pub unknowns: Option<UnknownsRecord>,
     /// Work done.
     pub work: WorkRecord,
     /// Checksum of the problem file.
@@ -114,6 +125,8 @@ pub struct Circumstances<'a> {
     pub status: StatusRecord,
     /// The command that gives the same answer again.
     pub command: String,
+    /// Which effects were searched with.
+    pub ladder: &'a Ladder,
     /// Work done.
     pub work: WorkRecord,
 }
@@ -125,6 +138,7 @@ impl Record {
         answers: &[Answer],
         windows: &[Window],
         notes: Vec<Note>,
+        unknowns: Option<Unknowns>,
         circumstances: Circumstances,
     ) -> Option<Self> {
         let choices: Vec<AnswerRecord> = answers
@@ -140,7 +154,9 @@ impl Record {
                 .map(|window| WindowRecord::new(setup, window))
                 .collect(),
             choices,
+            model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
+            unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
             work: circumstances.work,
             problem_sha256: circumstances.source.sha256.clone(),
             version: env!("CARGO_PKG_VERSION").into(),

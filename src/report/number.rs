@@ -76,8 +76,12 @@ pub fn share(share: f64) -> String {
 }
 
 /// A share with its 95 % interval as two texts, in percent: `2.01` and `1.90 to 2.12`. A share of
-/// which nothing was seen is `0`, and all that is known is what it lies below.
+/// which nothing was seen is `0`, and all that is known is what it lies below. An interval of no
+/// width is `exact`.
 pub fn share_with_interval(share: f64, [low, high]: [f64; 2]) -> (String, String) {
+    if low == high {
+        return (plain(share * 100.0), "exact".into());
+    }
     if share <= 0.0 {
         return (
             "0".into(),

@@ -104,7 +104,9 @@ impl Bundle {
         (holds(0) & holds(1) & holds(2)).to_bitmask() & self.occupied()
     }
 
-    fn occupied(&self) -> u32 {
+    /// A bit for each triangle that there is.
+    #[inline(always)]
+    pub fn occupied(&self) -> u32 {
         (1 << self.count) - 1
     }
 }

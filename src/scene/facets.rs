@@ -4,6 +4,10 @@
 //! ray cannot be told to ignore the facet that it starts from. So the test of a triangle is ours,
 //! and so is the tree for rays, which are most of the work; distances take parry's.
 
+mod touch;
+
+use std::sync::OnceLock;
+
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -16,6 +20,7 @@ use super::ray::{Crossing, Ray, Spot};
 use super::start::Start;
 use super::triangle::{Shear, Weights, lies_on};
 use super::wide_tree::WideTree;
+use touch::Plates;
 
 /// A mesh that is ready for rays.
 #[derive(Clone)]
@@ -23,6 +28,8 @@ pub struct Facets {
     tree: WideTree,
     /// The triangles of each of its leaves.
     bundles: Vec<Bundle>,
+    /// The same triangles for spheres, made when the first one comes.
+    plates: OnceLock<Vec<Plates>>,
     /// For other walks than rays.
     distance_tree: Bvh,
     /// Whether its leaves are the bundles rather than single triangles.
@@ -59,6 +66,7 @@ impl Facets {
         Self {
             distance_tree,
             bundled,
+            plates: OnceLock::new(),
             bundles: leaves
                 .par_iter()
                 .map(|leaf| Bundle::new(leaf, corners))
@@ -140,19 +148,6 @@ impl Facets {
             },
             normal,
         ))
-    }
-
-    /// STUB
-    pub fn first_touch(
-        &self,
-        ray: &Ray,
-        _radius: f64,
-        leaving: Option<Spot>,
-        on_this_part: bool,
-        limit: f64,
-    ) -> Option<(Crossing, Vector3<f64>)> {
-        self.first_crossing(ray, leaving, on_this_part, limit)
-            .map(|(c, n)| (c, if c.front { n } else { -n }))
     }
 
     /// The nearest crossing of a ray within `limit`.

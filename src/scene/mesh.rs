@@ -1,5 +1,6 @@
 //! Triangles with named surfaces.
 
+mod smoothness;
 mod topology;
 
 pub use topology::Topology;

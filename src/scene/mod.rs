@@ -47,6 +47,8 @@ pub struct Scene {
     surfaces: Vec<String>,
     warnings: Vec<String>,
     size: f64,
+    /// By shares of this it is felt what lies beside a surface, m.
+    reach: f64,
 }
 
 /// How prismatic parts are traced.
@@ -84,6 +86,7 @@ impl Scene {
             surfaces: Vec::new(),
             warnings: Vec::new(),
             size,
+            reach: size.min(longest_side(&geometries)),
         };
         for (part, mut geometry) in parts.iter().zip(geometries) {
             let base = scene.surfaces.len() as u32;
@@ -301,7 +304,7 @@ impl Scene {
         let facet_normal = (b - a).cross(&(c - a)).normalize();
         // Exact walls know their normal better than the facet that stands in for them.
         let ray = Ray {
-            origin: nearest.point + facet_normal * (1e-3 * self.size),
+            origin: nearest.point + facet_normal * (1e-3 * self.reach),
             direction: -facet_normal,
         };
         let wall = self.parts[part as usize].first_crossing(&ray, None, false, f64::INFINITY);
@@ -321,7 +324,7 @@ impl Scene {
     /// when the other has not clearly more.
     fn enclosed_side(&self, point: &Point3<f64>, front: &Vector3<f64>) -> Vector3<f64> {
         const DIRECTIONS: usize = 256;
-        let height = 1e-4 * self.size;
+        let height = 1e-4 * self.reach;
         let met = |side: Vector3<f64>| {
             let origin = point + side * height;
             let hits = (0..DIRECTIONS).filter(|&index| {
@@ -337,6 +340,15 @@ impl Scene {
             *front
         }
     }
+}
+
+/// Longest side of the box round all corners: the scale of the shapes, wherever the scene stands.
+fn longest_side(geometries: &[Geometry]) -> f64 {
+    let bounds = geometries
+        .iter()
+        .filter_map(|geometry| geometry.mesh.bounds());
+    let all = bounds.reduce(|(low, high), (a, b)| (low.inf(&a), high.sup(&b)));
+    all.map_or(0.0, |(low, high)| (high - low).max())
 }
 
 fn farthest_coordinate(geometries: &[Geometry]) -> f64 {

@@ -253,7 +253,8 @@ impl Profile {
             let after = &self.pieces[second].curve;
             let (incoming, outgoing) = (before.tangent(1.0), after.tangent(0.0));
             let turn = incoming.perp(&outgoing).atan2(incoming.dot(&outgoing));
-            if turn < -SMOOTH || turn >= std::f64::consts::PI - SMOOTH {
+            let is_cusp = turn >= std::f64::consts::PI - SMOOTH;
+            if is_cusp || turn < -SMOOTH {
                 corners.push(Corner {
                     point: end,
                     walls: [first, second],

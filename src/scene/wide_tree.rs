@@ -43,9 +43,12 @@ struct Frame {
     reach: f64,
 }
 
-/// A ray in the coordinates of the boxes.
-struct FlatRay {
-    origin: [f32x8; 3],
+/// A ray in the coordinates of the boxes; `GROWN` where it traces a sphere, for which the boxes
+/// are larger by the radius on every side.
+struct FlatRay<const GROWN: bool> {
+    /// To measure the sides from where the ray enters and leaves: instead of the sides, the origin
+    /// is moved by the radius, forwards and back. Without a radius the first stands for both.
+    origins: [[f32x8; 3]; 2],
     /// Inverse direction, towards 0 and away from 0 by more than all rounding on the way to a
     /// distance, for the sides where the ray enters and leaves.
     inverse: [[f32x8; 3]; 2],
@@ -61,6 +64,9 @@ const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 /// Boxes are larger than the triangles in them by this, which covers the rounding of a ray's
 /// origin and of the sides.
 const MARGIN: f64 = 1.5 * f32::EPSILON as f64;
+/// Radii are taken larger by this share: origins moved by them have as much more rounding, which
+/// the margin does not cover.
+const GROWN_ROUNDING: f64 = 2.0 * f32::EPSILON as f64;
 /// Origins farther out than this along an axis are moved to the box of the mesh first.
 const FAR: f64 = 2.0;
 
@@ -85,20 +91,37 @@ impl Frame {
         (point - self.centre) * self.scale
     }
 
-    /// `None` when the ray passes the mesh.
+    /// `None` when the ray passes the mesh, `radius` (m) being 0 unless `GROWN`.
     #[inline(always)]
-    fn ray(&self, ray: &Ray) -> Option<FlatRay> {
+    fn ray<const GROWN: bool>(&self, ray: &Ray, radius: f64) -> Option<FlatRay<GROWN>> {
+        let grown = if GROWN {
+            radius * self.scale * (1.0 + GROWN_ROUNDING)
+        } else {
+            0.0
+        };
         let mut origin = self.inside(&ray.origin);
         let inverse = ray.direction.map(reciprocal);
         let mut skipped = 0.0;
-        if origin.amax() > FAR {
-            skipped = entry(&origin, &inverse, self.reach)?;
+        if origin.amax() > FAR + grown {
+            skipped = entry(&origin, &inverse, self.reach + grown)?;
             origin += ray.direction * skipped;
         }
-        let backwards = ray.direction.map(|component| component < 0.0);
+        // The sign of the inverse, which tells -0 from 0.
+        let backwards = inverse.map(|component| component < 0.0);
         let axes = [0, 1, 2];
+        let moved = |by: f64| {
+            axes.map(|axis| {
+                let forwards = if backwards[axis] { -by } else { by };
+                let moved = if GROWN {
+                    origin[axis] + forwards
+                } else {
+                    origin[axis]
+                };
+                f32x8::splat(moved as f32)
+            })
+        };
         Some(FlatRay {
-            origin: axes.map(|axis| f32x8::splat(origin[axis] as f32)),
+            origins: [moved(grown), moved(-grown)],
             inverse: [1.0 - ROUNDING, 1.0 + ROUNDING]
                 .map(|factor| axes.map(|axis| f32x8::splat((inverse[axis] * factor) as f32))),
             sides: [
@@ -147,9 +170,10 @@ impl Node {
 
     /// Where the ray enters each child's box, and a bit for each that it enters within `limit`.
     #[inline(always)]
-    fn entries(&self, ray: &FlatRay, limit: f32) -> ([f32; WIDTH], u32) {
+    fn entries<const GROWN: bool>(&self, ray: &FlatRay<GROWN>, limit: f32) -> ([f32; WIDTH], u32) {
         let side = |end: usize, axis: usize| {
-            (self.sides[ray.sides[end][axis]] - ray.origin[axis]) * ray.inverse[end][axis]
+            let origin = ray.origins[if GROWN { end } else { 0 }][axis];
+            (self.sides[ray.sides[end][axis]] - origin) * ray.inverse[end][axis]
         };
         let near = side(0, 0).fast_max(side(0, 1));
         let near = near.fast_max(side(0, 2)).fast_max(f32x8::ZERO);
@@ -186,10 +210,33 @@ impl WideTree {
     /// `visit` gets the leaf and whether the ray may start inside its box, and says what the limit
     /// is from then on.
     #[inline(always)]
-    pub fn walk(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32, bool) -> f64) {
-        let Some(flat) = self.frame.ray(ray) else {
-            return;
-        };
+    pub fn walk(&self, ray: &Ray, limit: f64, visit: impl FnMut(u32, bool) -> f64) {
+        if let Some(flat) = self.frame.ray::<false>(ray, 0.0) {
+            self.walk_flat(&flat, limit, visit);
+        }
+    }
+
+    /// The same for a sphere of `radius` (m) whose centre moves along the ray.
+    #[inline(always)]
+    pub fn walk_sphere(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        limit: f64,
+        visit: impl FnMut(u32, bool) -> f64,
+    ) {
+        if let Some(flat) = self.frame.ray::<true>(ray, radius) {
+            self.walk_flat(&flat, limit, visit);
+        }
+    }
+
+    #[inline(always)]
+    fn walk_flat<const GROWN: bool>(
+        &self,
+        flat: &FlatRay<GROWN>,
+        limit: f64,
+        mut visit: impl FnMut(u32, bool) -> f64,
+    ) {
         let flattened = |limit: f64| {
             let limit = limit * self.frame.scale - flat.skipped;
             (limit + limit.abs() * ROUNDING + MARGIN) as f32
@@ -202,7 +249,7 @@ impl WideTree {
                 limit = flattened(visit(stop.child() & !LEAF, stop.entry() == 0.0));
             } else {
                 let node = &self.nodes[stop.child() as usize];
-                let (entries, mut entered) = node.entries(&flat, limit);
+                let (entries, mut entered) = node.entries(flat, limit);
                 let mut next = || {
                     let lane = entered.trailing_zeros() as usize;
                     entered &= entered.wrapping_sub(1);

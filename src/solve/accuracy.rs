@@ -1,7 +1,10 @@
 //! When the answer is good enough.
 
 use super::answer::Answer;
+use super::models::Claim;
 use super::search::Search;
+use crate::problem::Problem;
+use crate::problem::goal::Goals;
 
 /// Least J over all contacts; infinite while the nozzle has fitted nowhere.
 pub(super) fn least_objective(searches: &[Search]) -> f64 {
@@ -18,7 +21,7 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 }
 
 /// The searches that could still change the answer: among the contacts within reach of the best,
-/// those whose J on fresh shots is above J on the shots of the search by more than the accuracy
+/// those whose J on fresh shots is above what is claimed for the shots of the search by more than the accuracy
 /// asked for and the statistical error.
 ///
 /// The least J on any set of shots is on average below the least true J, and the true J of the
@@ -26,11 +29,12 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 /// the best ones.
 ///
 /// Where the error is too large for that gap to say much, the search goes on as well, until it has
-/// seen as many shots as stand behind the figures.
+/// seen as many shots as stand behind the figures. What is left of J where every goal is reached is
+/// rounding, of which no accuracy can be asked.
 pub(super) fn unsettled(
-    searches: &[Search],
+    claims: &[Claim],
     answers: &[Answer],
-    accuracy: f64,
+    problem: &Problem,
     shots: usize,
     fresh_shots: usize,
 ) -> Vec<usize> {
@@ -44,21 +48,30 @@ pub(super) fn unsettled(
         .iter()
         .filter_map(|answer| Some(fresh(answer)?.0))
         .fold(f64::INFINITY, f64::min);
-    let is_unsettled = |search: &Search, answer: &Answer| {
-        let (claimed, (found, error)) = search.best().standing.objective().zip(fresh(answer))?;
+    let rounding = rounding_of_objective(&problem.goals);
+    let is_unsettled = |claim: &Claim, answer: &Answer| {
+        let ((_, claimed), (found, error)) = claim.zip(fresh(answer))?;
         let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
         let gap = found - claimed;
-        let wanted = accuracy * found;
+        let wanted = (problem.accuracy * found).max(rounding);
         let is_vague = error > VAGUE * wanted && shots < fresh_shots;
         Some(in_reach && (is_vague || gap > TOLERABLE * wanted + error))
     };
-    let pairs = searches.iter().zip(answers).enumerate();
+    let pairs = claims.iter().zip(answers).enumerate();
     pairs
-        .filter(|(_, (search, answer))| is_unsettled(search, answer).unwrap_or(false))
+        .filter(|(_, (claim, answer))| is_unsettled(claim, answer).unwrap_or(false))
         .map(|(index, _)| index)
         .collect()
 }
 
+/// J of shots whose impulses are what is wanted but for rounding.
+fn rounding_of_objective(goals: &Goals) -> f64 {
+    let tangential = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
+    goals.normal_impulse.weight.max(tangential) * ROUNDING * ROUNDING
+}
+
+/// Relative rounding of an impulse.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Share of the accuracy that the gap may reach: it is itself known to within its error only.
 const TOLERABLE: f64 = 0.7;
 /// Share of the accuracy above which an error is too large for the gap to say much.

@@ -20,13 +20,16 @@ pub enum Standing {
 
 impl Standing {
     /// A finite number by which standings are ordered: every feasible one before every blocked
-    /// one, by J or by how much the clearance is violated.
+    /// one, by J or by how much the clearance is violated. It is J itself where the nozzle fits, so
+    /// that a common factor on all weights changes nothing.
     pub fn rank(&self) -> f64 {
-        let squeeze = |x: f64| if x.is_finite() { x / (1.0 + x) } else { 1.0 };
         match self {
-            Self::Feasible(terms) => squeeze(terms.total()),
-            // Violations are of the order of millimetres.
-            Self::Blocked(violation) => 1.0 + squeeze(violation * 1e3),
+            Self::Feasible(terms) => terms.total().min(WORST_OBJECTIVE),
+            Self::Blocked(violation) => {
+                // Violations are of the order of millimetres.
+                let millimetres = violation * 1e3;
+                WORST_OBJECTIVE * (1.0 + millimetres / (1.0 + millimetres))
+            }
         }
     }
 
@@ -38,6 +41,10 @@ impl Standing {
         }
     }
 }
+
+/// Above every J that weights, impulses and limits within their ranges can give, and so far from the
+/// largest number that squares of it can be added.
+const WORST_OBJECTIVE: f64 = 1e150;
 
 /// How much work was done; shared by all threads.
 #[derive(Debug, Default)]

@@ -11,6 +11,8 @@ mod accuracy;
 mod answer;
 mod control;
 mod judge;
+mod ladder;
+mod models;
 mod polish;
 mod search;
 mod space;
@@ -19,6 +21,7 @@ mod window;
 pub use answer::Answer;
 pub use control::{Control, Progress, Status};
 pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
+pub use ladder::{Ladder, Rung};
 pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use rayon::prelude::*;
@@ -27,6 +30,7 @@ use crate::jet::{Replicates, Samples, Stream};
 use crate::setup::Setup;
 use accuracy::{is_in_reach, least_objective, unsettled};
 use judge::Judge;
+use models::{Claim, Models};
 use search::{STAGES, Search, Stage};
 
 /// What a search found.
@@ -36,6 +40,8 @@ pub struct Solution {
     pub status: Status,
     /// The best settings for each contact, best first.
     pub answers: Vec<Answer>,
+    /// Which effects were searched with, and what each of them does.
+    pub ladder: Ladder,
     /// Work done.
     pub poses: usize,
     /// Shots at each pose in the last stage.
@@ -57,32 +63,39 @@ const RISE: usize = 4;
 /// Finds the best settings of a problem.
 pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let effort = Effort::default();
-    let (mut searches, mut shots) = descend(setup, control, &effort);
-    let fresh = Replicates::new(&setup.problem, ANSWERS, control.fresh_shots);
-    let answer = |search: &Search| Answer::of(setup, search.best(), &fresh, &effort);
+    let mut models = Models::new(setup);
+    let (mut searches, mut shots) = descend(&mut models, control, &effort);
+    let fresh = Replicates::new(&models.asked.problem, ANSWERS, control.fresh_shots);
+    let asked = models.asked.clone();
+    let answer = |search: &Search| Answer::of(&asked, search.best(), &fresh, &effort);
+    let (mut claims, _) = agree(&mut models, &mut searches, shots, control, &effort);
     let mut answers: Vec<Answer> = searches.par_iter().map(answer).collect();
-    let accuracy = setup.problem.accuracy;
-    let mut open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);
+    let problem = &setup.problem;
+    let mut open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
-        let samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
-        let judge = Judge::new(setup, &samples.deviates, &effort, control.stop);
-        refine_in_turn(
+        refine(
+            &models.searched,
             &mut searches,
             &open,
-            &judge,
-            &Stage::beyond(shots),
-            accuracy,
+            shots,
+            control,
+            &effort,
         );
-        let found: Vec<Answer> = open
+        let all_change;
+        (claims, all_change) = agree(&mut models, &mut searches, shots, control, &effort);
+        let changed = if all_change { all(&searches) } else { open };
+        let found: Vec<Answer> = changed
             .par_iter()
             .map(|&index| answer(&searches[index]))
             .collect();
-        for (index, found) in open.into_iter().zip(found) {
+        for (index, found) in changed.into_iter().zip(found) {
             answers[index] = found;
         }
-        tell(control, &effort, &searches);
-        open = unsettled(&searches, &answers, accuracy, shots, control.fresh_shots);
+        open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
+    }
+    if !control.is_stopped() {
+        models.measure_unasked(&searches, &effort, control);
     }
     answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
     let status = match answers.first() {
@@ -94,28 +107,70 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     Solution {
         status,
         answers,
+        ladder: models.ladder,
         poses: effort.poses(),
         shots_per_pose: shots,
         rays: effort.rays(),
     }
 }
 
-/// Screens the settings of every contact and goes down through the stages. Returns the searches
-/// and the shots at each pose of the last stage.
-fn descend(setup: &Setup, control: &Control, effort: &Effort) -> (Vec<Search>, usize) {
+/// Goes on with what was left out, as long as the whole model disagrees with the one that is
+/// searched. Returns J of the candidates, and whether anything was put back.
+fn agree(
+    models: &mut Models,
+    searches: &mut [Search],
+    shots: usize,
+    control: &Control,
+    effort: &Effort,
+) -> (Vec<Claim>, bool) {
+    let mut claims = models.claims(searches, shots);
+    let mut is_changed = false;
+    while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
+        let all = all(searches);
+        refine(&models.searched, searches, &all, shots, control, effort);
+        claims = models.claims(searches, shots);
+        is_changed = true;
+    }
+    (claims, is_changed)
+}
+
+fn all(searches: &[Search]) -> Vec<usize> {
+    (0..searches.len()).collect()
+}
+
+/// Refines some of the searches with so many shots.
+fn refine(
+    setup: &Setup,
+    searches: &mut [Search],
+    which: &[usize],
+    shots: usize,
+    control: &Control,
+    effort: &Effort,
+) {
+    let samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
+    let judge = Judge::new(setup, &samples.deviates, effort, control.stop);
+    let stage = Stage::beyond(shots);
+    refine_in_turn(searches, which, &judge, &stage, setup.problem.accuracy);
+    tell(control, effort, searches);
+}
+
+/// Screens the settings of every contact and goes down through the stages; after the first of them
+/// with the effects that matter. Returns the searches and the shots at each pose of the last stage.
+fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Search>, usize) {
     let affordable = |stage: &&Stage| stage.shots <= control.most_shots;
     let stages: Vec<&Stage> = STAGES.iter().filter(affordable).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
-    let samples = Samples::with_rim(&setup.problem, Stream::Search, most_shots);
-    let judge = |shots: usize| Judge::new(setup, &samples.deviates[..shots], effort, control.stop);
-    let contacts = &setup.problem.settings.contact;
+    let draw = |setup: &Setup| Samples::with_rim(&setup.problem, Stream::Search, most_shots);
+    let mut samples = draw(&models.searched);
+    let contacts = &models.asked.problem.settings.contact;
+    let judge = judge_of(&models.searched, &samples, SCREENING_SHOTS, effort, control);
     let mut searches: Vec<Search> = contacts
         .par_iter()
-        .map(|&contact| Search::screen(setup, contact, &judge(SCREENING_SHOTS)))
+        .map(|&contact| Search::screen(&models.searched, contact, &judge))
         .collect();
-    for stage in stages {
-        let judge = judge(stage.shots);
-        let accuracy = setup.problem.accuracy;
+    for (index, stage) in stages.into_iter().enumerate() {
+        let judge = judge_of(&models.searched, &samples, stage.shots, effort, control);
+        let accuracy = models.asked.problem.accuracy;
         if stage.shots <= CHEAP_SHOTS {
             let each = searches.par_iter_mut();
             each.for_each(|search| search.refine(&judge, stage, accuracy));
@@ -126,8 +181,23 @@ fn descend(setup: &Setup, control: &Control, effort: &Effort) -> (Vec<Search>, u
             refine_in_turn(&mut searches, &open, &judge, stage, accuracy);
         }
         tell(control, effort, &searches);
+        if index == 0 && !control.is_stopped() {
+            models.climb(&mut searches, effort, control);
+            samples = draw(&models.searched);
+        }
     }
     (searches, most_shots)
+}
+
+fn judge_of<'a>(
+    setup: &'a Setup,
+    samples: &'a Samples,
+    shots: usize,
+    effort: &'a Effort,
+    control: &'a Control,
+) -> Judge<'a> {
+    let shots = shots.min(samples.deviates.len());
+    Judge::new(setup, &samples.deviates[..shots], effort, control.stop)
 }
 
 /// Refines some of the searches, the best one first, so that the others can profit from it.

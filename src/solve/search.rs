@@ -91,6 +91,20 @@ impl Search {
         &self.candidates[0]
     }
 
+    /// The same candidates in the space of another model of the same problem.
+    pub fn carried_over(&self, setup: &Setup) -> Self {
+        let contact = self.best().choice.contact;
+        let space = Space::new(&setup.problem, contact, !speed_scales_out(setup, contact));
+        let carried = |candidate: &Candidate| Candidate {
+            point: space.point(&candidate.choice),
+            ..candidate.clone()
+        };
+        Self {
+            candidates: self.candidates.iter().map(carried).collect(),
+            space,
+        }
+    }
+
     fn sort(&mut self) {
         self.candidates
             .sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));

@@ -71,6 +71,13 @@ impl Space {
         choice
     }
 
+    /// The point of a choice.
+    pub fn point(&self, choice: &Choice) -> Vec<f64> {
+        let coordinate =
+            |axis: &Axis| (axis.setting.of(choice) - axis.range.min) / axis.range.width();
+        self.axes.iter().map(coordinate).collect()
+    }
+
     /// Distance between two points: the largest difference along any axis.
     pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let along = self.axes.iter().zip(a.iter().zip(b)).map(|(axis, (a, b))| {

@@ -34,6 +34,11 @@ fn every_unit_leads_to_si() {
         (Dimension::Density, "7.8 g/cm3", 7800.0),
         (Dimension::Density, "7.8 g/cm^3", 7800.0),
         (Dimension::Density, "7000 kg/m³", 7000.0),
+        (Dimension::MassFlow, "6 kg/min", 0.1),
+        (Dimension::MassFlow, "0.1 kg/s", 0.1),
+        (Dimension::MassFlow, "100 g/s", 0.1),
+        (Dimension::MassFlow, "6000 g/min", 0.1),
+        (Dimension::MassFlow, "60 lb/min", 0.453_592_37),
         (Dimension::Fraction, "5 %", 0.05),
         (Dimension::Fraction, "0.1%", 0.001),
     ];

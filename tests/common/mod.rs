@@ -53,6 +53,7 @@ pub fn keyway(length: f64) -> Problem {
             divergence: degrees(4.0),
             spread: Spread::Uniform,
             speed_spread: 0.05,
+            mass_flow: None,
         },
         nozzle: Nozzle {
             body: vec![Body::Ball { radius: 3e-3 }],

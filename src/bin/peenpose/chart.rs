@@ -23,6 +23,7 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
     }
+    let setup = setup.as_asked();
     let watcher = Watcher::new(args.quiet);
     let control = Control {
         most_shots: args.most_shots as usize,

@@ -10,8 +10,9 @@ use peenpose::problem::fault::nearest_name;
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{ANSWERS, Answer, clearance_violation};
+use peenpose::solve::{ANSWERS, Answer, Ladder, clearance_violation};
 use peenpose::units::{self, Dimension};
+use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 use peenpose::verdict::Verdict;
 
@@ -28,6 +29,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
     }
+    let setup = setup.as_asked();
     let choice = choice(args, &setup.problem)?;
     let fresh = Replicates::new(&setup.problem, ANSWERS, args.shots as usize);
     let evaluation = peenpose::evaluate::evaluate(&setup, &choice, &fresh);
@@ -42,6 +44,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         source: &source,
         status: StatusRecord::Evaluated,
         command: command(args, &setup, &choice),
+        ladder: &Ladder::of(&setup),
         work: WorkRecord {
             poses: 1,
             shots_per_pose: fresh.shots(),
@@ -49,8 +52,9 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
             seconds: started.elapsed().as_secs_f64(),
         },
     };
-    let notes = validity::notes(&setup, &choice);
-    let record = Record::new(&setup, &[answer], &[], notes, circumstances)
+    let notes = validity::notes(&setup, &choice, answer.evaluation.as_ref());
+    let unknowns = Unknowns::of(&setup, &choice);
+    let record = Record::new(&setup, &[answer], &[], notes, unknowns, circumstances)
         .ok_or("there is nothing to report".to_owned())?;
     output::record(&record, args.json, args.out.as_deref())
 }

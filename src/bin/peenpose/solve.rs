@@ -7,6 +7,7 @@ use peenpose::record::{Circumstances, Record, WorkRecord};
 use peenpose::setup::Setup;
 use peenpose::solve::{Control, passing_windows, solve};
 use peenpose::units::{self, Dimension};
+use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 
 use crate::args::SolveArgs;
@@ -32,17 +33,21 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         ..Control::default()
     };
     let solution = solve(&setup, &control);
+    let setup = setup.as_asked();
     let windows = passing_windows(&setup, &solution);
     watcher.finish();
     let best = solution
         .answers
         .first()
         .ok_or("there is no contact to choose".to_owned())?;
-    let notes = validity::notes(&setup, &best.choice);
+    let notes = validity::notes(&setup, &best.choice, best.evaluation.as_ref());
+    let fits = best.evaluation.is_some();
+    let unknowns = fits.then(|| Unknowns::of(&setup, &best.choice)).flatten();
     let circumstances = Circumstances {
         source: &source,
         status: solution.status.into(),
         command: command(args, &setup),
+        ladder: &solution.ladder,
         work: WorkRecord {
             poses: solution.poses,
             shots_per_pose: solution.shots_per_pose,
@@ -50,8 +55,15 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
             seconds: started.elapsed().as_secs_f64(),
         },
     };
-    let record = Record::new(&setup, &solution.answers, &windows, notes, circumstances)
-        .ok_or("there is no contact to choose".to_owned())?;
+    let record = Record::new(
+        &setup,
+        &solution.answers,
+        &windows,
+        notes,
+        unknowns,
+        circumstances,
+    )
+    .ok_or("there is no contact to choose".to_owned())?;
     output::record(&record, args.json, args.out.as_deref())
 }
 

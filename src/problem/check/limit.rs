@@ -1,6 +1,6 @@
 //! What a number may be, and how that is said.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 
 /// An interval of allowed values in SI.
 ///
@@ -43,6 +43,7 @@ impl Limit {
     pub const DENSITY: Self = to(1.0, 1e5, "a density from 1 kg/m3 to 100000 kg/m3");
     pub const SPEED: Self = to(1e-6, 1e4, "a speed from 1 um/s to 10000 m/s");
     pub const IMPULSE: Self = to(1e-18, 1e6, "an impulse above 0 N.s");
+    pub const MASS_FLOW: Self = to(1e-12, 1e6, "a mass flow above 0 kg/min");
     pub const INCIDENCE: Self = to(
         1e-6,
         FRAC_PI_2 + ROUNDING,
@@ -51,8 +52,12 @@ impl Limit {
     /// Of a jet that aims above the target; otherwise its exit would be in it.
     pub const INCIDENCE_OR_ZERO: Self =
         to(0.0, FRAC_PI_2 + ROUNDING, "an angle from 0 deg to 90 deg");
-    pub const TILT: Self = to(0.0, FRAC_PI_2 / 6.0, "an angle from 0 deg to 15 deg");
     pub const DIVERGENCE: Self = below(0.0, FRAC_PI_2, "a half-angle from 0 deg to below 90 deg");
+    pub const ROUGHNESS: Self = to(
+        0.0,
+        FRAC_PI_6 + ROUNDING,
+        "a standard deviation from 0 deg to 30 deg",
+    );
     pub const TURN: Self = to(
         -TAU - ROUNDING,
         TAU + ROUNDING,

@@ -144,6 +144,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
     let exit_diameter = scope.needed("exit_diameter", &entry.exit_diameter, Limit::LENGTH_OR_ZERO);
     let divergence = scope.needed("divergence", &entry.divergence, Limit::DIVERGENCE);
     let speed_spread = scope.optional("speed_spread", &entry.speed_spread, Limit::SPREAD, 0.0);
+    let mass_flow = scope.maybe("mass_flow", &entry.mass_flow, Limit::MASS_FLOW);
     let spread = entry
         .spread
         .or(SpreadEntry::Uniform)
@@ -156,6 +157,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
         divergence: divergence?,
         spread: spread?,
         speed_spread: speed_spread?,
+        mass_flow: mass_flow?,
     })
 }
 

@@ -50,7 +50,7 @@ fn one(scope: &Scope<'_>, name: &str) -> Option<Model> {
             let shown = crate::units::shortened(name);
             let fault = scope.own_fault(format!("there is no model `{shown}`"));
             let fault = fault.expecting("`auto`, `full`, or a list of effects");
-            scope.report(fault.nearest(name, ["auto", "full"].into_iter()));
+            scope.report(fault.nearest(name, ["auto", "full"]));
             None
         }
     }

@@ -39,12 +39,12 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
     let allow = scope.maybe("allow", &entry.allow, Limit::IMPULSE);
     let share = scope.maybe("share", &entry.share, Limit::SHARE);
     let weight = scope.maybe("weight", &entry.weight, Limit::WEIGHT);
+    let roughness = scope.optional("roughness", &entry.roughness, Limit::ROUGHNESS, 0.0);
     let contact = match &entry.contact {
         Field::Missing => Some(None),
         Field::Faulty => None,
         Field::Present(entry) => contacts::fixed(&scope.of("contact"), entry).map(Some),
     };
-    let roughness = scope.optional("roughness", &entry.roughness, Limit::TILT, 0.0);
     let role = entry.role.or(RoleEntry::Part).map(|role| match role {
         RoleEntry::Part => Role::Part,
         RoleEntry::Deflector => Role::Deflector,

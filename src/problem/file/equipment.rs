@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{Angle, Density, Impulse, Length, Percentage, Speed, Triple};
+use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Speed, Triple};
 use crate::problem::field::Field;
 
 use super::settings::OneOrRange;
@@ -31,6 +31,8 @@ pub(in crate::problem) struct JetEntry {
     pub spread: Field<SpreadEntry>,
     /// Standard deviation of the speed, cut at two; 0 % where absent.
     pub speed_spread: Field<Percentage>,
+    /// Mass of shot per time; unknown where absent.
+    pub mass_flow: Field<MassFlow>,
 }
 
 /// How directions fill the cone.

@@ -5,12 +5,14 @@ mod cause;
 mod closing;
 mod contacts;
 mod headline;
+mod model;
 mod objective;
 mod received;
 mod scatter;
 mod setting;
 mod settings;
 mod subject;
+mod unknowns;
 mod verdicts;
 
 use super::layout::Block;
@@ -19,7 +21,7 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 13] = [
+    let blocks: [Option<Block>; 15] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best),
@@ -28,9 +30,11 @@ pub fn sheet(record: &Record) -> String {
         verdicts::block(best, &record.problem.goals),
         received::surfaces(record),
         cause::block(record),
+        unknowns::block(record),
         objective::block(best),
         contacts::block(record),
         closing::validity(record),
+        model::block(record),
         Some(closing::reproduce(record)),
         Some(closing::work(record)),
     ];

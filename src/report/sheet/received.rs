@@ -159,6 +159,9 @@ fn never_means(best: &AnswerRecord) -> String {
     if best.shots == 0 {
         return "no shot was traced".into();
     }
+    if best.shots == 1 {
+        return "all shots are the same, and none does".into();
+    }
     format!(
         "each by less than {} % of the shots",
         significant((300.0 / best.shots as f64).min(100.0), 2)

@@ -97,10 +97,10 @@ fn weights(shear: &Shear, corners: &[Point3<f64>; 3]) -> Weights {
 }
 
 /// SplitMix64.
-struct Random(u64);
+pub(super) struct Random(pub u64);
 
 impl Random {
-    fn bits(&mut self) -> u64 {
+    pub(super) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -109,24 +109,24 @@ impl Random {
     }
 
     /// In -1 to 1.
-    fn symmetric(&mut self) -> f64 {
+    pub(super) fn symmetric(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    fn vector(&mut self) -> Vector3<f64> {
+    pub(super) fn vector(&mut self) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.symmetric())
     }
 
-    fn direction(&mut self) -> Vector3<f64> {
+    pub(super) fn direction(&mut self) -> Vector3<f64> {
         self.vector().normalize()
     }
 
-    fn of<'a, T>(&mut self, items: &'a [T]) -> &'a T {
+    pub(super) fn of<'a, T>(&mut self, items: &'a [T]) -> &'a T {
         &items[self.bits() as usize % items.len()]
     }
 }
 
-fn room(chord_angle: f64) -> Mesh {
+pub(super) fn room(chord_angle: f64) -> Mesh {
     let ends = Ends {
         near_closed: true,
         far_closed: true,
@@ -135,7 +135,7 @@ fn room(chord_angle: f64) -> Mesh {
 }
 
 /// Triangles of all sizes anywhere, some without an area, some there twice.
-fn heap(count: usize, random: &mut Random) -> Mesh {
+pub(super) fn heap(count: usize, random: &mut Random) -> Mesh {
     let mut mesh = Mesh::default();
     for index in 0..count as u32 {
         let centre = random.vector();
@@ -156,7 +156,7 @@ fn heap(count: usize, random: &mut Random) -> Mesh {
 }
 
 /// Rays from anywhere, many of them over vertices and edges or along an axis.
-fn ray(mesh: &Mesh, size: f64, random: &mut Random) -> Ray {
+pub(super) fn ray(mesh: &Mesh, size: f64, random: &mut Random) -> Ray {
     let [a, b, c] = mesh.corners(random.of(&mesh.triangles));
     let aim = match random.bits() % 4 {
         0 => a,

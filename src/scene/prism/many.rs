@@ -135,7 +135,7 @@ impl Prism {
         let length = R::of(self.extent.length);
         let slack = R::of(self.extent.slack * R::COARSENESS);
         let farthest = R::of(f64::from(f32::MAX).sqrt());
-        for i in 0..padded(flights.count) {
+        for (i, near) in near.iter_mut().enumerate().take(padded(flights.count)) {
             let from = flights.origin[2][i];
             let ahead = if best.rank[i] < farthest {
                 best.rank[i]
@@ -144,7 +144,7 @@ impl Prism {
             };
             let to = from + flights.direction[2][i] * ahead;
             let (low, high) = if from < to { (from, to) } else { (to, from) };
-            near[i] = caps | (low <= slack) | (high >= length - slack);
+            *near = caps | (low <= slack) | (high >= length - slack);
         }
         for i in (0..flights.count).filter(|&i| near[i]) {
             let (ray, start) = flights.one(i, leaves);

@@ -1,0 +1,113 @@
+//! What restitution and friction do at the ends of their ranges, in a record.
+
+use serde::{Deserialize, Serialize};
+
+use super::answer::subject_name;
+use crate::setup::Setup;
+use crate::units::degrees;
+use crate::unknowns::{Effect, Quantity, UnknownRange, Unknowns};
+
+/// See [`Unknowns`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnknownsRecord {
+    /// With both at their nominal values.
+    pub nominal: EffectRecord,
+    /// One for each that has a tolerance.
+    pub ranges: Vec<UnknownRangeRecord>,
+}
+
+/// See [`UnknownRange`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnknownRangeRecord {
+    /// `restitution` or `friction`.
+    pub quantity: QuantityRecord,
+    /// Restitution, or static friction, at the target.
+    pub low: f64,
+    /// What that does.
+    pub at_low: EffectRecord,
+    /// Restitution, or static friction, at the target.
+    pub high: f64,
+    /// What that does.
+    pub at_high: EffectRecord,
+}
+
+/// See [`Quantity`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum QuantityRecord {
+    /// The normal coefficient of restitution.
+    Restitution,
+    /// Both friction coefficients at once.
+    Friction,
+}
+
+/// See [`Effect`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EffectRecord {
+    /// J.
+    pub objective: f64,
+    /// Mean angle between path and surface after first hits on target, deg; absent without any.
+    pub rebound_angle_deg: Option<f64>,
+    /// Mean N* of first hits on target.
+    #[serde(rename = "normal_impulse_N_s")]
+    pub normal_impulse: f64,
+    /// The share of shots over each limit.
+    pub shares: Vec<ShareRecord>,
+}
+
+/// The share of shots over a limit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShareRecord {
+    /// The goal, or the full name of the surface.
+    pub subject: String,
+    /// Share of shots that break it.
+    pub share: f64,
+}
+
+impl UnknownsRecord {
+    /// The record of what was evaluated.
+    pub fn new(setup: &Setup, unknowns: &Unknowns) -> Self {
+        Self {
+            nominal: EffectRecord::new(setup, &unknowns.nominal),
+            ranges: unknowns
+                .ranges
+                .iter()
+                .map(|range| UnknownRangeRecord::new(setup, range))
+                .collect(),
+        }
+    }
+}
+
+impl UnknownRangeRecord {
+    fn new(setup: &Setup, range: &UnknownRange) -> Self {
+        let [(low, at_low), (high, at_high)] = &range.ends;
+        Self {
+            quantity: match range.quantity {
+                Quantity::Restitution => QuantityRecord::Restitution,
+                Quantity::Friction => QuantityRecord::Friction,
+            },
+            low: *low,
+            at_low: EffectRecord::new(setup, at_low),
+            high: *high,
+            at_high: EffectRecord::new(setup, at_high),
+        }
+    }
+}
+
+impl EffectRecord {
+    fn new(setup: &Setup, effect: &Effect) -> Self {
+        Self {
+            objective: effect.objective,
+            rebound_angle_deg: effect.rebound_angle.map(degrees),
+            normal_impulse: effect.normal_impulse,
+            shares: effect
+                .shares
+                .iter()
+                .map(|(subject, share)| ShareRecord {
+                    subject: subject_name(setup, *subject),
+                    share: *share,
+                })
+                .collect(),
+        }
+    }
+}

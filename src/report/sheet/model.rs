@@ -1,0 +1,121 @@
+//! What each effect of the model does here, and what the search did without.
+
+use super::setting::SETTINGS;
+use crate::problem::model::Effect;
+use crate::record::{ModelRecord, Record, RungRecord};
+use crate::report::layout::{Align, Block, Table};
+use crate::report::number::{fixed, significant};
+
+/// A row for each effect; nothing where none was measured.
+pub fn block(record: &Record) -> Option<Block> {
+    let model = &record.model;
+    if model.effects.is_empty() {
+        return None;
+    }
+    let mut table = Table::new(&[
+        ("MODEL, without", Align::Left),
+        ("J", Align::Right),
+        ("best settings move", Align::Left),
+        ("costing", Align::Right),
+        ("time", Align::Right),
+        ("turns", Align::Left),
+        ("search", Align::Left),
+    ]);
+    for effect in &model.effects {
+        table.row([
+            description(&effect.effect),
+            change(effect.change),
+            moves(effect),
+            if effect.regret > 0.0 {
+                change(effect.regret)
+            } else {
+                "0".into()
+            },
+            format!("{} %", fixed(effect.relative_time * 100.0, 0)),
+            turns(effect),
+            if effect.left_out { "without" } else { "with" }.into(),
+        ]);
+    }
+    let mut block = Block::default();
+    block.table(&table.without_empty_columns());
+    block.paragraph(&sentence(model));
+    Some(block)
+}
+
+fn description(name: &str) -> String {
+    Effect::named(name).map_or_else(|| name.into(), |effect| effect.description().into())
+}
+
+/// A relative change with its sign, in percent.
+fn change(change: f64) -> String {
+    if change == 0.0 {
+        return "0".into();
+    }
+    let sign = if change < 0.0 { "-" } else { "+" };
+    let size = change.abs() * 100.0;
+    if size < 0.01 {
+        return format!("{sign}<0.01 %");
+    }
+    format!("{sign}{} %", significant(size, 2))
+}
+
+/// The two settings that move most, seen against their own size.
+fn moves(effect: &RungRecord) -> String {
+    let mut moves: Vec<(f64, String)> = SETTINGS
+        .iter()
+        .filter_map(|setting| {
+            let [from, to] = [&effect.settings_with, &effect.settings_without]
+                .map(|settings| setting.value(settings));
+            let shown = fixed((to - from).abs(), setting.decimals);
+            let is_seen = shown.chars().any(|digit| ('1'..='9').contains(&digit));
+            let sign = if to < from { '-' } else { '+' };
+            let share = (to - from).abs() / from.abs().max(1.0);
+            is_seen.then(|| {
+                (
+                    share,
+                    format!("{} {sign}{shown} {}", setting.name, setting.unit),
+                )
+            })
+        })
+        .collect();
+    moves.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let shown: Vec<String> = moves.into_iter().take(1).map(|(_, text)| text).collect();
+    if shown.is_empty() {
+        "-".into()
+    } else {
+        shown.join(", ")
+    }
+}
+
+fn turns(effect: &RungRecord) -> String {
+    match effect.turned.as_slice() {
+        [] => "-".into(),
+        [one] => one.clone(),
+        many => format!("{} verdicts", many.len()),
+    }
+}
+
+fn sentence(model: &ModelRecord) -> String {
+    let left_out: Vec<String> = model
+        .searched_without
+        .iter()
+        .map(|name| description(name))
+        .collect();
+    let is_auto = model.asked.iter().any(|asked| asked == "auto");
+    let what = if left_out.is_empty() {
+        "Every effect matters here: none was left out".to_owned()
+    } else {
+        format!("Left out: {}", left_out.join(", "))
+    };
+    let figures = if is_auto {
+        "; all figures and verdicts are those of the whole model."
+    } else {
+        ", as the file asks; the figures are without them."
+    };
+    let put_back = match model.put_back {
+        0 => String::new(),
+        1 => " One effect was put back because the whole model disagreed.".into(),
+        more => format!(" {more} effects were put back because the whole model disagreed."),
+    };
+    format!("{what}{figures}{put_back}")
+}

@@ -1,0 +1,141 @@
+//! Restitution and friction at the ends of their ranges: which of them moves the result most.
+
+use crate::record::{
+    EffectRecord, QuantityRecord, Record, UnknownRangeRecord, UnknownsRecord, VerdictRecord,
+};
+use crate::report::layout::{Align, Block, Table};
+use crate::report::number::{decimals_for, fixed, impulse, plain, share, significant};
+
+/// J that moves by less than this part of itself has not moved.
+const MOVES: f64 = 0.01;
+
+/// A row for the nominal contact and for each end; nothing where nothing is unknown.
+pub fn block(record: &Record) -> Option<Block> {
+    let unknowns = record.unknowns.as_ref()?;
+    let mut table = Table::new(&[
+        ("UNKNOWNS, one at a time", Align::Left),
+        ("rebound deg", Align::Right),
+        ("mean N*, uN.s", Align::Right),
+        ("J", Align::Right),
+        ("breaks most", Align::Left),
+    ]);
+    let verdicts = &record.best.verdicts;
+    let decimals = decimals_for(largest_objective(unknowns), 4);
+    let mut row = |label: String, effect: &EffectRecord| {
+        table.row([
+            label,
+            effect
+                .rebound_angle_deg
+                .map_or_else(|| "-".into(), |angle| fixed(angle, 1)),
+            impulse(effect.normal_impulse),
+            fixed(effect.objective, decimals),
+            nearest_to_failing(effect, verdicts),
+        ]);
+    };
+    row("both as given".into(), &unknowns.nominal);
+    for range in &unknowns.ranges {
+        for (value, effect) in [(range.low, &range.at_low), (range.high, &range.at_high)] {
+            let label = format!("{} {}", name(range.quantity), plain(value));
+            row(label, effect);
+        }
+    }
+    let mut block = Block::default();
+    block.table(&table);
+    if let Some(sentence) = sentence(unknowns) {
+        block.paragraph(&sentence);
+    }
+    block.paragraph(
+        "Every shot of a row has the same restitution and friction; in OBJECTIVE each draws its own.",
+    );
+    Some(block)
+}
+
+/// The largest J of the table.
+fn largest_objective(unknowns: &UnknownsRecord) -> f64 {
+    let ends = unknowns
+        .ranges
+        .iter()
+        .flat_map(|range| [&range.at_low, &range.at_high]);
+    ends.map(|effect| effect.objective)
+        .fold(unknowns.nominal.objective, f64::max)
+}
+
+/// The goal that uses most of what it may.
+fn nearest_to_failing(effect: &EffectRecord, verdicts: &[VerdictRecord]) -> String {
+    let allowed = |subject: &str| {
+        let verdict = verdicts.iter().find(|verdict| verdict.subject == subject);
+        verdict.map_or(0.0, |verdict| verdict.allowed)
+    };
+    let broken = effect.shares.iter().filter(|one| one.share > 0.0);
+    let load = |subject: &str, share: f64| share / allowed(subject).max(f64::MIN_POSITIVE);
+    let worst =
+        broken.max_by(|a, b| load(&a.subject, a.share).total_cmp(&load(&b.subject, b.share)));
+    worst.map_or_else(
+        || "none broken".into(),
+        |one| {
+            let fails = one.share > allowed(&one.subject);
+            let word = if fails { " FAIL" } else { "" };
+            format!("{} {}{word}", one.subject, share(one.share))
+        },
+    )
+}
+
+const fn name(quantity: QuantityRecord) -> &'static str {
+    match quantity {
+        QuantityRecord::Restitution => "restitution",
+        QuantityRecord::Friction => "mu_s",
+    }
+}
+
+/// By how much J differs over the range.
+fn movement(range: &UnknownRangeRecord, nominal: &EffectRecord) -> f64 {
+    let all = [&range.at_low, nominal, &range.at_high].map(|effect| effect.objective);
+    let (low, high) = all
+        .into_iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), j| {
+            (low.min(j), high.max(j))
+        });
+    high - low
+}
+
+/// By how much the rebound turns from the low to the high end, deg.
+fn turn(range: &UnknownRangeRecord) -> Option<f64> {
+    Some((range.at_high.rebound_angle_deg? - range.at_low.rebound_angle_deg?).abs())
+}
+
+/// Which one moves J most, and by how far each turns the rebound.
+fn sentence(unknowns: &UnknownsRecord) -> Option<String> {
+    let nominal = &unknowns.nominal;
+    let mut ranges: Vec<&UnknownRangeRecord> = unknowns.ranges.iter().collect();
+    ranges.sort_by(|a, b| movement(b, nominal).total_cmp(&movement(a, nominal)));
+    let (first, others) = ranges.split_first()?;
+    let does = |range: &UnknownRangeRecord| {
+        let moves = significant(movement(range, nominal), 2);
+        match turn(range) {
+            Some(turn) => format!("by {moves} and turns the rebound by {} deg", fixed(turn, 1)),
+            None => format!("by {moves}; no rebound from the target was seen"),
+        }
+    };
+    let word = word(first.quantity);
+    let text = match others {
+        [] => format!("Over its range {word} moves J {}.", does(first)),
+        _ if movement(first, nominal) <= MOVES * nominal.objective => format!(
+            "Neither restitution nor friction moves J by more than {} % of it.",
+            plain(MOVES * 100.0)
+        ),
+        [other, ..] => format!(
+            "Over its range {word} moves J most, {}; {} moves J {}.",
+            does(first),
+            self::word(other.quantity),
+            does(other)
+        ),
+    };
+    Some(text)
+}
+
+const fn word(quantity: QuantityRecord) -> &'static str {
+    match quantity {
+        QuantityRecord::Restitution => "restitution",
+        QuantityRecord::Friction => "friction",
+    }
+}

@@ -1,0 +1,216 @@
+//! Moving spheres against triangle meshes.
+
+mod contact;
+mod folds;
+mod plates;
+
+use nalgebra::{Point3, Vector3};
+use rayon::prelude::*;
+
+use super::Facets;
+use crate::scene::LIFT;
+use crate::scene::ray::{Crossing, Ray, Spot};
+use contact::{Placed, Plate, Sphere, Touch};
+use folds::{CLEAR_FOLD, Folds};
+pub(super) use plates::Plates;
+use plates::{Ready, WideSphere};
+
+impl Facets {
+    /// The first contact of a sphere of `radius` (m) whose centre moves along `ray`, nearer than
+    /// `limit`; and the unit normal there, from the point of contact to the centre.
+    ///
+    /// The distance is that which the centre travels, and the front that on which the centre is
+    /// then. Faces come before edges and corners within the slack, then of touches at the same
+    /// distance the triangle with the lowest index.
+    ///
+    /// A triangle that the sphere touches or overlaps at its start is hit at once if the centre
+    /// heads towards it, and never otherwise: the distance to it, a convex body, then only grows.
+    /// The piece of `leaving`, if it is `on_this_part`, is not hit at all.
+    pub fn first_touch(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        leaving: Option<Spot>,
+        on_this_part: bool,
+        limit: f64,
+    ) -> Option<(Crossing, Vector3<f64>)> {
+        let plates = self.plates.get_or_init(|| self.build_plates());
+        let mut search = Search {
+            facets: self,
+            plates,
+            sphere: Sphere::new(ray, radius, self.slack),
+            left: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
+            // In a clear fold, spheres of this size are far enough off one face when they come to
+            // the other: rounding cannot make them miss both.
+            all_folds: radius * (CLEAR_FOLD * CLEAR_FOLD / 4.0) <= self.slack,
+            overlaps: false,
+        };
+        let mut first = search.run(limit);
+        if search.overlaps {
+            // What stands out and what does not counts for spheres that start outside.
+            search.all_folds = true;
+            first = search.run(limit);
+        }
+        first.map(|Found { touch, index }| {
+            let crossing = Crossing {
+                distance: touch.distance,
+                front: touch.front,
+                piece: index,
+                surface: self.surface(index),
+            };
+            (crossing, touch.normal)
+        })
+    }
+
+    fn build_plates(&self) -> Vec<Plates> {
+        let flat = LIFT * self.slack;
+        let shapes: Vec<Plate> = (0..self.count() as u32)
+            .into_par_iter()
+            .map(|index| plate(self.corners(index), self.corners[index as usize], flat))
+            .collect();
+        let clear: Vec<bool> = shapes.iter().map(|plate| plate.clear).collect();
+        let folds = folds::folds(&self.vertices, &self.corners, &clear, flat);
+        let ready = |&index: &u32| Ready {
+            plate: shapes[index as usize],
+            folds: folds[index as usize],
+        };
+        let bundles = self.bundles.par_iter();
+        let plates = bundles.map(|bundle| {
+            let triangles: Vec<Ready> = bundle.triangles().iter().map(ready).collect();
+            Plates::new(&triangles)
+        });
+        plates.collect()
+    }
+}
+
+/// A touch of a triangle.
+struct Found {
+    touch: Touch,
+    index: u32,
+}
+
+/// The search for what a sphere touches first.
+struct Search<'a> {
+    facets: &'a Facets,
+    plates: &'a [Plates],
+    sphere: Sphere<'a>,
+    left: Option<u32>,
+    /// Whether edges and corners count that do not stand out.
+    all_folds: bool,
+    /// Whether the sphere was found to overlap a triangle at its start.
+    overlaps: bool,
+}
+
+impl Search<'_> {
+    #[inline(always)]
+    fn run(&mut self, limit: f64) -> Option<Found> {
+        let Sphere {
+            ray, radius, slack, ..
+        } = self.sphere;
+        let wide = WideSphere::new(&self.sphere);
+        let mut best: Option<Found> = None;
+        let mut cost = limit;
+        let tree = &self.facets.tree;
+        tree.walk_sphere(ray, radius, limit, |leaf, starts_inside| {
+            let bundle = &self.facets.bundles[leaf as usize];
+            let plates = &self.plates[leaf as usize];
+            let reached = plates.reached(&wide, cost, self.all_folds);
+            let near = if starts_inside && reached.near != 0 {
+                reached.near & bundle.near(&ray.origin, radius + slack)
+            } else {
+                0
+            };
+            let mut lanes = (reached.touched | near) & bundle.occupied();
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
+                let index = bundle.triangles()[lane];
+                if reached.enters[lane] > cost {
+                    continue;
+                }
+                let near = near >> lane & 1 == 1;
+                if let Some(touch) = self.touch(plates, lane, index, near, cost) {
+                    let farther = if touch.on_face { 0.0 } else { slack };
+                    let other = touch.distance + farther;
+                    let first = best.as_ref().is_none_or(|best| index < best.index);
+                    if other < cost || (other == cost && best.is_some() && first) {
+                        cost = other;
+                        best = Some(Found { touch, index });
+                    }
+                }
+            }
+            cost
+        });
+        best
+    }
+
+    /// Where the sphere touches a triangle; it need not be told of touches beyond `limit`.
+    #[inline(always)]
+    fn touch(
+        &mut self,
+        plates: &Plates,
+        lane: usize,
+        index: u32,
+        near: bool,
+        limit: f64,
+    ) -> Option<Touch> {
+        let (plate, folds) = plates.plate(lane, self.facets.corners(index));
+        let folds = if self.all_folds { Folds::ALL } else { folds };
+        let placed = if near {
+            self.sphere.placed(&plate, folds)
+        } else {
+            Placed::Apart
+        };
+        self.overlaps |= matches!(placed, Placed::Overlapping);
+        if self.left == Some(index) {
+            return None;
+        }
+        match placed {
+            Placed::Apart => self.sphere.touch(&plate, folds, limit),
+            Placed::Touching(touch) => touch,
+            Placed::Overlapping => None,
+        }
+    }
+}
+
+/// A triangle as spheres meet it, clear if rounding moves its plane by less than `flat` (m) at its
+/// corners.
+fn plate(corners: [Point3<f64>; 3], vertices: [u32; 3], flat: f64) -> Plate {
+    let edges = [0, 1, 2].map(|corner| corners[(corner + 1) % 3] - corners[corner]);
+    let lengths = edges.map(|edge| edge.norm());
+    // The two shorter edges tell the plane best.
+    let longest = (0..3).fold(0, |longest, edge| {
+        if lengths[edge] > lengths[longest] {
+            edge
+        } else {
+            longest
+        }
+    });
+    let [one, other] = [(longest + 1) % 3, (longest + 2) % 3];
+    let area_normal = edges[one].cross(&edges[other]);
+    let doubled_area = area_normal.norm();
+    let tilt = f64::EPSILON * lengths[one] * lengths[other] / doubled_area;
+    let has_plane = tilt < WORST_TILT;
+    let normal = if has_plane {
+        area_normal / doubled_area
+    } else {
+        Vector3::zeros()
+    };
+    let clear = has_plane && tilt * lengths[longest] <= flat;
+    Plate {
+        corners,
+        normal,
+        clear,
+        inward: edges.map(|edge| normal.cross(&edge).try_normalize(0.0).unwrap_or_default()),
+        backwards: (0..3).fold(0, |bits, corner| {
+            let backwards = vertices[corner] > vertices[(corner + 1) % 3];
+            bits | u8::from(backwards) << corner
+        }),
+    }
+}
+
+/// Triangles whose normals may be off by more than this (rad) have no plane.
+const WORST_TILT: f64 = 1e-4;
+
+#[cfg(test)]
+mod tests;

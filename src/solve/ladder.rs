@@ -1,0 +1,153 @@
+//! What each effect of the model does in the scene at hand, and which ones a search can do without.
+//!
+//! The leading candidates are judged with every effect and with each one left out, on the same
+//! shots. What changes neither J nor the best settings by more than a part of the accuracy asked
+//! for is left out of the search; figures are always those of the whole model.
+
+mod bench;
+
+pub(super) use bench::{common_shots, objective};
+
+use rayon::prelude::*;
+
+use bench::Bench;
+
+use super::control::Control;
+use super::judge::Effort;
+use super::search::Search;
+use crate::problem::model::{Effect, Model};
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use crate::verdict::Subject;
+
+/// What one effect does: the model without it against the whole model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rung {
+    /// The effect.
+    pub effect: Effect,
+    /// By how much J changes without it at the leading settings, relative.
+    pub change: f64,
+    /// The largest such change, either way, over the leading settings of all contacts.
+    pub largest_change: f64,
+    /// The verdicts that turn without it.
+    pub turned: Vec<Subject>,
+    /// The best settings near the leading ones without it, and with it.
+    pub best_without: Choice,
+    /// See `best_without`.
+    pub best_with: Choice,
+    /// By how much J of the whole model is higher at the former, relative.
+    pub regret: f64,
+    /// Time for a pose without it over time with it.
+    pub relative_time: f64,
+    /// Whether the search did without it.
+    pub left_out: bool,
+}
+
+/// The model that a search used, and why.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Ladder {
+    /// What was asked for.
+    pub model: Model,
+    /// What each effect does, as far as it was measured.
+    pub rungs: Vec<Rung>,
+    /// How often an effect was put back because the whole model disagreed.
+    pub put_back: usize,
+}
+
+/// Shots behind changes of J and of verdicts, and behind best settings.
+const SHOTS: usize = 1024;
+/// Share of the accuracy by which leaving out effects may change J or worsen the best settings.
+const TOLERABLE: f64 = 0.5;
+
+impl Ladder {
+    /// Nothing was measured yet.
+    pub fn of(setup: &Setup) -> Self {
+        Self {
+            model: setup.problem.model.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// The effects that the search does without.
+    pub fn left_out(&self) -> Vec<Effect> {
+        let left_out = self.rungs.iter().filter(|rung| rung.left_out);
+        left_out.map(|rung| rung.effect).collect()
+    }
+
+    /// Measures what each effect does at the best candidates, and leaves out what does not matter.
+    pub(super) fn climb(
+        &mut self,
+        setup: &Setup,
+        searches: &[Search],
+        effort: &Effort,
+        control: &Control,
+    ) {
+        let Some(bench) = Bench::new(setup, searches, effort, control) else {
+            return;
+        };
+        let effects = setup.problem.effects();
+        let start = bench.start();
+        self.rungs = effects
+            .par_iter()
+            .map(|&effect| bench.rung(effect, &start))
+            .collect();
+        for rung in &mut self.rungs {
+            rung.relative_time = bench.relative_time(&[rung.effect]);
+        }
+        if self.model == Model::Auto {
+            self.leave_out(&bench);
+        }
+    }
+
+    /// Leaves out one effect after the other as long as all of them together do not matter.
+    fn leave_out(&mut self, bench: &Bench) {
+        let tolerable = TOLERABLE * bench.setup.problem.accuracy;
+        let mut left_out = Vec::new();
+        for rung in &mut self.rungs {
+            if rung.largest_change > tolerable || rung.regret > tolerable {
+                continue;
+            }
+            left_out.push(rung.effect);
+            rung.left_out = bench.largest_change(&left_out) <= tolerable;
+            if !rung.left_out {
+                left_out.pop();
+            }
+        }
+    }
+
+    /// Marks what the problem file itself leaves out.
+    pub(super) fn mark(&mut self, left_out: &[Effect]) {
+        self.rungs.retain(|rung| left_out.contains(&rung.effect));
+        for rung in &mut self.rungs {
+            rung.left_out = true;
+        }
+    }
+
+    /// Puts back the effects that matter at the best candidates by now, or the one that matters most
+    /// where none does alone.
+    pub(super) fn put_back(
+        &mut self,
+        setup: &Setup,
+        searches: &[Search],
+        effort: &Effort,
+        control: &Control,
+    ) {
+        let Some(bench) = Bench::new(setup, searches, effort, control) else {
+            return;
+        };
+        let tolerable = TOLERABLE * setup.problem.accuracy;
+        let mut left_out: Vec<&mut Rung> =
+            self.rungs.iter_mut().filter(|rung| rung.left_out).collect();
+        for rung in &mut left_out {
+            let by_now = bench.largest_change(&[rung.effect]);
+            rung.largest_change = rung.largest_change.max(by_now);
+        }
+        left_out.sort_by(|a, b| b.largest_change.total_cmp(&a.largest_change));
+        for (place, rung) in left_out.into_iter().enumerate() {
+            if place == 0 || rung.largest_change > tolerable {
+                rung.left_out = false;
+                self.put_back += 1;
+            }
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Where effects are measured: the leading candidates, with and without them, on the same shots.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use super::{Rung, SHOTS};
+use crate::evaluate::evaluate;
+use crate::jet::{Replicates, Samples, Stream};
+use crate::objective::Tally;
+use crate::problem::model::Effect;
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use crate::solve::accuracy::{is_in_reach, least_objective};
+use crate::solve::control::Control;
+use crate::solve::judge::{Effort, Judge, speed_scales_out};
+use crate::solve::polish::{Candidate, polish};
+use crate::solve::search::Search;
+use crate::solve::space::Space;
+use crate::verdict::{Subject, Verdict};
+
+/// The shots of a setup and of a reduced one, with the same weights: what they differ in is the
+/// model alone.
+pub(in crate::solve) fn common_shots(setup: &Setup, reduced: &Setup, count: usize) -> [Samples; 2] {
+    let of = |setup: &Setup| Samples::with_rim(&setup.problem, Stream::Search, count);
+    let (whole, mut fewer) = (of(setup), of(reduced));
+    if fewer.deviates.len() == whole.deviates.len() {
+        for (deviate, with) in fewer.deviates.iter_mut().zip(&whole.deviates) {
+            deviate.weight = with.weight;
+        }
+    }
+    [whole, fewer]
+}
+
+/// J at a choice.
+pub(in crate::solve) fn objective(setup: &Setup, choice: &Choice, samples: &Samples) -> f64 {
+    let tally = Tally::trace(setup, choice, choice.speed, &samples.deviates);
+    tally.terms(&setup.problem.goals, choice.speed).total()
+}
+
+/// Where effects are measured.
+pub(super) struct Bench<'a> {
+    pub(super) setup: &'a Setup,
+    /// The best choice of every contact that could win, the best one first.
+    leading: Vec<Choice>,
+    /// J of the whole model there.
+    whole: Vec<f64>,
+    effort: &'a Effort,
+    control: &'a Control<'a>,
+}
+
+impl<'a> Bench<'a> {
+    /// `None` where the nozzle has fitted nowhere.
+    pub(super) fn new(
+        setup: &'a Setup,
+        searches: &[Search],
+        effort: &'a Effort,
+        control: &'a Control,
+    ) -> Option<Self> {
+        let least = least_objective(searches);
+        let mut leading: Vec<&Candidate> = searches
+            .iter()
+            .filter(|search| is_in_reach(search, least))
+            .map(Search::best)
+            .filter(|best| best.standing.objective().is_some())
+            .collect();
+        leading.sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
+        let leading: Vec<Choice> = leading.into_iter().map(|best| best.choice).collect();
+        leading.first()?;
+        let samples = Samples::with_rim(&setup.problem, Stream::Search, SHOTS);
+        let whole = leading
+            .iter()
+            .map(|choice| objective(setup, choice, &samples))
+            .collect();
+        Some(Self {
+            setup,
+            leading,
+            whole,
+            effort,
+            control,
+        })
+    }
+
+    fn reduced(&self, left_out: &[Effect]) -> Setup {
+        self.setup.without(left_out, &self.leading[0])
+    }
+
+    /// Changes of J, relative, at every leading choice.
+    fn changes(&self, reduced: &Setup) -> Vec<f64> {
+        let [_, samples] = common_shots(self.setup, reduced, SHOTS);
+        let pairs = self.leading.iter().zip(&self.whole);
+        let change = |(choice, whole): (&Choice, &f64)| {
+            relative(objective(reduced, choice, &samples) - whole, *whole)
+        };
+        pairs.map(change).collect()
+    }
+
+    pub(super) fn largest_change(&self, left_out: &[Effect]) -> f64 {
+        let changes = self.changes(&self.reduced(left_out));
+        changes
+            .iter()
+            .fold(0.0, |most, change| most.max(change.abs()))
+    }
+
+    /// The best settings of a setup near the first leading choice.
+    fn descend(&self, setup: &Setup, samples: &Samples) -> Choice {
+        let choice = &self.leading[0];
+        let judge = Judge::new(setup, &samples.deviates, self.effort, self.control.stop);
+        let search_speed = !speed_scales_out(setup, choice.contact);
+        let space = Space::new(&setup.problem, choice.contact, search_speed);
+        let start = Candidate::at(&space, &judge, &space.point(choice));
+        let settled = DESCENT_SETTLED * setup.problem.accuracy;
+        polish(&space, &judge, start, DESCENT_SIZE, settled).choice
+    }
+
+    /// The whole model at the first leading choice.
+    pub(super) fn start(&self) -> Start {
+        let samples = Samples::with_rim(&self.setup.problem, Stream::Search, DESCENT_SHOTS);
+        let verdicts = passes(self.setup, &self.leading[0]).into_iter();
+        Start {
+            passes: verdicts.map(|(_, pass)| pass).collect(),
+            best: self.descend(self.setup, &samples),
+        }
+    }
+
+    pub(super) fn rung(&self, effect: Effect, start: &Start) -> Rung {
+        let reduced = self.reduced(&[effect]);
+        let changes = self.changes(&reduced);
+        let [whole, fewer] = common_shots(self.setup, &reduced, DESCENT_SHOTS);
+        let best_with = start.best;
+        // An effect that does nothing here may be the cliff that the best settings keep away from.
+        let best_without = self.descend(&reduced, &fewer);
+        let [without, with] =
+            [&best_without, &best_with].map(|choice| objective(self.setup, choice, &whole));
+        let before = start.passes.iter();
+        let turned = passes(&reduced, &self.leading[0])
+            .into_iter()
+            .zip(before)
+            .filter(|((_, without), with)| without != *with)
+            .map(|((subject, _), _)| subject);
+        Rung {
+            effect,
+            change: changes[0],
+            largest_change: changes.iter().fold(0.0, |most, c| most.max(c.abs())),
+            turned: turned.collect(),
+            best_without,
+            best_with,
+            regret: relative(without - with, with).max(0.0),
+            relative_time: 1.0,
+            left_out: false,
+        }
+    }
+
+    /// Time for a pose without some effects over time with all.
+    pub(super) fn relative_time(&self, left_out: &[Effect]) -> f64 {
+        let reduced = self.reduced(left_out);
+        let [whole, fewer] = common_shots(self.setup, &reduced, DESCENT_SHOTS);
+        let time = |setup: &Setup, samples: &Samples| {
+            let started = Instant::now();
+            black_box(objective(setup, &self.leading[0], samples));
+            started.elapsed().as_secs_f64()
+        };
+        let mut least = [f64::INFINITY; 2];
+        for _ in 0..TIMED_TURNS {
+            least[0] = time(&reduced, &fewer).min(least[0]);
+            least[1] = time(self.setup, &whole).min(least[1]);
+        }
+        least[0] / least[1]
+    }
+}
+
+/// What the whole model says where effects are measured.
+pub(super) struct Start {
+    /// Whether each verdict passes.
+    passes: Vec<bool>,
+    /// The best settings nearby.
+    best: Choice,
+}
+
+const DESCENT_SHOTS: usize = 256;
+/// Longest edge of the first simplex of a descent, as a share of each range.
+const DESCENT_SIZE: f64 = 0.1;
+/// A descent ends when J differs by less than this share of the accuracy.
+const DESCENT_SETTLED: f64 = 0.3;
+/// What shots for verdicts are drawn for.
+const VERDICTS: u32 = 3;
+const TIMED_TURNS: usize = 5;
+
+/// Whether each verdict on a choice passes.
+fn passes(setup: &Setup, choice: &Choice) -> Vec<(Subject, bool)> {
+    let fresh = Replicates::without_rim(&setup.problem, VERDICTS, SHOTS);
+    let verdicts = Verdict::all(setup, &evaluate(setup, choice, &fresh));
+    let verdict = |verdict: &Verdict| (verdict.subject, verdict.passes());
+    verdicts.iter().map(verdict).collect()
+}
+
+/// A difference relative to a value, 0 for none.
+fn relative(difference: f64, value: f64) -> f64 {
+    if difference == 0.0 {
+        0.0
+    } else {
+        difference / value.max(f64::MIN_POSITIVE)
+    }
+}

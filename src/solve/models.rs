@@ -1,0 +1,107 @@
+//! The model that figures come from, and the one that the search makes do with.
+
+use rayon::prelude::*;
+
+use super::accuracy::{is_in_reach, least_objective};
+use super::control::Control;
+use super::judge::Effort;
+use super::ladder::{Ladder, common_shots, objective};
+use super::search::Search;
+use crate::problem::model::Model;
+use crate::setup::Setup;
+
+/// The models of one problem.
+pub(super) struct Models<'a> {
+    /// With every effect.
+    whole: &'a Setup,
+    /// With those that are asked for: figures come from it.
+    pub asked: Setup,
+    /// With those that matter.
+    pub searched: Setup,
+    pub ladder: Ladder,
+}
+
+impl<'a> Models<'a> {
+    pub fn new(whole: &'a Setup) -> Self {
+        let asked = whole.as_asked();
+        Self {
+            whole,
+            searched: asked.clone(),
+            asked,
+            ladder: Ladder::of(whole),
+        }
+    }
+
+    /// Finds out which effects matter at the best candidates, where that is left to the program.
+    pub fn climb(&mut self, searches: &mut [Search], effort: &Effort, control: &Control) {
+        if self.whole.problem.model == Model::Auto {
+            self.ladder.climb(&self.asked, searches, effort, control);
+            self.reduce(searches);
+        }
+    }
+
+    /// Measures what the effects do that were not asked for.
+    pub fn measure_unasked(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
+        let unasked = self.whole.unasked();
+        if !unasked.is_empty() {
+            self.ladder.climb(self.whole, searches, effort, control);
+            self.ladder.mark(&unasked);
+        }
+    }
+
+    /// Puts back the effect that matters most, when the whole model disagrees with the one that
+    /// is searched about J by more than the accuracy; returns whether it did.
+    pub fn put_back(
+        &mut self,
+        searches: &mut [Search],
+        claims: &[Claim],
+        effort: &Effort,
+        control: &Control,
+    ) -> bool {
+        let least = least_objective(searches);
+        let accuracy = self.asked.problem.accuracy;
+        let disagrees = |(search, claim): (&Search, &Claim)| {
+            is_in_reach(search, least)
+                && claim
+                    .is_some_and(|(searched, asked)| (asked - searched).abs() > accuracy * asked)
+        };
+        let must = searches.iter().zip(claims).any(disagrees);
+        if must {
+            self.ladder.put_back(&self.asked, searches, effort, control);
+            self.reduce(searches);
+        }
+        must
+    }
+
+    /// J of the best candidates on the shots of the search.
+    pub fn claims(&self, searches: &[Search], shots: usize) -> Vec<Claim> {
+        let is_whole = self.ladder.left_out().is_empty();
+        let samples = (!is_whole).then(|| common_shots(&self.asked, &self.searched, shots));
+        let claim = |search: &Search| {
+            let best = search.best();
+            let searched = best.standing.objective()?;
+            let Some([whole, fewer]) = &samples else {
+                return Some((searched, searched));
+            };
+            let with = objective(&self.asked, &best.choice, whole);
+            let without = objective(&self.searched, &best.choice, fewer);
+            Some((searched, searched + with - without))
+        };
+        searches.par_iter().map(claim).collect()
+    }
+
+    fn reduce(&mut self, searches: &mut [Search]) {
+        let best = searches.iter().map(Search::best);
+        let Some(best) = best.min_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank())) else {
+            return;
+        };
+        self.searched = self.asked.without(&self.ladder.left_out(), &best.choice);
+        for search in searches {
+            *search = search.carried_over(&self.searched);
+        }
+    }
+}
+
+/// J of a candidate with the model that is searched and with the one that is asked for; `None`
+/// where the nozzle does not fit.
+pub(super) type Claim = Option<(f64, f64)>;

@@ -1,0 +1,190 @@
+//! Which of the two that a shop rarely knows, restitution and friction, moves the result most.
+//!
+//! Where a problem gives them a tolerance, each shot of an answer draws its own. Here one of them at
+//! a time is held at the end of its range for all shots, while the other one keeps its nominal
+//! value; all ends are evaluated on the same shots.
+
+use rayon::prelude::*;
+
+use crate::evaluate::evaluate;
+use crate::jet::{Deviate, Replicate, Replicates};
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use crate::trace::Tracer;
+use crate::verdict::{Subject, Verdict};
+
+/// What is not known exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The normal coefficient of restitution.
+    Restitution,
+    /// Both friction coefficients at once.
+    Friction,
+}
+
+/// What the nominal contact does, and what the ends of each range do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknowns {
+    /// With both at their nominal values.
+    pub nominal: Effect,
+    /// One for each that has a tolerance.
+    pub ranges: Vec<UnknownRange>,
+}
+
+/// One that is not known exactly, at both ends of its range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnknownRange {
+    /// Which one.
+    pub quantity: Quantity,
+    /// Restitution or static friction at the target at the ends and what that does, low end first.
+    pub ends: [(f64, Effect); 2],
+}
+
+/// What an answer does with one contact for all shots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// J.
+    pub objective: f64,
+    /// Mean angle between path and surface after first hits on target, rad; `None` without any.
+    /// A shot that stays on the surface has 0.
+    pub rebound_angle: Option<f64>,
+    /// Mean N* of first hits on target, N s; 0 without any.
+    pub normal_impulse: f64,
+    /// The share of shots over each limit.
+    pub shares: Vec<(Subject, f64)>,
+}
+
+/// Shots behind each effect.
+const SHOTS: usize = 4096;
+/// What they are drawn for; answers and windows have the purposes before.
+const PURPOSE: u32 = 2;
+
+impl Unknowns {
+    /// Evaluates both ends of what has a tolerance; `None` where nothing has one.
+    pub fn of(setup: &Setup, choice: &Choice) -> Option<Self> {
+        let tolerance = &setup.problem.tolerance;
+        let given = [
+            (Quantity::Restitution, tolerance.restitution),
+            (Quantity::Friction, tolerance.friction),
+        ];
+        if given.iter().all(|(_, half_width)| *half_width == 0.0) {
+            return None;
+        }
+        let shots = common_shots(setup);
+        let effect = |quantity: Quantity, change: f64| {
+            Effect::of(setup, choice, &with(&shots, quantity, change))
+        };
+        let ranges = given
+            .into_iter()
+            .filter(|(_, half_width)| *half_width > 0.0)
+            .map(|(quantity, half_width)| UnknownRange {
+                quantity,
+                ends: [-half_width, half_width].map(|change| {
+                    let value = quantity.at_target(setup, choice, change);
+                    (value, effect(quantity, change))
+                }),
+            })
+            .collect();
+        Some(Self {
+            nominal: effect(Quantity::Restitution, 0.0),
+            ranges,
+        })
+    }
+}
+
+impl Quantity {
+    /// Its value at the target after a change: absolute for restitution, relative for friction.
+    fn at_target(self, setup: &Setup, choice: &Choice, change: f64) -> f64 {
+        let contact = setup.contact_on(setup.target.surface, choice);
+        match self {
+            Self::Restitution => contact.restitution.shifted(change).reference(),
+            Self::Friction => contact.static_friction * (1.0 + change),
+        }
+    }
+
+    /// The shot with this one changed and the other one nominal.
+    fn change(self, deviate: &Deviate, change: f64) -> Deviate {
+        match self {
+            Self::Restitution => Deviate {
+                restitution: change,
+                ..*deviate
+            },
+            Self::Friction => Deviate {
+                friction: 1.0 + change,
+                ..*deviate
+            },
+        }
+    }
+}
+
+/// Shots that meet the nominal contact.
+fn common_shots(setup: &Setup) -> Replicates {
+    let mut problem = setup.problem.clone();
+    problem.tolerance.restitution = 0.0;
+    problem.tolerance.friction = 0.0;
+    Replicates::new(&problem, PURPOSE, SHOTS)
+}
+
+fn with(shots: &Replicates, quantity: Quantity, change: f64) -> Replicates {
+    let mut shots = shots.clone();
+    for Replicate { jet, rim } in &mut shots.sets {
+        for deviate in jet.deviates.iter_mut().chain(&mut rim.deviates) {
+            *deviate = quantity.change(deviate, change);
+        }
+    }
+    shots
+}
+
+impl Effect {
+    fn of(setup: &Setup, choice: &Choice, shots: &Replicates) -> Self {
+        let evaluation = evaluate(setup, choice, shots);
+        let shares = Verdict::all(setup, &evaluation)
+            .iter()
+            .map(|verdict| (verdict.subject, verdict.share()))
+            .collect();
+        Self {
+            objective: evaluation.terms.total(),
+            rebound_angle: mean_rebound_angle(setup, choice, shots),
+            normal_impulse: evaluation.target.normal_impulse.mean,
+            shares,
+        }
+    }
+}
+
+fn mean_rebound_angle(setup: &Setup, choice: &Choice, shots: &Replicates) -> Option<f64> {
+    let sums: Vec<(f64, usize)> = shots
+        .sets
+        .par_iter()
+        .map(|set| sum_of_rebound_angles(setup, choice, &set.jet.deviates))
+        .collect();
+    let (sum, count) = sums.iter().fold((0.0, 0), |(sum, count), (more, hits)| {
+        (sum + more, count + hits)
+    });
+    (count > 0).then(|| sum / count as f64)
+}
+
+/// Sum over first hits on target, and their number.
+fn sum_of_rebound_angles(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> (f64, usize) {
+    let tracer = Tracer::new(setup, choice, choice.speed);
+    let contact = setup.contact_on(setup.target.surface, choice);
+    let (mut sum, mut hits) = (0.0, 0);
+    for shot in shots {
+        let restitution = contact.restitution.shifted(shot.restitution);
+        let mass = setup.problem.shot.mass() * shot.mass();
+        tracer.follow(shot, |impact| {
+            if impact.number == 1 && impact.on_target {
+                // What N* tells of the speed of arrival, E tells of the departure.
+                let arriving = restitution.approach_speed(impact.normal_impulse / mass);
+                let leaving = restitution.at(arriving) * arriving;
+                sum += leaving.atan2(tangential_part(impact.velocity.norm(), leaving));
+                hits += 1;
+            }
+        });
+    }
+    (sum, hits)
+}
+
+/// The other leg of a right-angled triangle; 0 where rounding leaves none.
+fn tangential_part(speed: f64, normal: f64) -> f64 {
+    (speed * speed - normal * normal).max(0.0).sqrt()
+}

@@ -1,0 +1,42 @@
+//! By how much the facets of a mesh turn rebounds from the smooth surface that they stand for.
+
+use std::f64::consts::PI;
+
+use super::Note;
+use crate::problem::part::Shape;
+use crate::scene::mesh::Mesh;
+use crate::setup::Setup;
+
+/// Neighbours whose normals differ by less belong to one smooth surface, rad; others meet in an edge.
+const SMOOTH: f64 = 30.0 / 180.0 * PI;
+/// Angles below this are rounding of the file's coordinates, rad.
+const FLAT: f64 = 0.01 / 180.0 * PI;
+
+/// The largest angle between neighbouring facets of a smooth surface, deg.
+pub(super) fn note(setup: &Setup) -> Option<Note> {
+    let parts = setup.problem.parts.iter();
+    let meshes = parts.filter(|part| matches!(part.shape, Shape::Mesh { .. }));
+    let angles = meshes.filter_map(|part| {
+        let angle = mesh_of(setup, &part.name).largest_smooth_angle(SMOOTH)?;
+        Some((angle, part.name.as_str()))
+    });
+    let (angle, part) = angles.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (angle > FLAT).then(|| Note {
+        name: "facets",
+        value: angle.to_degrees(),
+        text: format!(
+            "the facets of mesh `{part}` turn by up to {:.2} deg from one to the next where it looks smooth \
+             (by less than {:.0} deg): rebounds there are turned by up to that angle",
+            angle.to_degrees(),
+            SMOOTH.to_degrees(),
+        ),
+    })
+}
+
+/// The triangles of a part in their place; corners at the same point are one.
+fn mesh_of(setup: &Setup, part: &str) -> Mesh {
+    let prefix = format!("{part}.");
+    let surfaces = (0..).zip(setup.scene.surfaces());
+    let own = surfaces.filter(|(_, name)| name.starts_with(&prefix));
+    Mesh::joined(own.flat_map(|(surface, _)| setup.scene.surface_triangles(surface)))
+}

@@ -1,0 +1,121 @@
+//! Whether rebounding shots meet incoming ones.
+
+use nalgebra::Vector3;
+
+use super::Note;
+use crate::evaluate::Evaluation;
+use crate::jet::{Deviate, Pose};
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use crate::trace::{End, Tracer};
+
+/// Mean number of encounters from which they show in the figures.
+const SHOWS: f64 = 0.1;
+/// From here on every third rebound is another than was computed.
+const SPOILS: f64 = 0.3;
+/// A scene that fewer than this share of the shots leave is nearly closed.
+const NEARLY_CLOSED: f64 = 0.5;
+/// Shots that stay in the jet meet others without end; a record holds finite numbers only.
+const MOST: f64 = 1e6;
+
+/// The jet where it meets the target.
+struct Stream {
+    /// Its velocity, m/s.
+    velocity: Vector3<f64>,
+    /// Its radius at the target, m.
+    radius: f64,
+    /// Its length, m.
+    length: f64,
+    /// Shots per volume, 1/m3.
+    density: f64,
+}
+
+/// How many incoming shots a rebounding one meets on its way out of the jet.
+pub(super) fn note(
+    setup: &Setup,
+    choice: &Choice,
+    evaluation: Option<&Evaluation>,
+) -> Option<Note> {
+    let flow = setup.problem.jet.mass_flow?;
+    let stream = Stream::new(setup, choice, flow);
+    let rebound = mean_rebound(setup, choice)?;
+    let passes = passes(evaluation);
+    let diameter = 2.0 * setup.problem.shot.radius;
+    let encounters = (stream.encounters(&rebound, diameter) * passes).min(MOST);
+    let (name, verdict) = if encounters >= SPOILS {
+        (
+            "interference_strong",
+            "shots cannot be called independent, and the figures of this sheet are not to be relied on",
+        )
+    } else if encounters >= SHOWS {
+        (
+            "interference",
+            "that many rebounds are deflected on their way, which the figures leave out",
+        )
+    } else {
+        ("interference", "too few to matter")
+    };
+    Some(Note {
+        name,
+        value: encounters,
+        text: format!(
+            "at {:.3} kg/min a rebounding shot meets {encounters:.3} incoming ones on average: {verdict}",
+            flow * 60.0
+        ),
+    })
+}
+
+impl Stream {
+    fn new(setup: &Setup, choice: &Choice, mass_flow: f64) -> Self {
+        let (jet, shot) = (&setup.problem.jet, &setup.problem.shot);
+        let spread = choice.standoff * jet.divergence.tan();
+        // A jet of no width is as wide as its shots.
+        let radius = (jet.exit_diameter / 2.0 + spread).max(shot.radius);
+        let area = std::f64::consts::PI * radius * radius;
+        Self {
+            velocity: Pose::new(&setup.target.frame, choice).direction * choice.speed,
+            radius,
+            length: choice.standoff,
+            density: mass_flow / (shot.mass() * choice.speed * area),
+        }
+    }
+
+    /// Lambda = n pi d^2 |v_in - v_out| t, with t the time for which the shot, starting on the axis
+    /// at the target, stays in the jet: until it is out of its side or back at the exit.
+    fn encounters(&self, rebound: &Vector3<f64>, diameter: f64) -> f64 {
+        let axis = self.velocity.normalize();
+        let back = -rebound.dot(&axis);
+        let sideways = (rebound + axis * back).norm();
+        let until = |way: f64, speed: f64| {
+            if speed > 0.0 {
+                way / speed
+            } else {
+                f64::INFINITY
+            }
+        };
+        let time = until(self.length, back).min(until(self.radius, sideways));
+        let cross_section = std::f64::consts::PI * diameter * diameter;
+        self.density * cross_section * (self.velocity - rebound).norm() * time
+    }
+}
+
+/// Velocity after its first hit of the mean shot, on the axis, m/s; `None` when it hits nothing.
+fn mean_rebound(setup: &Setup, choice: &Choice) -> Option<Vector3<f64>> {
+    let mut rebound = None;
+    Tracer::new(setup, choice, choice.speed).follow(&Deviate::NONE, |impact| {
+        rebound = rebound.or(Some(impact.velocity));
+    });
+    rebound
+}
+
+/// How often a shot is on its way out: once, or in a nearly closed scene after each of its impacts.
+fn passes(evaluation: Option<&Evaluation>) -> f64 {
+    evaluation.map_or(1.0, |evaluation| {
+        let left = evaluation.ends.get(&End::Left).copied().unwrap_or(0.0);
+        if left < NEARLY_CLOSED {
+            evaluation.impacts_per_shot.max(1.0)
+        } else {
+            1.0
+        }
+    })
+}

@@ -1,0 +1,62 @@
+//! Whether the restitution is known at the speed at which shots arrive.
+
+use super::Note;
+use crate::evaluate::Evaluation;
+use crate::impact::Restitution;
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+
+/// From this factor between the speeds on, the law is no longer a small correction.
+const FAR: f64 = 2.0;
+
+pub(super) fn note(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluation>) -> Note {
+    let contact = setup.contact_on(setup.target.surface, choice);
+    let arriving = evaluation
+        .filter(|evaluation| evaluation.target.hits > 0)
+        .map(|evaluation| {
+            let impulse = evaluation.target.normal_impulse.mean;
+            contact
+                .restitution
+                .approach_speed(impulse / setup.problem.shot.mass())
+        });
+    match (contact.restitution, arriving) {
+        (Restitution::Constant(value), _) => Note {
+            name: "constant_restitution",
+            value,
+            text: format!(
+                "restitution is taken as {value} at every speed; on metal it falls as speed rises, and it \
+                 turns rebounds more than friction does"
+            ),
+        },
+        (
+            Restitution::Falling {
+                reference, speed, ..
+            },
+            Some(arriving),
+        ) => Note {
+            name: "restitution_speed",
+            value: arriving / speed,
+            text: format!(
+                "restitution was measured as {reference} at {speed} m/s; first hits arrive with a mean normal \
+                 speed of {arriving:.3} m/s, {:.2} times as fast, where the law gives {:.3}{}",
+                arriving / speed,
+                contact.restitution.at(arriving),
+                if (FAR.recip()..=FAR).contains(&(arriving / speed)) {
+                    ""
+                } else {
+                    ": measure it nearer to that speed"
+                },
+            ),
+        },
+        (
+            Restitution::Falling {
+                reference, speed, ..
+            },
+            None,
+        ) => Note {
+            name: "falling_restitution",
+            value: reference,
+            text: format!("restitution is {reference} at {speed} m/s and falls as speed rises"),
+        },
+    }
+}

@@ -1,0 +1,186 @@
+//! Searches that leave out what does not matter find the answers of the whole model.
+
+use std::path::Path;
+
+use peenpose::problem::model::{Effect, Model};
+use peenpose::setup::Setup;
+use peenpose::solve::{Control, Solution, solve};
+
+fn shipped(file: &str) -> Setup {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    let (setup, _) = Setup::load(&folder.join(file)).unwrap();
+    setup
+}
+
+fn with_model(setup: &Setup, model: Model) -> Solution {
+    let mut setup = setup.clone();
+    setup.problem.model = model;
+    solve(&setup, &Control::default())
+}
+
+/// J and its standard error.
+fn objective(solution: &Solution) -> (f64, f64) {
+    let evaluation = solution.answers[0].evaluation.as_ref().unwrap();
+    (evaluation.terms.total(), evaluation.standard_error)
+}
+
+/// Solves with the model left to the program and with the whole one; returns what was left out.
+fn same_answer(setup: &Setup) -> Vec<Effect> {
+    let auto = with_model(setup, Model::Auto);
+    let full = with_model(setup, Model::Full);
+    let ((found, error), (expected, other)) = (objective(&auto), objective(&full));
+    let accuracy = setup.problem.accuracy * expected + 2.0 * error.hypot(other);
+    assert!(
+        found - expected <= accuracy,
+        "{found} {expected} {accuracy}"
+    );
+    assert!(full.ladder.rungs.is_empty() && full.ladder.left_out().is_empty());
+    // Everything that the problem has was measured.
+    let measured: Vec<Effect> = auto.ladder.rungs.iter().map(|rung| rung.effect).collect();
+    assert_eq!(measured, setup.problem.effects());
+    for rung in &auto.ladder.rungs {
+        assert!(rung.change.abs() <= rung.largest_change, "{rung:?}");
+        assert!(
+            rung.regret.is_finite() && rung.relative_time > 0.0,
+            "{rung:?}"
+        );
+    }
+    auto.ladder.left_out()
+}
+
+#[test]
+fn on_a_plate_nothing_matters_and_one_ray_is_enough() {
+    let setup = shipped("plate.yaml");
+    let left_out = same_answer(&setup);
+    assert_eq!(
+        left_out,
+        [
+            Effect::ShotSize,
+            Effect::Rebounds,
+            Effect::LaterRebounds,
+            Effect::Spin
+        ]
+    );
+    let solution = with_model(&setup, Model::Auto);
+    let evaluation = solution.answers[0].evaluation.as_ref().unwrap();
+    assert!(evaluation.is_exact && evaluation.shots == 1);
+    assert!(solution.rays < 200, "{}", solution.rays);
+    assert_eq!(solution.answers[0].verdicts[0].interval(), [0.0; 2]);
+}
+
+#[test]
+fn in_a_keyway_rebounds_and_the_size_of_the_shot_matter() {
+    for file in ["keyway.yaml", "keyway-long.yaml"] {
+        let left_out = same_answer(&shipped(file));
+        assert!(
+            !left_out.contains(&Effect::Rebounds),
+            "{file}: {left_out:?}"
+        );
+        assert!(
+            !left_out.contains(&Effect::ShotSize),
+            "{file}: {left_out:?}"
+        );
+        assert!(
+            !left_out.contains(&Effect::Divergence),
+            "{file}: {left_out:?}"
+        );
+    }
+}
+
+#[test]
+fn in_slots_and_between_teeth_all_but_the_spin_matters() {
+    for file in ["firtree.yaml", "gear-root.yaml"] {
+        let left_out = same_answer(&shipped(file));
+        assert_eq!(left_out, [Effect::Spin], "{file}");
+    }
+}
+
+#[test]
+#[ignore = "takes long without optimisation"]
+fn in_a_blind_keyway_given_as_a_mesh() {
+    let left_out = same_answer(&shipped("keyway-blind.yaml"));
+    assert!(!left_out.contains(&Effect::Rebounds), "{left_out:?}");
+}
+
+#[test]
+fn a_list_of_effects_is_what_figures_come_from() {
+    let setup = shipped("keyway-long.yaml");
+    let points: Vec<Effect> = setup
+        .problem
+        .effects()
+        .into_iter()
+        .filter(|e| *e != Effect::ShotSize)
+        .collect();
+    let asked = with_model(&setup, Model::Only(points.clone()));
+    assert_eq!(asked.ladder.left_out(), [Effect::ShotSize]);
+    assert_eq!(asked.ladder.rungs.len(), 1);
+    let mut by_hand = setup.clone();
+    by_hand.problem.paths.shot_size = false;
+    by_hand.problem.model = Model::Full;
+    let expected = solve(&by_hand, &Control::default());
+    assert_eq!(objective(&asked), objective(&expected));
+    assert_eq!(asked.answers[0].choice, expected.answers[0].choice);
+    // And the size of the shot does matter there.
+    assert!(asked.ladder.rungs[0].regret > setup.problem.accuracy);
+}
+
+/// A plate whose only spread is one that cannot matter there.
+fn wide_jet_on_a_plate(extra: &str) -> Setup {
+    let text = format!(
+        "
+format: 1
+lengths_in: mm
+scene: {{ plate: {{ box: {{ min: [-200, -200, -5], max: [200, 200, 0] }} }} }}
+target: {{ surface: plate.z_max, aim: [0, 0, 0] }}
+shot: {{ radius: 0.3 mm, density: 7800 kg/m3 }}
+jet: {{ exit_diameter: 3 mm, divergence: 0 deg }}
+contacts: {{ dry: {{ mu_s: 0.3, mu_d: 0.25, restitution: 0.5 {extra} }} }}
+settings: {{ incidence: [40 deg, 80 deg], azimuth: 0 deg, standoff: 20 mm, speed: [5 m/s, 50 m/s] }}
+goals:
+  normal_impulse: {{ target: 20 uN.s }}
+  tangential_impulse: {{ limit: 1 uN.s }}
+"
+    );
+    let reading = peenpose::problem::read_text(&text, Path::new("plate.yaml")).unwrap();
+    let problem = reading
+        .problem
+        .unwrap_or_else(|| panic!("{:?}", reading.faults));
+    Setup::new(problem, peenpose::scene::Walls::Exact).unwrap()
+}
+
+#[test]
+fn a_parallel_jet_on_a_plate_needs_one_ray() {
+    let setup = wide_jet_on_a_plate("");
+    let left_out = same_answer(&setup);
+    assert!(left_out.contains(&Effect::ExitWidth), "{left_out:?}");
+    // Screening and the first descents have the whole jet; afterwards there is one ray a pose.
+    let [auto, full] = [Model::Auto, Model::Full].map(|model| with_model(&setup, model));
+    assert!(auto.rays < full.rays, "{} {}", auto.rays, full.rays);
+}
+
+#[test]
+fn restitution_that_falls_with_speed_is_searched_with_where_it_matters() {
+    // Its own value at 10 m/s, whatever the speed, against one that falls steeply.
+    let falling = "".to_owned();
+    let mut setup = wide_jet_on_a_plate(&falling);
+    setup.problem.contacts[0].contact.restitution = peenpose::impact::Restitution::Falling {
+        reference: 0.5,
+        speed: 10.0,
+        exponent: 0.25,
+    };
+    let auto = with_model(&setup, Model::Auto);
+    // The best of a fine grid over both settings, on single rays.
+    let mut least = f64::INFINITY;
+    for i in 0..=400 {
+        for k in 0..=400 {
+            let mut choice = auto.answers[0].choice;
+            choice.incidence = setup.problem.settings.incidence.at(f64::from(i) / 400.0);
+            choice.speed = setup.problem.settings.speed.at(f64::from(k) / 400.0);
+            let shot = peenpose::jet::Deviate::NONE;
+            let tally = peenpose::objective::Tally::trace(&setup, &choice, choice.speed, &[shot]);
+            least = least.min(tally.terms(&setup.problem.goals, choice.speed).total());
+        }
+    }
+    let (found, _) = objective(&auto);
+    assert!(found <= least * 1.01, "{found} {least}");
+}

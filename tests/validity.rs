@@ -1,0 +1,446 @@
+//! The notes on validity against calculations by hand.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+use std::path::Path;
+
+use peenpose::evaluate::{Evaluation, evaluate};
+use peenpose::jet::Replicates;
+use peenpose::problem;
+use peenpose::problem::setting::Choice;
+use peenpose::scene::Walls;
+use peenpose::setup::Setup;
+use peenpose::validity::{self, Note};
+
+/// A plate under a jet that stands still; tests replace what they are about.
+const PLATE: &str = "
+format: 1
+lengths_in: mm
+scene: { part: { box: { min: [-50, -50, -10], max: [50, 50, 0] } } }
+target: { surface: part.z_max, aim: [0, 0, 0], along: [1, 0, 0] }
+shot: { radius: 0.5 mm, density: 7000 kg/m3 }
+jet: { exit_diameter: 1.5 mm, divergence: 4 deg }
+contacts: { dry: { mu_s: 0.4, mu_d: 0.4, restitution: 0.5 } }
+settings: { incidence: 90 deg, azimuth: 0 deg, standoff: 10 mm, speed: 10 m/s }
+goals: { normal_impulse: { target: 40 uN.s } }
+";
+
+/// Mass of a shot of the plate, kg: 4/3 pi (0.5 mm)^3 7000 kg/m3.
+const MASS: f64 = 3.665_191_429_188_092e-6;
+
+fn setup_in(folder: &Path, changes: &[(&str, &str)]) -> Setup {
+    let mut text = PLATE.to_owned();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    let reading = problem::read_text(&text, &folder.join("plate.yaml")).unwrap();
+    let shown = problem::render(&reading.source, &reading.faults, false);
+    Setup::new(reading.problem.expect(&shown), Walls::Exact).unwrap()
+}
+
+fn setup(changes: &[(&str, &str)]) -> Setup {
+    setup_in(Path::new(""), changes)
+}
+
+/// The settings of a problem that holds them all.
+fn choice(setup: &Setup) -> Choice {
+    let settings = &setup.problem.settings;
+    Choice {
+        incidence: settings.incidence.min,
+        azimuth: settings.azimuth.min,
+        standoff: settings.standoff.min,
+        speed: settings.speed.min,
+        aim_along: 0.0,
+        aim_across: 0.0,
+        aim_above: 0.0,
+        contact: 0,
+        static_friction: 0.0,
+    }
+}
+
+fn evaluated(setup: &Setup) -> Evaluation {
+    evaluate(
+        setup,
+        &choice(setup),
+        &Replicates::new(&setup.problem, 0, 4096),
+    )
+}
+
+fn notes(setup: &Setup) -> Vec<Note> {
+    validity::notes(setup, &choice(setup), None)
+}
+
+fn find(notes: &[Note], name: &str) -> Option<Note> {
+    let mut named = notes.iter().filter(|note| note.name == name);
+    let found = named.next().cloned();
+    assert_eq!(named.next(), None);
+    found
+}
+
+fn value(setup: &Setup, name: &str) -> f64 {
+    find(&notes(setup), name).expect(name).value
+}
+
+fn assert_close(found: f64, expected: f64, relative: f64) {
+    assert!(
+        (found - expected).abs() <= relative * expected.abs(),
+        "{found} is not {expected}"
+    );
+}
+
+/// Speed lost over a distance, by Euler steps in time.
+fn lost_by_small_steps(diameter: f64, density: f64, speed: f64, distance: f64) -> f64 {
+    let (air, viscosity) = (1.204, 1.81e-5);
+    let mass = density * PI / 6.0 * diameter.powi(3);
+    let area = PI / 4.0 * diameter * diameter;
+    let step = distance / speed * 1e-6;
+    let (mut way, mut v) = (0.0, speed);
+    while way < distance {
+        let reynolds = air * v * diameter / viscosity;
+        let coefficient = 24.0 / reynolds * (1.0 + 0.15 * reynolds.powf(0.687));
+        way += v * step;
+        v -= 0.5 * coefficient * air * area * v * v / mass * step;
+    }
+    1.0 - v / speed
+}
+
+#[test]
+fn steel_hardly_loses_speed() {
+    let steel = setup(&[
+        (
+            "radius: 0.5 mm, density: 7000",
+            "radius: 0.3 mm, density: 7800",
+        ),
+        (
+            "standoff: 10 mm, speed: 10 m/s",
+            "standoff: 150 mm, speed: 60 m/s",
+        ),
+    ]);
+    // Re = 1.204 60 0.0006 / 1.81e-5 = 2395, so C_d = 0.44 as long as it stays above 1000.
+    let rate = 0.75 * 0.44 * 1.204 / (7800.0 * 0.6e-3);
+    let loss = value(&steel, "drag");
+    assert_close(loss, 1.0 - (-rate * 0.150_f64).exp(), 1e-6);
+    assert!(loss < 0.03, "{loss}");
+    assert!(
+        !find(&notes(&steel), "drag")
+            .unwrap()
+            .text
+            .contains("N* falls")
+    );
+}
+
+#[test]
+fn fine_glass_loses_much_of_its_speed() {
+    let glass = setup(&[
+        (
+            "radius: 0.5 mm, density: 7000",
+            "radius: 0.025 mm, density: 2500",
+        ),
+        (
+            "standoff: 10 mm, speed: 10 m/s",
+            "standoff: 50 mm, speed: 50 m/s",
+        ),
+    ]);
+    let expected = lost_by_small_steps(50e-6, 2500.0, 50.0, 0.05);
+    let loss = value(&glass, "drag");
+    assert_close(loss, expected, 1e-4);
+    assert!((0.25..0.32).contains(&loss), "{loss}");
+    assert!(
+        find(&notes(&glass), "drag")
+            .unwrap()
+            .text
+            .contains("N* falls")
+    );
+}
+
+#[test]
+fn dust_may_stop_on_its_way() {
+    let dust = setup(&[
+        (
+            "radius: 0.5 mm, density: 7000",
+            "radius: 1 um, density: 1000",
+        ),
+        (
+            "standoff: 10 mm, speed: 10 m/s",
+            "standoff: 1 m, speed: 1 m/s",
+        ),
+    ]);
+    let loss = value(&dust, "drag");
+    assert!(loss > 1.0 - 1e-6 && loss <= 1.0, "{loss}");
+}
+
+#[test]
+fn gravity_is_half_g_t_squared() {
+    // 1 ms of flight.
+    assert_close(value(&setup(&[]), "gravity"), 0.5 * 9.80665e-6, 1e-12);
+}
+
+#[test]
+fn interference_straight_back_through_the_jet() {
+    let jet = |flow: &str| {
+        setup(&[(
+            "divergence: 4 deg",
+            &format!("divergence: 4 deg, mass_flow: {flow}"),
+        )])
+    };
+    assert_eq!(find(&notes(&setup(&[])), "interference"), None);
+    // 24 g/min of 10 m/s in a disc of 0.75 mm + 10 mm tan(4 deg) = 1.449 mm.
+    let radius = 0.75e-3 + 10e-3 * 0.069_926_811_943_510_4;
+    let density = 0.4e-3 / (MASS * 10.0 * PI * radius * radius);
+    // Back over 10 mm at 5 m/s, against 10 m/s: 15/5 of the way.
+    let expected = density * PI * 1e-6 * 10e-3 * 3.0;
+    assert_close(value(&jet("24 g/min"), "interference"), expected, 1e-9);
+    assert!((0.155..0.157).contains(&expected), "{expected}");
+    let text = |setup: &Setup, name| find(&notes(setup), name).expect(name).text;
+    assert!(text(&jet("24 g/min"), "interference").contains("are deflected"));
+    assert!(text(&jet("6 g/min"), "interference").contains("too few"));
+    let many = jet("60 g/min");
+    assert_close(value(&many, "interference_strong"), 2.5 * expected, 1e-9);
+    assert!(text(&many, "interference_strong").contains("cannot be called independent"));
+    assert_eq!(find(&notes(&many), "interference"), None);
+}
+
+#[test]
+fn interference_out_of_the_side_of_the_jet() {
+    let slanting = setup(&[
+        ("divergence: 4 deg", "divergence: 0 deg, mass_flow: 0.4 g/s"),
+        ("incidence: 90 deg", "incidence: 45 deg"),
+    ]);
+    // In units of the speed: v_n = v_t = s, s^2 = 1/2. It sticks: v_t' = 5/7 s, v_n' = s/2.
+    let s = 0.5_f64.sqrt();
+    let (along, up) = (5.0 / 7.0 * s, 0.5 * s);
+    // Across the jet, which comes down at 45 deg; along it the shot still moves towards the plate.
+    let sideways = (along + up) * s;
+    let approach = (s - along).hypot(s + up);
+    let density = 0.4e-3 / (MASS * 10.0 * PI * 0.75e-3 * 0.75e-3);
+    let expected = density * PI * 1e-6 * approach * 0.75e-3 / sideways;
+    assert_close(value(&slanting, "interference"), expected, 1e-9);
+}
+
+#[test]
+fn interference_grows_with_the_bounces_in_a_closed_scene() {
+    let closed = setup(&[
+        (
+            "box: { min: [-50, -50, -10], max: [50, 50, 0] }",
+            "bore: { diameter: 30 mm, length: 40 mm, ends: closed }",
+        ),
+        (
+            "part.z_max, aim: [0, 0, 0], along: [1, 0, 0]",
+            "part.wall, aim: [0, 15, 20]",
+        ),
+        ("divergence: 4 deg", "divergence: 4 deg, mass_flow: 6 g/min"),
+        (
+            "mu_s: 0.4, mu_d: 0.4, restitution: 0.5",
+            "mu_s: 0, mu_d: 0, restitution: 1",
+        ),
+        ("goals:", "paths: { impacts: 6, least_energy: 0 % }\ngoals:"),
+        ("incidence: 90 deg", "incidence: 70 deg"),
+    ]);
+    // Mirrors lose nothing and nothing gets out: six impacts for every shot.
+    let evaluation = evaluated(&closed);
+    assert_eq!(evaluation.impacts_per_shot, 6.0);
+    let all = validity::notes(&closed, &choice(&closed), Some(&evaluation));
+    let of_one = value(&closed, "interference");
+    let of_all = all
+        .iter()
+        .find(|note| note.name.starts_with("interference"));
+    assert_close(of_all.unwrap().value, 6.0 * of_one, 1e-12);
+    // In the open every shot has one impact, and leaves.
+    let open = setup(&[("divergence: 4 deg", "divergence: 4 deg, mass_flow: 6 g/min")]);
+    let evaluation = evaluated(&open);
+    assert_eq!(evaluation.impacts_per_shot, 1.0);
+    let noted = validity::notes(&open, &choice(&open), Some(&evaluation));
+    assert_eq!(
+        find(&noted, "interference").unwrap().value,
+        value(&open, "interference")
+    );
+}
+
+#[test]
+fn shots_that_stay_in_the_jet_are_not_independent() {
+    let dull = setup(&[
+        (
+            "divergence: 4 deg",
+            "divergence: 4 deg, mass_flow: 0.001 g/min",
+        ),
+        ("restitution: 0.5", "restitution: 0"),
+    ]);
+    let stuck = value(&dull, "interference_strong");
+    assert!(stuck.is_finite() && stuck > 1e3, "{stuck}");
+}
+
+/// A prism with a regular polygon as its cross-section, open at both ends, as OBJ.
+fn polygon_prism(corners: usize) -> String {
+    let mut text = String::new();
+    for corner in 0..corners {
+        let (sin, cos) = (2.0 * PI * corner as f64 / corners as f64).sin_cos();
+        for z in [0.0, 30.0] {
+            writeln!(text, "v {} {} {z}", 10.0 * cos, 10.0 * sin).unwrap();
+        }
+    }
+    for corner in 0..corners {
+        let (a, b) = (2 * corner + 1, 2 * ((corner + 1) % corners) + 1);
+        writeln!(text, "f {a} {} {b}\nf {b} {} {}", a + 1, a + 1, b + 1).unwrap();
+    }
+    text
+}
+
+#[test]
+fn facets_turn_rebounds_by_the_angle_between_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let meshed = |corners: usize| {
+        std::fs::write(folder.path().join("tube.obj"), polygon_prism(corners)).unwrap();
+        let turn = PI / corners as f64;
+        let (x, y) = (10.0 * turn.cos().powi(2), 10.0 * turn.cos() * turn.sin());
+        let target = format!("part.all, aim: [{x}, {y}, 15]");
+        let changes = [
+            (
+                "box: { min: [-50, -50, -10], max: [50, 50, 0] }",
+                "mesh: tube.obj",
+            ),
+            ("part.z_max, aim: [0, 0, 0], along: [1, 0, 0]", &target),
+        ];
+        let setup = setup_in(folder.path(), &changes);
+        find(&notes(&setup), "facets")
+    };
+    assert_close(meshed(24).unwrap().value, 15.0, 1e-6);
+    assert_close(meshed(90).unwrap().value, 4.0, 1e-6);
+    // 36 deg is an edge, not a facet of something round.
+    assert_eq!(meshed(10), None);
+    assert_eq!(find(&notes(&setup(&[])), "facets"), None);
+}
+
+fn keyway(rest: &str) -> Setup {
+    let shape = format!("keyway: {{ bore: 30 mm, depth: 3.3 mm, length: 40 mm, {rest} }}");
+    setup(&[
+        ("box: { min: [-50, -50, -10], max: [50, 50, 0] }", &shape),
+        ("part.z_max, aim: [0, 0, 0], along: [1, 0, 0]", "part.floor"),
+    ])
+}
+
+#[test]
+fn shots_fit_into_fillets_and_openings_of_a_keyway() {
+    // Shots of 1 mm: a fillet of 2 mm and a gap of 4 mm are the least.
+    assert_close(
+        value(&keyway("width: 8 mm, root_radius: 1.9 mm"), "fillet"),
+        1.0 / 1.9,
+        1e-12,
+    );
+    assert_eq!(
+        find(
+            &notes(&keyway("width: 8 mm, root_radius: 2.1 mm")),
+            "fillet"
+        ),
+        None
+    );
+    assert_close(value(&keyway("width: 3.9 mm"), "opening"), 1.0 / 3.9, 1e-12);
+    assert_eq!(find(&notes(&keyway("width: 4.1 mm")), "opening"), None);
+    assert_eq!(find(&notes(&keyway("width: 4.1 mm")), "fillet"), None);
+}
+
+#[test]
+fn a_bore_is_an_opening_and_a_pin_is_none() {
+    let round = |facing: &str| {
+        let target = format!("part.wall, aim: [0, 1.5, 20]{facing}");
+        setup(&[
+            (
+                "box: { min: [-50, -50, -10], max: [50, 50, 0] }",
+                "bore: { diameter: 3 mm, length: 40 mm }",
+            ),
+            ("part.z_max, aim: [0, 0, 0], along: [1, 0, 0]", &target),
+        ])
+    };
+    assert_close(value(&round(""), "opening"), 1.0 / 3.0, 1e-12);
+    assert_eq!(find(&notes(&round(", facing: [0, 1, 0]")), "opening"), None);
+}
+
+/// A slot with a round bottom that touches both walls.
+fn slot(width: f64) -> Setup {
+    let (half, bottom) = (width / 2.0, -width / 2.0);
+    let profile = format!(
+        "extrude: {{ length: 40 mm, profile: [ {{ from: [{}, 10], line_to: [{}, 0], surface: left }}, \
+         {{ arc_to: [{half}, 0], via: [0, {bottom}], surface: floor }}, \
+         {{ line_to: [{half}, 10], surface: right }} ] }}",
+        -half, -half
+    );
+    let target = format!("part.floor, aim: [0, {bottom}, 20]");
+    setup(&[
+        ("box: { min: [-50, -50, -10], max: [50, 50, 0] }", &profile),
+        ("part.z_max, aim: [0, 0, 0], along: [1, 0, 0]", &target),
+    ])
+}
+
+#[test]
+fn shots_fit_into_fillets_and_openings_of_an_outline() {
+    assert_close(value(&slot(3.9), "opening"), 1.0 / 3.9, 1e-3);
+    assert_close(value(&slot(3.9), "fillet"), 1.0 / 1.95, 1e-9);
+    assert_eq!(find(&notes(&slot(4.1)), "opening"), None);
+    assert_eq!(find(&notes(&slot(4.1)), "fillet"), None);
+}
+
+/// The file says in a comment what ASTM B851 allows in it: fillets of 2 mm, an opening of 9.4 mm.
+#[test]
+fn the_narrowest_gap_of_a_firtree_is_between_its_lobes() {
+    let (mut setup, _) = Setup::load(Path::new("problems/firtree.yaml")).unwrap();
+    let settings = &setup.problem.settings;
+    let middle = |range: problem::setting::Range| range.at(0.5);
+    let choice = Choice {
+        incidence: middle(settings.incidence),
+        azimuth: 0.0,
+        standoff: middle(settings.standoff),
+        speed: middle(settings.speed),
+        aim_along: 0.0,
+        aim_across: 0.0,
+        aim_above: 0.0,
+        contact: 0,
+        static_friction: 0.0,
+    };
+    let noted = validity::notes(&setup, &choice, None);
+    assert_eq!(find(&noted, "fillet"), None);
+    assert_eq!(find(&noted, "opening"), None);
+    // Between (-4.7123, 7.4804) and its mirror image.
+    setup.problem.shot.radius = 1.2e-3;
+    let noted = validity::notes(&setup, &choice, None);
+    assert_close(find(&noted, "opening").unwrap().value, 2.4 / 9.4246, 1e-3);
+    assert!(find(&noted, "fillet").unwrap().value > 1.0);
+}
+
+#[test]
+fn restitution_is_compared_with_the_speed_at_which_it_was_measured() {
+    let falling = setup(&[
+        (
+            "restitution: 0.5",
+            "restitution: { value: 0.5, at: 4 m/s, exponent: 0.25 }",
+        ),
+        ("incidence: 90 deg", "incidence: 30 deg"),
+        ("divergence: 4 deg", "divergence: 0 deg"),
+    ]);
+    let evaluation = evaluated(&falling);
+    let noted = validity::notes(&falling, &choice(&falling), Some(&evaluation));
+    // 10 m/s at 30 deg arrive with 5 m/s.
+    let note = find(&noted, "restitution_speed").unwrap();
+    assert_close(note.value, 5.0 / 4.0, 1e-9);
+    assert!(
+        note.text.contains("5.000 m/s") && !note.text.contains("measure it nearer"),
+        "{}",
+        note.text
+    );
+    // 0.5 (5/4)^(-1/4)
+    assert!(note.text.contains("gives 0.473"), "{}", note.text);
+    assert_eq!(find(&noted, "constant_restitution"), None);
+
+    let far = setup(&[
+        (
+            "restitution: 0.5",
+            "restitution: { value: 0.5, at: 1 m/s, exponent: 0.25 }",
+        ),
+        ("divergence: 4 deg", "divergence: 0 deg"),
+    ]);
+    let noted = validity::notes(&far, &choice(&far), Some(&evaluated(&far)));
+    let note = find(&noted, "restitution_speed").unwrap();
+    assert_close(note.value, 10.0, 1e-9);
+    assert!(note.text.contains("measure it nearer"), "{}", note.text);
+
+    assert_eq!(value(&setup(&[]), "constant_restitution"), 0.5);
+}
