@@ -5,6 +5,7 @@ use std::path::Path;
 use nalgebra::{Rotation3, Unit, Vector3};
 use peenpose::jet::{Deviate, Pose, Samples, Stream};
 use peenpose::problem;
+use peenpose::problem::equipment::{Body, Nozzle};
 use peenpose::problem::setting::{Choice, Tolerance};
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
@@ -145,7 +146,17 @@ fn turning_the_pose_turns_the_path() {
 fn scenes_know_their_moving_parts() {
     let setup = mirror(true);
     assert!(setup.scene.moves_with_nozzle());
-    // Distances are to what stands: nothing of the mirror, which the body would touch.
+    // Distances are to what stands, and the mirror is in front of every exit.
+    let nozzle = Nozzle {
+        body: vec![Body::Ball { radius: 20e-3 }],
+        clearance: 0.0,
+    };
+    let pose = Pose::new(&setup.target.frame, &choice(0.0, 0.0));
+    let scene = &setup.scene;
+    let nearest = scene.clearance(&nozzle, &pose.exit, &pose.direction, f64::INFINITY);
+    let (gap, surface) = nearest.unwrap();
+    assert!((gap + 5e-3).abs() < 1e-12, "{gap}");
+    assert_eq!(scene.surfaces()[surface as usize], "wall.face");
     let mut problem = setup.problem.clone();
     problem.target.surface = "mirror.face".into();
     let faults = Setup::new(problem, Walls::Exact).err().unwrap();
