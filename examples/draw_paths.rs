@@ -47,8 +47,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut setup, _) = Setup::load(Path::new(problem))?;
     let mut choice = solve(&setup, &Control::default()).answers[0].choice;
     choice.incidence = incidence.unwrap_or(choice.incidence);
-    // The picture shows the jet of a nozzle that is set exactly.
+    // The picture shows the jet of a nozzle that is set exactly, and every hit of it.
     setup.problem.tolerance = Tolerance::default();
+    for surface in &mut setup.surfaces {
+        surface.deflector = false;
+    }
     std::fs::write(picture, draw(&setup, &choice))?;
     Ok(())
 }
@@ -74,12 +77,23 @@ fn fire(setup: &Setup, choice: &Choice, pose: &Pose, shot: &Deviate) -> Shot {
     Shot { corners, impacts }
 }
 
+/// A surface as it is when the nozzle stands at a pose.
+fn surface_at(setup: &Setup, pose: &Pose, surface: u32) -> Vec<Triangle> {
+    let triangles = setup.scene.surface_triangles(surface);
+    if !setup.scene.surface_moves_with_nozzle(surface) {
+        return triangles.collect();
+    }
+    let stand = pose.stand();
+    let in_scene = |corners: Triangle| corners.map(|corner| stand.point_back(&corner));
+    triangles.map(in_scene).collect()
+}
+
 fn draw(setup: &Setup, choice: &Choice) -> String {
     let pose = Pose::new(&setup.target.frame, choice);
     let jet = Samples::new(&setup.problem, Stream::Search, SHOTS);
     let fire = |shot| fire(setup, choice, &pose, shot);
     let shots: Vec<Shot> = jet.deviates.iter().map(fire).collect();
-    let triangles = |surface| setup.scene.surface_triangles(surface).collect();
+    let triangles = |surface| surface_at(setup, &pose, surface);
     let surfaces: Vec<Vec<Triangle>> = (0..setup.surfaces.len() as u32).map(triangles).collect();
     let view = View::new(setup, &pose.exit, &surfaces);
     let mut svg = format!(

@@ -1,5 +1,6 @@
 //! Shots through the scene: from the exit, through every impact, to where the path ends.
 
+mod rough;
 #[cfg(test)]
 mod tests;
 mod volley;
@@ -14,6 +15,7 @@ use crate::precision::{Real, Triple, dot, unit};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::LANES;
 use crate::scene::ray::{Ray, Spot};
+use crate::scene::stand::Stand;
 use crate::setup::Setup;
 use volley::fire;
 
@@ -28,6 +30,9 @@ pub struct Tracer<'a> {
     /// Of the mean shot in flight, m; 0 where shots fly as points.
     radius: f64,
     has_deflectors: bool,
+    has_rough_surfaces: bool,
+    /// Whether parts of the scene move with the nozzle.
+    moves_parts: bool,
     /// The pose that is asked for.
     pose: Pose,
     /// The contact, when it is the same on every surface and at every speed.
@@ -97,6 +102,8 @@ impl<'a> Tracer<'a> {
         Self {
             pose: Pose::new(&setup.target.frame, choice),
             has_deflectors: setup.surfaces.iter().any(|surface| surface.deflector),
+            has_rough_surfaces: setup.surfaces.iter().any(|surface| surface.roughness > 0.0),
+            moves_parts: setup.scene.moves_with_nozzle(),
             only_contact,
             setup,
             aim: Aim::new(choice),
@@ -119,8 +126,8 @@ impl<'a> Tracer<'a> {
         self.follow_from(ray, deviate, report)
     }
 
-    /// Follows a shot that starts anywhere in the scene, with the mass, speed and contact that
-    /// `deviate` gives it.
+    /// Follows a shot that starts anywhere in the scene, with the mass, speed, contact and pose of
+    /// the nozzle that `deviate` gives it.
     #[inline]
     pub fn follow_from(
         &self,
@@ -132,6 +139,7 @@ impl<'a> Tracer<'a> {
         let limits = setup.problem.paths;
         let mass = self.mass * deviate.mass();
         let radius = self.radius * deviate.size;
+        let stand = self.moves_parts.then(|| self.stand(deviate));
         let mut ray = start;
         let mut velocity = ray.direction * (self.speed * deviate.speed);
         let mut rolling = Vector3::zeros();
@@ -140,17 +148,21 @@ impl<'a> Tracer<'a> {
         let (mut number, mut deflections, mut rays) = (0, 0, 0);
         loop {
             rays += 1;
-            let met = if radius > 0.0 {
-                setup.scene.first_touch(&ray, radius, leaving)
-            } else {
-                setup.scene.first_hit(&ray, leaving)
-            };
+            let met = setup
+                .scene
+                .first_contact(&ray, radius, leaving, stand.as_ref());
             let Some(hit) = met else {
                 return (End::Left, rays);
             };
             let surface = &setup.surfaces[hit.surface as usize];
             let contact = self.contact_with(hit.surface as usize, deviate);
-            let Some(after) = rebound(&contact, &velocity, &rolling, &hit.normal) else {
+            let normal = if surface.roughness > 0.0 {
+                let tilt = rough::tilt(deviate, rays as u32, surface.roughness);
+                rough_normal(&contact, &velocity, &rolling, &hit.normal, tilt)
+            } else {
+                hit.normal
+            };
+            let Some(after) = rebound(&contact, &velocity, &rolling, &normal) else {
                 return (End::Left, rays);
             };
             (velocity, rolling) = (after.velocity, after.rolling);
@@ -205,11 +217,33 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// Where the nozzle really stands for a shot.
+    fn stand(&self, deviate: &Deviate) -> Stand<f64> {
+        let frame = &self.setup.target.frame;
+        self.aim.pose_set_for(frame, deviate).stand()
+    }
+
     /// The contact of a shot with a surface, when restitution and friction are not exactly known.
     fn contact_with(&self, surface: usize, deviate: &Deviate) -> Contact {
         let contact = self.setup.surfaces[surface].contact.unwrap_or(self.contact);
         perturbed(contact, deviate)
     }
+}
+
+/// The normal that a shot finds where a surface is rough.
+fn rough_normal(
+    contact: &Contact,
+    velocity: &Vector3<f64>,
+    rolling: &Vector3<f64>,
+    normal: &Vector3<f64>,
+    tilt: [f64; 2],
+) -> Vector3<f64> {
+    let departure = |normal: Triple<f64>| {
+        let after = rebound(contact, velocity, rolling, &normal.into());
+        after.map_or([0.0; 3], |after| after.velocity.into())
+    };
+    let (normal, velocity) = ((*normal).into(), (*velocity).into());
+    rough::normal_of_impact(normal, tilt, velocity, departure).into()
 }
 
 /// Kinetic energy per unit mass of a solid sphere, translation and rotation, J/kg.

@@ -137,6 +137,7 @@ impl Room {
             name: "room".into(),
             shape,
             place,
+            on_nozzle: false,
         };
         Self {
             name: name.into(),

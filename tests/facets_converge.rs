@@ -39,6 +39,7 @@ impl Case {
             speed,
             aim_along: 0.0,
             aim_across: 0.0,
+            aim_above: 0.0,
             contact: oiled.unwrap(),
             static_friction: 0.0,
         };

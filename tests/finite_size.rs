@@ -76,6 +76,7 @@ fn scene(shape: Shape, walls: Walls) -> Scene {
         name: "part".into(),
         shape,
         place: Place::default(),
+        on_nozzle: false,
     };
     Scene::build(&[part], walls).expect("a sound part")
 }

@@ -27,6 +27,7 @@ fn choice(incidence_deg: f64, azimuth_deg: f64, standoff: f64, contact: usize) -
         speed: 10.0,
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact,
         static_friction: 0.0,
     }
@@ -575,6 +576,7 @@ fn set_up_errors_fill_their_box_uniformly() {
         standoff: 1e-3,
         aim_along: 2e-3,
         aim_across: 3e-3,
+        aim_above: 0.0,
         speed: 0.03,
         restitution: 0.1,
         friction: 0.2,

@@ -62,6 +62,7 @@ fn the_target_of_an_open_mesh_faces_the_enclosed_side() {
         speed: 10.0,
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 1,
         static_friction: 0.0,
     };

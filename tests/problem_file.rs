@@ -42,6 +42,7 @@ fn the_keyway_is_read_in_si() {
                 root_radius: 0.0,
             }),
             place: Place::default(),
+            on_nozzle: false,
         }]
     );
     assert_eq!(problem.target.surface, "hub.floor");
@@ -200,9 +201,9 @@ scene:
     place: { at: [1, 2, 3], rotate: [90 deg, 0 deg, 90 deg] }
   groove:
     keyway: { bore: 30 mm, width: 8 mm, depth: 3.3 mm, length: 40 mm, root_radius: 0.4 mm }
-  pin: { bore: { diameter: 12 mm, length: 1 in, ends: closed } }
+  pin: { bore: { diameter: 12 mm, length: 1 in, ends: closed }, place: nozzle }
   mask: { mesh: parts/mask.obj, lengths_in: in, regions: { lip: { min: [0, 0, 0], max: [1, 2, 3] } } }
-  cover: { mesh: ./cover.stl }
+  cover: { mesh: ./cover.stl, place: { on: nozzle, at: [0, 0, 4] } }
 target: { surface: mask.rim, facing: [0, 0, -2] }
 shot: { radius: 250 um, density: 7.8 g/cm3, size_spread: 4 % }
 jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min }
@@ -222,12 +223,13 @@ settings:
   speed: [18 km/h, 10 m/s]
   aim_along: [-2 mm, 2 mm]
   aim_across: 1 mm
+  aim_above: [0.5 mm, 3 mm]
   contact: scaled
 goals: { normal_impulse: { target: 40 µN s } }
 surfaces:
   pin.wall: { role: deflector, contact: { mu_s: 0.8, mu_d: 0.7, restitution: 0.4, law: always_slip } }
   slot.near: { allow: 5 uN.s, share: 0.1 %, weight: 2, roughness: 18 deg }
-tolerance: { azimuth: 1 deg, friction: 10 %, aim_along: 0.5 mm, aim_across: 0.25 mm }
+tolerance: { azimuth: 1 deg, friction: 10 %, aim_along: 0.5 mm, aim_across: 0.25 mm, aim_above: 0.1 mm }
 paths: { impacts: 3, least_energy: 0 % }
 solve: { accuracy: 0.5 %, seed: 18446744073709551615 }
 ";
@@ -370,6 +372,9 @@ fn every_other_key_is_read() {
     assert_eq!(sprung.contact.restitution, Restitution::Constant(1.0));
     assert_eq!(sprung.contact.law, Law::Irrotational);
 
+    let on_nozzle: Vec<bool> = problem.parts.iter().map(|part| part.on_nozzle).collect();
+    assert_eq!(on_nozzle, [false, false, true, false, true]);
+    assert_eq!(problem.parts[4].place.shift.z, 0.04);
     let settings = &problem.settings;
     assert_eq!(settings.incidence, Range::held(FRAC_PI_2));
     assert_eq!(settings.azimuth, Range { min: -PI, max: PI });
@@ -388,6 +393,13 @@ fn every_other_key_is_read() {
         }
     );
     assert_eq!(settings.aim_across, Range::held(0.001));
+    assert_eq!(
+        settings.aim_above,
+        Range {
+            min: 0.0005,
+            max: 0.003
+        }
+    );
     assert_eq!(settings.contact, [1]);
 
     let [pin_wall, slot_near] = problem.surfaces.as_slice() else {
@@ -406,6 +418,7 @@ fn every_other_key_is_read() {
     assert_eq!(problem.tolerance.friction, 0.1);
     assert_eq!(problem.tolerance.aim_along, 0.0005);
     assert_eq!(problem.tolerance.aim_across, 0.00025);
+    assert_eq!(problem.tolerance.aim_above, 0.0001);
     assert_eq!(problem.tolerance.azimuth, PI / 180.0);
     assert_eq!(
         problem.paths,

@@ -67,6 +67,7 @@ fn single_paths_agree_impact_by_impact() {
             speed: velocity.norm(),
             aim_along: 0.0,
             aim_across: 0.0,
+            aim_above: 0.0,
             contact: 0,
             static_friction: 0.0,
         };
@@ -133,6 +134,7 @@ fn terms_agree_all_over_the_range() {
             speed: number(&settings["speed_m_s"]),
             aim_along: 0.0,
             aim_across: 0.0,
+            aim_above: 0.0,
             contact: 0,
             static_friction: 0.0,
         };

@@ -27,6 +27,7 @@ fn choice(incidence_deg: f64, azimuth_deg: f64, standoff: f64) -> Choice {
         speed: 10.0,
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 1,
         static_friction: 0.0,
     }
@@ -217,6 +218,7 @@ fn surfaces_are_two_sided() {
             ends: Ends::default(),
         },
         place: Place::default(),
+        on_nozzle: false,
     }];
     problem.target = Target {
         surface: "pin.wall".into(),
@@ -507,6 +509,7 @@ fn hits_on_a_deflector_belong_to_the_flight() {
     };
     let choice = Choice {
         aim_across: 3.5e-3,
+        aim_above: 0.0,
         ..choice(60.0, 90.0, 15e-3)
     };
     let mut banked = 0;

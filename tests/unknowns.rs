@@ -52,6 +52,7 @@ fn case(changes: &[(&str, &str)]) -> Case {
         speed: settings.speed.min,
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 0,
         static_friction: 0.0,
     };

@@ -294,6 +294,7 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
             max: Point3::new(1.0, 1.0, high),
         },
         place: Place::default(),
+        on_nozzle: false,
     };
     let mut problem = common::keyway(40e-3);
     problem.parts = vec![plate("bottom", -5e-3, 0.0), plate("top", GAP, GAP + 5e-3)];
@@ -317,6 +318,7 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
         speed: velocity.norm(),
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 0,
         static_friction: 0.0,
     };

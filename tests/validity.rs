@@ -53,6 +53,7 @@ fn choice(setup: &Setup) -> Choice {
         speed: settings.speed.min,
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 0,
         static_friction: 0.0,
     }
@@ -391,6 +392,7 @@ fn the_narrowest_gap_of_a_firtree_is_between_its_lobes() {
         speed: middle(settings.speed),
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 0,
         static_friction: 0.0,
     };

@@ -11,6 +11,7 @@ pub fn choice(incidence: f64, azimuth: f64, standoff: f64, speed: f64) -> Choice
         speed,
         aim_along: 0.0,
         aim_across: 0.0,
+        aim_above: 0.0,
         contact: 0,
         static_friction: 0.0,
     }

@@ -27,6 +27,7 @@ impl Cube {
             speed: settings.speed.at(0.5),
             aim_along: settings.aim_along.at(0.5),
             aim_across: settings.aim_across.at(0.5),
+            aim_above: settings.aim_above.at(0.5),
             contact,
             static_friction: problem.contacts[contact].static_friction.min,
         };

@@ -5,6 +5,7 @@ mod pose;
 mod sample;
 
 pub use point::Stream;
+pub(crate) use point::normal_pair;
 pub(crate) use pose::Aim;
 pub use pose::Pose;
 pub use sample::{Deviate, Replicate, Replicates, Samples};

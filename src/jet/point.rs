@@ -39,6 +39,8 @@ pub(super) enum Dimension {
     Size,
     AimAlong,
     AimAcross,
+    AimAbove,
+    Tilts,
 }
 
 /// Points of one scrambling before it repeats itself.
@@ -109,10 +111,7 @@ impl Point {
                     .get_or_insert_with(|| sobol_burley::sample_4d(*index, set, *seed));
                 f64::from(four[dimension as usize % 4])
             }
-            // The upper 53 bits, which is what f64 holds.
-            Sequence::Random { seed } => {
-                (mix(*seed ^ u64::from(dimension)) >> 11) as f64 / (1_u64 << 53) as f64
-            }
+            Sequence::Random { seed } => random(*seed, dimension),
         }
     }
 
@@ -153,6 +152,19 @@ impl Point {
         let share = BELOW_TWO_DEVIATIONS * (1.0 - 2.0 * self.uniform(dimension));
         1.0 + spread * Normal::standard().inverse_cdf(0.5 - share)
     }
+}
+
+/// Two independent standard normal deviates, a pure function of a number and of a count.
+pub(crate) fn normal_pair(number: f64, count: u32) -> [f64; 2] {
+    let seed = mix(number.to_bits() ^ mix(u64::from(count)));
+    let radius = (-2.0 * (1.0 - random(seed, 0)).ln()).sqrt();
+    let (sin, cos) = (std::f64::consts::TAU * random(seed, 1)).sin_cos();
+    [radius * cos, radius * sin]
+}
+
+/// Uniform in 0 to 1 (SplitMix64): the upper 53 bits, which is what f64 holds.
+fn random(seed: u64, dimension: u32) -> f64 {
+    (mix(seed ^ u64::from(dimension)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// Spreads the bits of a seed (the finaliser of SplitMix64).

@@ -6,6 +6,7 @@ use super::sample::Deviate;
 use crate::problem::setting::Choice;
 use crate::scene::patch::Frame;
 use crate::scene::ray::Ray;
+use crate::scene::stand::Stand;
 
 /// Where the exit is and how the jet points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +34,11 @@ impl Pose {
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes))
     }
 
+    /// The frame of the nozzle, for the parts that move with it.
+    pub fn stand(&self) -> Stand<f64> {
+        Stand::new([self.up, self.side, self.direction], self.exit)
+    }
+
     /// The ray of a shot from this pose.
     #[inline]
     pub(crate) fn shot(&self, deviate: &Deviate) -> Ray {
@@ -54,6 +60,7 @@ pub(crate) struct Aim {
     standoff: f64,
     along: f64,
     across: f64,
+    above: f64,
 }
 
 impl Aim {
@@ -64,13 +71,20 @@ impl Aim {
             standoff: choice.standoff,
             along: choice.aim_along,
             across: choice.aim_across,
+            above: choice.aim_above,
         }
     }
 
     /// The ray of a shot from the pose that was really set for it.
     #[inline]
     pub fn shot(&self, frame: &Frame, deviate: &Deviate) -> Ray {
-        self.perturbed(deviate).pose(frame).shot(deviate)
+        self.pose_set_for(frame, deviate).shot(deviate)
+    }
+
+    /// The pose that was really set for a shot.
+    #[inline]
+    pub fn pose_set_for(&self, frame: &Frame, deviate: &Deviate) -> Pose {
+        self.perturbed(deviate).pose(frame)
     }
 
     fn perturbed(&self, deviate: &Deviate) -> Self {
@@ -80,6 +94,7 @@ impl Aim {
             standoff: self.standoff + deviate.standoff,
             along: self.along + deviate.aim[0],
             across: self.across + deviate.aim[1],
+            above: self.above + deviate.aim[2],
         }
     }
 
@@ -90,7 +105,10 @@ impl Aim {
         let heading = frame.along * cos_azimuth + frame.across * sin_azimuth;
         let side = frame.across * cos_azimuth - frame.along * sin_azimuth;
         let direction = heading * cos_incidence - frame.normal * sin_incidence;
-        let aim = frame.aim + frame.along * self.along + frame.across * self.across;
+        let aim = frame.aim
+            + frame.along * self.along
+            + frame.across * self.across
+            + frame.normal * self.above;
         Pose {
             exit: aim - direction * self.standoff,
             direction,

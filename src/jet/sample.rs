@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::point::{Dimension, Point, Stream};
 use crate::problem::Problem;
 use crate::problem::equipment::Spread;
+use crate::problem::model::Effect;
 
 /// How one shot deviates from the mean shot on the axis; the same for every pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,12 +25,14 @@ pub struct Deviate {
     pub azimuth: [f64; 2],
     /// Error in standoff, m.
     pub standoff: f64,
-    /// Error of the aim point along and across, m.
-    pub aim: [f64; 2],
+    /// Error of the aim point along, across and above, m.
+    pub aim: [f64; 3],
     /// Change of the coefficient of restitution.
     pub restitution: f64,
     /// Factor on the friction coefficients.
     pub friction: f64,
+    /// What the tilts of rough surfaces are drawn from, in 0 to 1; 0 where none is rough.
+    pub tilts: f64,
     /// What the shot stands for: 1, or less for one of the shots on the rim.
     pub weight: f64,
 }
@@ -44,9 +47,10 @@ impl Deviate {
         incidence: [0.0, 1.0],
         azimuth: [0.0, 1.0],
         standoff: 0.0,
-        aim: [0.0; 2],
+        aim: [0.0; 3],
         restitution: 0.0,
         friction: 1.0,
+        tilts: 0.0,
         weight: 1.0,
     };
 
@@ -222,9 +226,15 @@ fn deviate(problem: &Problem, point: &mut Point) -> Deviate {
         aim: [
             point.within(tolerance.aim_along, Dimension::AimAlong),
             point.within(tolerance.aim_across, Dimension::AimAcross),
+            point.within(tolerance.aim_above, Dimension::AimAbove),
         ],
         restitution: point.within(tolerance.restitution, Dimension::Restitution),
         friction: 1.0 + point.within(tolerance.friction, Dimension::Friction),
+        tilts: if Effect::Roughness.is_in(problem) {
+            point.uniform(Dimension::Tilts)
+        } else {
+            0.0
+        },
         weight: 1.0,
     }
 }

@@ -11,8 +11,11 @@ pub struct Part {
     pub name: String,
     /// What the part looks like in its own frame.
     pub shape: Shape,
-    /// Where that frame stands in the scene.
+    /// Where that frame stands in the scene, or in the frame of the nozzle.
     pub place: Place,
+    /// Whether it is fixed to the nozzle and moves with it. The nozzle's frame has its origin in
+    /// the centre of the exit, z along the jet, and y across it in the target's plane.
+    pub on_nozzle: bool,
 }
 
 /// A rotation about fixed x, then y, then z, followed by a shift (m).
@@ -20,7 +23,7 @@ pub struct Part {
 pub struct Place {
     /// Rotation of the part about its own origin.
     pub rotation: UnitQuaternion<f64>,
-    /// Position of the part's origin in the scene, m.
+    /// Position of the part's origin, m.
     pub shift: Vector3<f64>,
 }
 

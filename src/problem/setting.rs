@@ -55,6 +55,8 @@ pub struct Settings {
     pub aim_along: Range,
     /// Shift of the aim point across it (along b = a x n), m.
     pub aim_across: Range,
+    /// Shift of the aim point away from the target (along n), m.
+    pub aim_above: Range,
     /// Indices into the problem's contacts, in the order of the file.
     pub contact: Vec<usize>,
 }
@@ -74,6 +76,8 @@ pub struct Choice {
     pub aim_along: f64,
     /// Shift of the aim point across it, m.
     pub aim_across: f64,
+    /// Shift of the aim point away from the target, m.
+    pub aim_above: f64,
     /// Index into the problem's contacts.
     pub contact: usize,
     /// Static friction; matters only for a contact whose friction is tuned.
@@ -95,19 +99,22 @@ pub enum Setting {
     AimAlong,
     /// See [`Choice::aim_across`].
     AimAcross,
+    /// See [`Choice::aim_above`].
+    AimAbove,
     /// See [`Choice::static_friction`].
     StaticFriction,
 }
 
 impl Setting {
     /// Those that say how the nozzle stands and shoots, in the order of the problem file.
-    pub const OF_THE_NOZZLE: [Self; 6] = [
+    pub const OF_THE_NOZZLE: [Self; 7] = [
         Self::Incidence,
         Self::Azimuth,
         Self::Standoff,
         Self::Speed,
         Self::AimAlong,
         Self::AimAcross,
+        Self::AimAbove,
     ];
 
     /// Its key in problem files and on the command line.
@@ -119,6 +126,7 @@ impl Setting {
             Self::Speed => "speed",
             Self::AimAlong => "aim_along",
             Self::AimAcross => "aim_across",
+            Self::AimAbove => "aim_above",
             Self::StaticFriction => "mu_s",
         }
     }
@@ -132,6 +140,7 @@ impl Setting {
             Self::Speed => choice.speed,
             Self::AimAlong => choice.aim_along,
             Self::AimAcross => choice.aim_across,
+            Self::AimAbove => choice.aim_above,
             Self::StaticFriction => choice.static_friction,
         }
     }
@@ -147,6 +156,7 @@ impl Setting {
             Self::Speed => changed.speed = value,
             Self::AimAlong => changed.aim_along = value,
             Self::AimAcross => changed.aim_across = value,
+            Self::AimAbove => changed.aim_above = value,
             Self::StaticFriction => changed.static_friction = value,
         }
         changed
@@ -154,6 +164,11 @@ impl Setting {
 }
 
 impl Settings {
+    /// Whether the jet always aims above the target: then it may run along it, or even away.
+    pub fn aims_above(&self) -> bool {
+        self.aim_above.min > 0.0
+    }
+
     /// The middle of all ranges, with the first contact.
     pub fn middle(&self) -> Choice {
         Choice {
@@ -163,6 +178,7 @@ impl Settings {
             speed: self.speed.at(0.5),
             aim_along: self.aim_along.at(0.5),
             aim_across: self.aim_across.at(0.5),
+            aim_above: self.aim_above.at(0.5),
             contact: self.contact.first().copied().unwrap_or_default(),
             static_friction: 0.0,
         }
@@ -177,6 +193,7 @@ impl Settings {
             Setting::Speed => Some(self.speed),
             Setting::AimAlong => Some(self.aim_along),
             Setting::AimAcross => Some(self.aim_across),
+            Setting::AimAbove => Some(self.aim_above),
             Setting::StaticFriction => None,
         }
     }
@@ -195,6 +212,8 @@ pub struct Tolerance {
     pub aim_along: f64,
     /// m.
     pub aim_across: f64,
+    /// m.
+    pub aim_above: f64,
     /// Relative.
     pub speed: f64,
     /// Absolute change of the coefficient of restitution; the result is kept within 0 to 1.

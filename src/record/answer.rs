@@ -83,6 +83,9 @@ pub struct SettingsRecord {
     pub aim_along_m: f64,
     /// m.
     pub aim_across_m: f64,
+    /// m.
+    #[serde(default)]
+    pub aim_above_m: f64,
 }
 
 /// A pose of the nozzle in the scene.
@@ -264,6 +267,7 @@ impl SettingsRecord {
             speed_m_s: choice.speed,
             aim_along_m: choice.aim_along,
             aim_across_m: choice.aim_across,
+            aim_above_m: choice.aim_above,
         }
     }
 }

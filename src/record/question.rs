@@ -87,6 +87,9 @@ pub struct ToleranceRecord {
     pub aim_along_m: f64,
     /// m.
     pub aim_across_m: f64,
+    /// m.
+    #[serde(default)]
+    pub aim_above_m: f64,
     /// Relative.
     pub speed: f64,
     /// Absolute.
@@ -126,6 +129,7 @@ impl QuestionRecord {
                 standoff_m: tolerance.standoff,
                 aim_along_m: tolerance.aim_along,
                 aim_across_m: tolerance.aim_across,
+                aim_above_m: tolerance.aim_above,
                 speed: tolerance.speed,
                 restitution: tolerance.restitution,
                 friction: tolerance.friction,

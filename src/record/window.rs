@@ -55,7 +55,9 @@ pub(super) fn key_and_unit(setting: Setting) -> (String, fn(f64) -> f64) {
     let (unit, shown): (_, fn(f64) -> f64) = match setting {
         Setting::Incidence | Setting::Azimuth => ("_deg", degrees),
         Setting::Speed => ("_m_s", |value| value),
-        Setting::Standoff | Setting::AimAlong | Setting::AimAcross => ("_m", |value| value),
+        Setting::Standoff | Setting::AimAlong | Setting::AimAcross | Setting::AimAbove => {
+            ("_m", |value| value)
+        }
         Setting::StaticFriction => ("", |value| value),
     };
     (format!("{}{unit}", setting.name()), shown)

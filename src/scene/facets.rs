@@ -114,6 +114,11 @@ impl Facets {
         self.surfaces[index as usize]
     }
 
+    /// Whether any of its triangles is of a surface.
+    pub fn has_surface(&self, surface: u32) -> bool {
+        self.surfaces.contains(&surface)
+    }
+
     /// The first crossing of a ray nearer than `limit`, and the front normal there. Of crossings
     /// at the same distance it is that of the triangle with the lowest index.
     ///

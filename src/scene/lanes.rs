@@ -4,6 +4,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::ray::{Ray, Spot};
+use super::stand::Stands;
 use crate::precision::Real;
 
 /// Most rays side by side.
@@ -26,6 +27,8 @@ pub struct Rays<R> {
     pub radius: Lane<R>,
     /// The spots that they start from, if they do.
     pub leaving: Option<Spots>,
+    /// The stands of their nozzles, where parts of the scene move with these.
+    pub stands: Option<Box<Stands<R>>>,
 }
 
 /// Spots side by side.
@@ -61,7 +64,7 @@ pub fn padded(count: usize) -> usize {
 }
 
 impl Spots {
-    fn none() -> Self {
+    pub(super) fn none() -> Self {
         Self {
             part: [0; LANES],
             piece: [0; LANES],
@@ -99,6 +102,7 @@ impl<R: Real> Rays<R> {
             are_spheres: false,
             radius: [R::ZERO; LANES],
             leaving: None,
+            stands: None,
         }
     }
 

@@ -15,6 +15,7 @@ pub mod patch;
 mod prism;
 pub mod profile;
 pub mod ray;
+pub mod stand;
 mod start;
 pub mod tessellate;
 mod triangle;
@@ -29,6 +30,7 @@ use crate::problem::part::Part;
 use lanes::{Hits, Rays, components, padded, put};
 use part::{BuiltPart, Fronts, Geometry};
 use ray::{Hit, Ray, Spot};
+use stand::Stand;
 
 /// Two points nearer than this share of the scene's size count as one.
 const SLACK: f64 = 1e-12;
@@ -132,54 +134,69 @@ impl Scene {
         self.parts.iter().map(|part| part.facets.count()).sum()
     }
 
-    /// What a ray meets first. `leaving` is the spot that it starts from, if any: it is not hit
-    /// again at distance 0.
-    #[inline]
-    pub fn first_hit(&self, ray: &Ray, leaving: Option<Spot>) -> Option<Hit> {
-        let mut nearest = f64::INFINITY;
-        let mut hit = None;
-        for (index, part) in self.parts.iter().enumerate() {
-            let index = index as u32;
-            let on_it = leaving.is_some_and(|spot| spot.part == index);
-            let Some((crossing, front)) = part.first_crossing(ray, leaving, on_it, nearest) else {
-                continue;
-            };
-            nearest = crossing.distance;
-            let normal = if crossing.front { front } else { -front };
-            let lift = LIFT * SLACK * self.size;
-            hit = Some(Hit {
-                distance: crossing.distance,
-                point: ray.origin + ray.direction * crossing.distance + normal * lift,
-                normal,
-                surface: crossing.surface,
-                spot: Spot {
-                    part: index,
-                    piece: crossing.piece,
-                    front: crossing.front,
-                },
-            });
-        }
-        hit
+    /// Whether parts of it move with the nozzle.
+    pub fn moves_with_nozzle(&self) -> bool {
+        self.parts.iter().any(|part| part.on_nozzle)
     }
 
-    /// What a shot of some radius touches first when its centre moves along a ray; the distance is
-    /// that of the centre, the place that of the contact. `leaving` is the spot that it touches at
-    /// the start, if any.
+    /// Whether a surface does.
+    pub fn surface_moves_with_nozzle(&self, surface: u32) -> bool {
+        let mut moving = self.parts.iter().filter(|part| part.on_nozzle);
+        moving.any(|part| part.facets.has_surface(surface))
+    }
+
+    /// What a ray meets first in a scene without a nozzle. `leaving` is the spot that it starts
+    /// from, if any: it is not hit again at distance 0.
+    #[inline]
+    pub fn first_hit(&self, ray: &Ray, leaving: Option<Spot>) -> Option<Hit> {
+        self.first_contact(ray, 0.0, leaving, None)
+    }
+
+    /// What a shot of some radius touches first when its centre moves along a ray, in a scene
+    /// without a nozzle; the distance is that of the centre, the place that of the contact.
+    /// `leaving` is the spot that it touches at the start, if any.
+    #[inline]
     pub fn first_touch(&self, ray: &Ray, radius: f64, leaving: Option<Spot>) -> Option<Hit> {
+        self.first_contact(ray, radius, leaving, None)
+    }
+
+    /// What a shot meets first, of some radius, or a point where that is 0. Parts that move with
+    /// the nozzle are where its stand takes them, and nowhere without one.
+    #[inline]
+    pub fn first_contact(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        leaving: Option<Spot>,
+        stand: Option<&Stand<f64>>,
+    ) -> Option<Hit> {
+        let is_sphere = radius > 0.0;
+        let lift = LIFT * SLACK * self.size;
+        let above = if is_sphere { -radius } else { lift };
         let mut nearest = f64::INFINITY;
         let mut hit = None;
         for (index, part) in (0..).zip(&self.parts) {
             let on_it = leaving.is_some_and(|spot| spot.part == index);
-            let Some((crossing, front)) = part.first_touch(ray, radius, leaving, on_it, nearest)
-            else {
+            let contact = |ray: &Ray| part.first_contact(ray, radius, leaving, on_it, nearest);
+            let found = match (part.on_nozzle, stand) {
+                (false, _) => contact(ray),
+                (true, Some(stand)) => contact(&stand.ray_there(ray))
+                    .map(|(crossing, normal)| (crossing, stand.vector_back(normal.into()).into())),
+                (true, None) => None,
+            };
+            let Some((crossing, front)) = found else {
                 continue;
             };
             nearest = crossing.distance;
-            let normal = if crossing.front { front } else { -front };
-            let normal = Vector3::from(unit(normal.into()));
+            let normal: Vector3<f64> = if crossing.front { front } else { -front };
+            let normal = if is_sphere {
+                unit(normal.into()).into()
+            } else {
+                normal
+            };
             hit = Some(Hit {
                 distance: crossing.distance,
-                point: ray.origin + ray.direction * crossing.distance + normal * -radius,
+                point: ray.origin + ray.direction * crossing.distance + normal * above,
                 normal,
                 surface: crossing.surface,
                 spot: Spot {
@@ -192,14 +209,17 @@ impl Scene {
         hit
     }
 
-    /// What many rays meet first; the same as [`Self::first_hit`] or [`Self::first_touch`] for each
-    /// of them in f64.
+    /// What many rays meet first; the same as [`Self::first_contact`] for each of them in f64.
     #[inline(always)]
     pub fn first_hits<R: Real>(&self, rays: &Rays<R>, hits: &mut Hits<R>) {
         let count = padded(rays.count);
         hits.distance[..count].fill(R::INFINITY);
         for (index, part) in (0..).zip(&self.parts) {
-            part.cross(index, rays, hits);
+            if !part.on_nozzle {
+                part.cross(index, rays, hits);
+            } else if let Some(stands) = &rays.stands {
+                stand::cross(part, index, rays, stands, hits);
+            }
         }
         let lift = R::of(LIFT * SLACK * R::COARSENESS * self.size);
         for i in 0..count {
@@ -222,8 +242,8 @@ impl Scene {
         }
     }
 
-    /// Distance between the nozzle's body and the nearest surface, and that surface; negative when
-    /// they overlap. `None` for a nozzle without a body, or when everything is farther than `limit`.
+    /// Distance between the nozzle's body and the nearest surface of the parts that stand in the
+    /// scene, and that surface; negative when they overlap. `None` for a nozzle without a body, or when everything is farther than `limit`.
     pub fn clearance(
         &self,
         nozzle: &Nozzle,
@@ -241,7 +261,7 @@ impl Scene {
                     direction,
                 } => (exit + direction.unwrap_or(-jet) * length, radius),
             };
-            for part in &self.parts {
+            for part in self.parts.iter().filter(|part| !part.on_nozzle) {
                 let bound = nearest.map_or(limit, |(gap, _)| gap) + radius;
                 if let Some((distance, triangle)) =
                     part.facets.distance_to_segment(exit, &end, bound)
@@ -253,7 +273,8 @@ impl Scene {
         nearest
     }
 
-    /// Corner points of all triangles of a surface.
+    /// Corner points of all triangles of a surface, in the frame of the nozzle where it moves with
+    /// that.
     pub fn surface_triangles(&self, surface: u32) -> impl Iterator<Item = [Point3<f64>; 3]> + '_ {
         self.parts.iter().flat_map(move |part| {
             let indices = 0..part.facets.count() as u32;
@@ -262,7 +283,7 @@ impl Scene {
         })
     }
 
-    /// The point of a surface nearest to a given point, and the unit normal there towards free space:
+    /// The point of a surface that stands in the scene nearest to a given point, and the unit normal there towards free space:
     /// on the front, or for an open mesh, whose winding tells nothing, on the side that is more
     /// enclosed.
     pub fn nearest_on_surface(
@@ -270,7 +291,9 @@ impl Scene {
         to: &Point3<f64>,
         surface: u32,
     ) -> Option<(Point3<f64>, Vector3<f64>)> {
-        let candidates = self.parts.iter().enumerate().filter_map(|(index, part)| {
+        let standing = self.parts.iter().enumerate();
+        let standing = standing.filter(|(_, part)| !part.on_nozzle);
+        let candidates = standing.filter_map(|(index, part)| {
             let on_it = |triangle| part.facets.surface(triangle) == surface;
             let nearest = part.facets.nearest_point(to, on_it)?;
             Some((index as u32, nearest))

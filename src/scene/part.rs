@@ -22,6 +22,8 @@ pub(super) struct BuiltPart {
     pub facets: Facets,
     /// What the fronts of its surfaces say about where the free space is.
     pub fronts: Fronts,
+    /// Whether its frame is the nozzle's.
+    pub on_nozzle: bool,
     prism: Option<Prism>,
 }
 
@@ -110,6 +112,7 @@ impl Geometry {
         BuiltPart {
             facets: Facets::new(self.mesh, surface_base, slack),
             fronts: self.fronts,
+            on_nozzle: part.on_nozzle,
             prism: self.prism.map(|(profile, length, ends)| {
                 Prism::new(&profile, length, ends, &part.place, surface_base, slack)
             }),
@@ -133,6 +136,24 @@ fn prismatic(profile: Profile, length: f64, ends: Ends, walls: Walls) -> Built {
 }
 
 impl BuiltPart {
+    /// The first contact of a shot of some radius, or of a point where that is 0, nearer than
+    /// `limit`, and the unit normal on the front there.
+    #[inline]
+    pub fn first_contact(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        leaving: Option<Spot>,
+        on_this_part: bool,
+        limit: f64,
+    ) -> Option<(Crossing, Vector3<f64>)> {
+        if radius > 0.0 {
+            self.first_touch(ray, radius, leaving, on_this_part, limit)
+        } else {
+            self.first_crossing(ray, leaving, on_this_part, limit)
+        }
+    }
+
     /// The first crossing nearer than `limit` and the unit normal on the front there.
     #[inline]
     pub fn first_crossing(
@@ -153,7 +174,7 @@ impl BuiltPart {
     /// The first contact of a shot of some radius, nearer than `limit`, and the unit normal on the
     /// front there.
     #[inline]
-    pub fn first_touch(
+    fn first_touch(
         &self,
         ray: &Ray,
         radius: f64,

@@ -43,7 +43,7 @@ impl Patch {
     /// Finds the patch in a scene.
     ///
     /// # Errors
-    /// An unknown surface, an empty patch, an aim point off the patch, or `along` perpendicular
+    /// An unknown surface, one that moves with the nozzle, an empty patch, an aim point off the patch, or `along` perpendicular
     /// to it.
     pub fn find(scene: &Scene, target: &Target) -> Result<Self, Vec<Fault>> {
         let surface = scene.surface_named(&target.surface).map_err(|fault| {
@@ -52,6 +52,12 @@ impl Patch {
                 ..*fault
             }]
         })?;
+        if scene.surface_moves_with_nozzle(surface) {
+            let fault = Fault::at_key("target.surface", "moves with the nozzle");
+            return Err(vec![
+                fault.expecting("a surface of a part that stands in the scene"),
+            ]);
+        }
         let pieces = scene.surface_triangles(surface);
         let clipped = pieces.map(|corners| match target.within {
             Some(limits) => clip(&corners, &limits),

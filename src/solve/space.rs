@@ -30,6 +30,7 @@ impl Space {
             speed: settings.speed.min,
             aim_along: settings.aim_along.min,
             aim_across: settings.aim_across.min,
+            aim_above: settings.aim_above.min,
             contact,
             static_friction: friction.min,
         };

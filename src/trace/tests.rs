@@ -99,6 +99,7 @@ fn poses(setup: &Setup, count: u32) -> impl Iterator<Item = Choice> + '_ {
             speed: settings.speed.at(share(3)),
             aim_along: 0.0,
             aim_across: 0.0,
+            aim_above: 0.0,
             contact: settings.contact[index as usize % settings.contact.len()],
             static_friction: 0.2,
         }
@@ -174,39 +175,111 @@ fn surfaces_that_differ() {
     }
 }
 
-#[test]
-fn parts_that_are_moved_and_closed() {
-    let text = "
+/// A pot with a pin in it, moved, beside a block; any further parts and groups of keys.
+fn pot(parts: &str, groups: &str) -> Setup {
+    let text = format!(
+        "
 format: 1
 lengths_in: mm
 scene:
   pot:
-    bore: { diameter: 20 mm, length: 30 mm, ends: { far: closed } }
-    place: { at: [5, -3, 7], rotate: [40 deg, 20 deg, 70 deg] }
+    bore: {{ diameter: 20 mm, length: 30 mm, ends: {{ far: closed }} }}
+    place: {{ at: [5, -3, 7], rotate: [40 deg, 20 deg, 70 deg] }}
   pin:
-    bore: { diameter: 3 mm, length: 12 mm, ends: { near: closed, far: closed } }
-    place: { at: [5, -3, 7], rotate: [30 deg, 20 deg, 70 deg] }
-  block: { box: { min: [20, 20, 20], max: [40, 40, 40] } }
-target: { surface: pot.far }
-shot: { radius: 0.2 mm, density: 7800 kg/m3, size_spread: 5 % }
-jet: { exit_diameter: 3 mm, divergence: 20 deg, speed_spread: 5 % }
-contacts: { dry: { mu_s: 0.3, mu_d: 0.25, restitution: 0.6 } }
+    bore: {{ diameter: 3 mm, length: 12 mm, ends: {{ near: closed, far: closed }} }}
+    place: {{ at: [5, -3, 7], rotate: [30 deg, 20 deg, 70 deg] }}
+  block: {{ box: {{ min: [20, 20, 20], max: [40, 40, 40] }} }}
+{parts}
+target: {{ surface: pot.far }}
+shot: {{ radius: 0.2 mm, density: 7800 kg/m3, size_spread: 5 % }}
+jet: {{ exit_diameter: 3 mm, divergence: 20 deg, speed_spread: 5 % }}
+contacts: {{ dry: {{ mu_s: 0.3, mu_d: 0.25, restitution: 0.6 }} }}
 settings:
   incidence: [30 deg, 85 deg]
   azimuth: [-180 deg, 180 deg]
   standoff: [3 mm, 15 mm]
   speed: [5 m/s, 40 m/s]
-goals: { normal_impulse: { target: 1 uN.s }, rebound: { allow: 1 uN.s } }
-paths: { impacts: 12, least_energy: 0.01 % }
-";
-    let reading = problem::read_text(text, Path::new("pot.yaml")).expect("it can be read");
+goals: {{ normal_impulse: {{ target: 1 uN.s }}, rebound: {{ allow: 1 uN.s }} }}
+paths: {{ impacts: 12, least_energy: 0.01 % }}
+{groups}
+"
+    );
+    let reading = problem::read_text(&text, Path::new("pot.yaml")).expect("it can be read");
     let problem = reading
         .problem
         .unwrap_or_else(|| panic!("{:?}", reading.faults));
     let setup = Setup::new(problem, Walls::Exact);
-    let setup = setup.unwrap_or_else(|faults| panic!("{faults:?}"));
+    setup.unwrap_or_else(|faults| panic!("{faults:?}"))
+}
+
+#[test]
+fn parts_that_are_moved_and_closed() {
+    let setup = pot("", "");
     let samples = Samples::new(&setup.problem, Stream::Search, 300);
     for choice in poses(&setup, 40) {
         same_paths(&setup, &choice, &samples.deviates);
+    }
+}
+
+/// How many of the impacts of some shots are on the surfaces of a part.
+fn impacts_on(part: &str, setup: &Setup, choice: &Choice, shots: &[Deviate]) -> usize {
+    let tracer = Tracer::new(setup, choice, choice.speed);
+    let mut count = 0;
+    for deviate in shots {
+        tracer.follow(deviate, |impact| {
+            let surface = &setup.scene.surfaces()[impact.surface as usize];
+            count += usize::from(surface.starts_with(part));
+        });
+    }
+    count
+}
+
+#[test]
+fn parts_that_move_with_the_nozzle() {
+    let parts = "
+  stub:
+    bore: { diameter: 2 mm, length: 3 mm, ends: closed }
+    place: { on: nozzle, at: [-0.5, 1.5, 2], rotate: [50 deg, 20 deg, 0 deg] }
+  brick: { box: { min: [-1.5, -1, 1.5], max: [0.2, 0.5, 3] }, place: nozzle }
+";
+    let tolerance = "
+tolerance: { incidence: 2 deg, azimuth: 3 deg, standoff: 1 mm, aim_along: 0.5 mm, aim_above: 0.3 mm }
+";
+    for groups in ["", tolerance] {
+        let setup = pot(parts, groups);
+        let samples = Samples::with_rim(&setup.problem, Stream::Search, 300);
+        let (mut on_stub, mut on_brick) = (0, 0);
+        for choice in poses(&setup, 20) {
+            same_paths(&setup, &choice, &samples.deviates);
+            on_stub += impacts_on("stub.", &setup, &choice, &samples.deviates);
+            on_brick += impacts_on("brick.", &setup, &choice, &samples.deviates);
+        }
+        assert!(on_stub > 500 && on_brick > 500, "{on_stub} {on_brick}");
+    }
+}
+
+#[test]
+fn rough_surfaces() {
+    let rough = "
+surfaces:
+  pot.far: { roughness: 3 deg }
+  pot.wall: { roughness: 15 deg, contact: { mu_s: 0.1, mu_d: 0.1, restitution: { value: 0.5, at: 5 m/s, exponent: 0.2 } } }
+";
+    let (setup, smooth) = (pot("", rough), pot("", ""));
+    let samples = Samples::new(&setup.problem, Stream::Search, 300);
+    for choice in poses(&setup, 20) {
+        same_paths(&setup, &choice, &samples.deviates);
+    }
+    // Without rough surfaces nothing is drawn for them, and every other number is the same.
+    let drawn = Samples::new(&smooth.problem, Stream::Search, 300);
+    for (rough, smooth) in samples.deviates.iter().zip(&drawn.deviates) {
+        assert_eq!(smooth.tilts, 0.0);
+        assert_eq!(
+            *smooth,
+            Deviate {
+                tilts: 0.0,
+                ..*rough
+            }
+        );
     }
 }

@@ -6,11 +6,12 @@
 use multiversion::multiversion;
 use nalgebra::Vector3;
 
-use super::{End, MOST_DEFLECTIONS, Tracer, energy};
-use crate::impact::{Coefficients, Friction, collide};
+use super::{End, MOST_DEFLECTIONS, Tracer, energy, rough};
+use crate::impact::{Coefficients, Contact, Friction, collide};
 use crate::jet::Deviate;
 use crate::precision::{Real, Triple, along, dot, unit};
 use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
+use crate::scene::stand::Stands;
 
 /// Up to [`LANES`] shots in flight, side by side.
 pub(crate) struct Volley<R> {
@@ -164,6 +165,7 @@ impl<R: Real> Volley<R> {
                 self.slides[i] = R::of(contact.friction.slides * factor);
             }
         }
+        self.rays.stands = tracer.moves_parts.then(|| stands(tracer, deviates));
         let share = R::of(tracer.setup.problem.paths.least_energy);
         for i in 0..padded(self.rays.count) {
             self.least_energy[i] = share * energy(components(&self.velocity, i), [R::ZERO; 3]);
@@ -191,8 +193,10 @@ impl<R: Real> Volley<R> {
                 self.mark_deflections(tracer);
             }
             match &tracer.only_contact {
-                Some(only) => self.collide(&only.friction.at(only.restitution), &rules),
-                None => self.collide_one_by_one(tracer, deviates, &rules),
+                Some(only) if !tracer.has_rough_surfaces => {
+                    self.collide(&only.friction.at(only.restitution), &rules);
+                }
+                _ => self.collide_one_by_one(tracer, deviates, flights, &rules),
             }
             witness.impacts(self);
             self.end_paths(flights, witness);
@@ -222,27 +226,60 @@ impl<R: Real> Volley<R> {
                 slides: self.slides[i],
                 ..*only
             };
-            self.rebound(i, &contact, rules);
+            self.rebound(i, components(&self.hits.normal, i), &contact, rules);
         }
     }
 
-    /// Lets the shots rebound where contacts differ.
-    fn collide_one_by_one(&mut self, tracer: &Tracer, deviates: &[Deviate], rules: &Rules<R>) {
+    /// Lets the shots rebound where contacts differ, or where surfaces are rough.
+    fn collide_one_by_one(
+        &mut self,
+        tracer: &Tracer,
+        deviates: &[Deviate],
+        flight: u32,
+        rules: &Rules<R>,
+    ) {
         for i in 0..self.rays.count {
-            let normal = components(&self.hits.normal, i);
-            let normal_speed = dot(components(&self.velocity, i), normal);
-            let surface = self.hits.surface[i] as usize;
-            let contact = tracer.contact_with(surface, &deviates[self.shot[i] as usize]);
-            let restitution = contact.restitution.at(-normal_speed.wide());
-            let contact = Friction::of(&contact).at(restitution);
-            self.rebound(i, &contact, rules);
+            let deviate = &deviates[self.shot[i] as usize];
+            let contact = tracer.contact_with(self.hits.surface[i] as usize, deviate);
+            let normal = self.normal_of_impact(i, tracer, deviate, flight, &contact);
+            let contact = coefficients(&contact, components(&self.velocity, i), normal);
+            self.rebound(i, normal, &contact, rules);
         }
+    }
+
+    /// The normal that a shot finds, tilted by chance where the surface is rough.
+    fn normal_of_impact(
+        &self,
+        i: usize,
+        tracer: &Tracer,
+        deviate: &Deviate,
+        flight: u32,
+        contact: &Contact,
+    ) -> Triple<R> {
+        let normal = components(&self.hits.normal, i);
+        let roughness = tracer.setup.surfaces[self.hits.surface[i] as usize].roughness;
+        if roughness == 0.0 {
+            return normal;
+        }
+        let velocity = components(&self.velocity, i);
+        let rolling = components(&self.rolling, i);
+        let tilt = rough::tilt(deviate, flight, roughness);
+        rough::normal_of_impact(normal, tilt, velocity, |normal| {
+            let contact = coefficients(contact, velocity, normal);
+            let normal_speed = dot(velocity, normal);
+            collide(&contact, velocity, rolling, normal, normal_speed).velocity
+        })
     }
 
     /// Lets one shot rebound, and decides what becomes of it.
     #[inline(always)]
-    fn rebound(&mut self, i: usize, contact: &Coefficients<R>, rules: &Rules<R>) {
-        let normal = components(&self.hits.normal, i);
+    fn rebound(
+        &mut self,
+        i: usize,
+        normal: Triple<R>,
+        contact: &Coefficients<R>,
+        rules: &Rules<R>,
+    ) {
         let velocity = components(&self.velocity, i);
         let rolling = components(&self.rolling, i);
         let normal_speed = dot(velocity, normal);
@@ -309,6 +346,9 @@ impl<R: Real> Volley<R> {
         ] {
             keep(lane, kept);
         }
+        if let Some(stands) = &mut self.rays.stands {
+            stands.lanes_mut().for_each(|lane| keep(lane, kept));
+        }
         keep(&mut self.shot, kept);
         keep(&mut self.hits.spots.part, kept);
         keep(&mut self.hits.spots.piece, kept);
@@ -347,6 +387,26 @@ impl<R: Real> Volley<R> {
             );
         }
     }
+}
+
+/// A contact at the speed with which a shot meets a surface.
+fn coefficients<R: Real>(
+    contact: &Contact,
+    velocity: Triple<R>,
+    normal: Triple<R>,
+) -> Coefficients<R> {
+    let normal_speed = dot(velocity, normal);
+    let restitution = contact.restitution.at(-normal_speed.wide());
+    Friction::of(contact).at(restitution)
+}
+
+/// Where the nozzle really stands for each shot.
+fn stands<R: Real>(tracer: &Tracer, deviates: &[Deviate]) -> Box<Stands<R>> {
+    let mut stands = Box::new(Stands::none());
+    for (i, deviate) in deviates.iter().take(LANES).enumerate() {
+        stands.set(i, &tracer.stand(deviate));
+    }
+    stands
 }
 
 /// 1 for what is true, 0 for what is not.

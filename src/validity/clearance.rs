@@ -16,6 +16,7 @@ pub(super) fn within_tolerance(setup: &Setup, choice: &Choice) -> Option<Note> {
         (Setting::Standoff, tolerance.standoff),
         (Setting::AimAlong, tolerance.aim_along),
         (Setting::AimAcross, tolerance.aim_across),
+        (Setting::AimAbove, tolerance.aim_above),
     ];
     let mut corners = vec![*choice];
     for (setting, error) in errors.into_iter().filter(|(_, error)| *error > 0.0) {

@@ -31,6 +31,7 @@ pub fn keyway(length: f64) -> Problem {
                 root_radius: 0.0,
             }),
             place: Place::default(),
+            on_nozzle: false,
         }],
         target: Target {
             surface: "hub.floor".into(),
@@ -82,6 +83,7 @@ pub fn keyway(length: f64) -> Problem {
             },
             aim_along: Range::held(0.0),
             aim_across: Range::held(0.0),
+            aim_above: Range::held(0.0),
             contact: vec![0, 1, 2],
         },
         goals: Goals {

@@ -139,6 +139,7 @@ fn choices() -> [Choice; 4] {
             speed: 10.0,
             aim_along: 0.0,
             aim_across: 0.0,
+            aim_above: 0.0,
             contact: 0,
             static_friction: 0.15,
         },

@@ -362,6 +362,7 @@ fn a_feasible_region_that_no_screening_meets_is_found_by_how_far_the_nozzle_is_f
             standoff: settings.standoff.at(share(1)),
             aim_along: settings.aim_along.at(share(2)),
             aim_across: settings.aim_across.at(share(3)),
+            aim_above: settings.aim_above.min,
             ..held(&tight)
         };
         fitting += u32::from(clearance_violation(&tight, &choice).is_none());

@@ -90,6 +90,7 @@ fn held(setup: &Setup) -> Choice {
         speed: settings.speed.min,
         aim_along: settings.aim_along.min,
         aim_across: settings.aim_across.min,
+        aim_above: settings.aim_above.min,
         contact,
         static_friction: setup.problem.contacts[contact].static_friction.min,
     }

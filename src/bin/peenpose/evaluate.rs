@@ -86,6 +86,7 @@ fn from_result(path: &Path, problem: &Problem) -> Result<Choice, String> {
         speed: best.settings.speed_m_s,
         aim_along: best.settings.aim_along_m,
         aim_across: best.settings.aim_across_m,
+        aim_above: best.settings.aim_above_m,
         contact: contact_named(&best.contact, problem)?,
         static_friction: best.contact_values.mu_s,
     })
@@ -120,13 +121,14 @@ struct Known {
     friction_asked: bool,
 }
 
-const SETTINGS: [Setting; 7] = [
+const SETTINGS: [Setting; 8] = [
     Setting::Incidence,
     Setting::Azimuth,
     Setting::Standoff,
     Setting::Speed,
     Setting::AimAlong,
     Setting::AimAcross,
+    Setting::AimAbove,
     Setting::StaticFriction,
 ];
 
@@ -201,6 +203,7 @@ impl Known {
             speed: value(3),
             aim_along: value(4),
             aim_across: value(5),
+            aim_above: value(6),
             contact: 0,
             static_friction: 0.0,
         };
@@ -216,9 +219,13 @@ impl Known {
                 contact.name
             ));
         }
-        choice.static_friction = self.values[6].unwrap_or(friction.min);
-        if self.values[6].is_none() && !friction.is_held() {
+        choice.static_friction = self.values[7].unwrap_or(friction.min);
+        if self.values[7].is_none() && !friction.is_held() {
             missing.push("mu_s");
+        }
+        if self.values[0] == Some(0.0) && choice.aim_above <= 0.0 {
+            let message = "the incidence must be above 0 deg where aim_above is not above 0 mm";
+            return Err(message.into());
         }
         if missing.is_empty() {
             return Ok(choice);
@@ -239,12 +246,14 @@ const FASTEST: f64 = 1e4;
 fn parse(setting: Setting, text: &str) -> Result<f64, String> {
     let (dimension, fits): (_, fn(f64) -> bool) = match setting {
         Setting::Incidence => (Dimension::Angle, |x| {
-            x > 0.0 && x <= std::f64::consts::FRAC_PI_2 + 1e-12
+            (0.0..=std::f64::consts::FRAC_PI_2 + 1e-12).contains(&x)
         }),
         Setting::Azimuth => (Dimension::Angle, |_| true),
         Setting::Standoff => (Dimension::Length, |x| x > 0.0 && x <= FARTHEST),
         Setting::Speed => (Dimension::Speed, |x| x > 0.0 && x <= FASTEST),
-        Setting::AimAlong | Setting::AimAcross => (Dimension::Length, |x| x.abs() <= FARTHEST),
+        Setting::AimAlong | Setting::AimAcross | Setting::AimAbove => {
+            (Dimension::Length, |x| x.abs() <= FARTHEST)
+        }
         Setting::StaticFriction => {
             return text
                 .parse()
@@ -258,7 +267,7 @@ fn parse(setting: Setting, text: &str) -> Result<f64, String> {
         Ok(value)
     } else {
         Err(match setting {
-            Setting::Incidence => format!("`{text}` must be above 0 deg and at most 90 deg"),
+            Setting::Incidence => format!("`{text}` must be at least 0 deg and at most 90 deg"),
             Setting::Standoff => format!("`{text}` must be above 0 mm and at most 1 km"),
             Setting::Speed => format!("`{text}` must be above 0 m/s and at most 10000 m/s"),
             _ => format!("`{text}` must be at most 1 km"),
@@ -277,7 +286,7 @@ fn command(args: &EvaluateArgs, setup: &Setup, choice: &Choice) -> String {
         choice.standoff,
         choice.speed,
     );
-    for setting in [Setting::AimAlong, Setting::AimAcross] {
+    for setting in [Setting::AimAlong, Setting::AimAcross, Setting::AimAbove] {
         if setting.of(choice) != 0.0 {
             command += &format!(" --set {}={}m", setting.name(), setting.of(choice));
         }

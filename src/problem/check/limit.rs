@@ -49,6 +49,9 @@ impl Limit {
         FRAC_PI_2 + ROUNDING,
         "an angle above 0 deg, up to 90 deg",
     );
+    /// Of a jet that aims above the target; otherwise its exit would be in it.
+    pub const INCIDENCE_OR_ZERO: Self =
+        to(0.0, FRAC_PI_2 + ROUNDING, "an angle from 0 deg to 90 deg");
     pub const DIVERGENCE: Self = below(0.0, FRAC_PI_2, "a half-angle from 0 deg to below 90 deg");
     pub const ROUGHNESS: Self = to(
         0.0,

@@ -11,7 +11,7 @@ use super::{mesh, shape};
 use crate::problem::fault::Fault;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
-use crate::problem::file::scene::{PartEntry, PlaceEntry};
+use crate::problem::file::scene::{BaseEntry, MoveEntry, PartEntry, PlaceEntry};
 use crate::problem::part::{Part, Place, Shape};
 
 /// The parts of the file by name; `None` for a faulty one.
@@ -27,6 +27,13 @@ impl Scene {
     pub fn sound(&self) -> Option<Vec<Part>> {
         let parts: Option<Vec<Part>> = self.parts.iter().map(|(_, part)| part.clone()).collect();
         parts.filter(|_| self.sound)
+    }
+
+    /// Whether the part of a surface moves with the nozzle.
+    pub fn moves_with_nozzle(&self, surface: &str) -> bool {
+        let part_name = surface.split('.').next().unwrap_or(surface);
+        let mut parts = self.parts.iter().filter_map(|(_, part)| part.as_ref());
+        parts.any(|part| part.on_nozzle && part.name == part_name)
     }
 
     /// What is wrong with `name` as the name of a surface, as far as the file alone can tell: the
@@ -130,9 +137,14 @@ fn part(
     folder: &Path,
 ) -> Option<Part> {
     let place = match &entry.place {
-        Field::Missing => Some(Place::default()),
+        Field::Missing => Some((Place::default(), BaseEntry::Scene)),
         Field::Faulty => None,
-        Field::Present(place) => self::place(&scope.of("place"), place, coordinates),
+        Field::Present(PlaceEntry::AtOrigin(base)) => Some((Place::default(), *base)),
+        Field::Present(PlaceEntry::Moved(entry)) => {
+            let scope = scope.of("place");
+            let place = self::place(&scope, entry, coordinates);
+            place.zip(entry.on.or(BaseEntry::Scene))
+        }
     };
     let given: Vec<&str> = [
         ("keyway", entry.keyway.is_given()),
@@ -197,14 +209,16 @@ fn part(
     if given.len() != 1 {
         return None;
     }
+    let (place, base) = place?;
     Some(Part {
         name: name.to_owned(),
         shape,
-        place: place?,
+        place,
+        on_nozzle: base == BaseEntry::Nozzle,
     })
 }
 
-fn place(scope: &Scope<'_>, entry: &PlaceEntry, coordinates: &Coordinates<'_>) -> Option<Place> {
+fn place(scope: &Scope<'_>, entry: &MoveEntry, coordinates: &Coordinates<'_>) -> Option<Place> {
     let shift = match &entry.at {
         Field::Missing => Some(Vector3::zeros()),
         Field::Faulty => None,

@@ -17,7 +17,13 @@ pub(super) fn check(
     entry: &SettingsEntry,
     contacts: &Contacts,
 ) -> Option<Settings> {
-    let incidence = needed(scope, "incidence", &entry.incidence, Limit::INCIDENCE).map(|range| {
+    let aim_above = shift(scope, "aim_above", &entry.aim_above);
+    let limit = if aim_above.is_some_and(|range| range.min > 0.0) {
+        Limit::INCIDENCE_OR_ZERO
+    } else {
+        Limit::INCIDENCE
+    };
+    let incidence = needed(scope, "incidence", &entry.incidence, limit).map(|range| {
         // 90 deg may come out of the conversion a rounding error too large.
         Range {
             min: range.min.min(FRAC_PI_2),
@@ -47,6 +53,7 @@ pub(super) fn check(
         speed: speed?,
         aim_along: aim_along?,
         aim_across: aim_across?,
+        aim_above: aim_above?,
         contact: contact?,
     })
 }

@@ -3,6 +3,7 @@
 use super::coordinates::{self, Coordinates};
 use super::scene::Scene;
 use super::scope::Scope;
+use crate::problem::fault::Fault;
 use crate::problem::field::Field;
 use crate::problem::file::scene::TargetEntry;
 use crate::problem::part::Target;
@@ -21,15 +22,12 @@ pub(super) fn check(
             &entry.surface,
             "the name of a surface, `part.surface`",
         )
-        .filter(
-            |name| match scene.surface_fault(scope.fault("surface", ""), name) {
-                Some(fault) => {
-                    scope.report(fault);
-                    false
-                }
-                None => true,
-            },
-        );
+        .filter(|name| {
+            let fault = surface_fault(scope.fault("surface", ""), name, scene);
+            let sound = fault.is_none();
+            fault.into_iter().for_each(|fault| scope.report(fault));
+            sound
+        });
     let within = optional(&entry.within, |corners| {
         coordinates.corners(&scope.of("within"), corners, coordinates.unit())
     });
@@ -47,6 +45,15 @@ pub(super) fn check(
         along: along?,
         facing: facing?,
     })
+}
+
+/// What is wrong with a surface as the target.
+fn surface_fault(key: Fault, name: &str, scene: &Scene) -> Option<Fault> {
+    if !scene.moves_with_nozzle(name) {
+        return scene.surface_fault(key, name);
+    }
+    let message = format!("`{}` moves with the nozzle", crate::units::shortened(name));
+    Some(Fault { message, ..key }.expecting("a surface of a part that stands in the scene"))
 }
 
 /// What `check` makes of a key that may be absent; the outer `None` stands for a fault.

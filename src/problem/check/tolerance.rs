@@ -17,6 +17,7 @@ pub(super) fn check(
     let speed = scope.optional("speed", &entry.speed, Limit::BELOW_ALL, 0.0);
     let aim_along = scope.optional("aim_along", &entry.aim_along, Limit::LENGTH_OR_ZERO, 0.0);
     let aim_across = scope.optional("aim_across", &entry.aim_across, Limit::LENGTH_OR_ZERO, 0.0);
+    let aim_above = scope.optional("aim_above", &entry.aim_above, Limit::LENGTH_OR_ZERO, 0.0);
     let restitution = scope.optional("restitution", &entry.restitution, Limit::FRACTION, 0.0);
     let friction = scope.optional("friction", &entry.friction, Limit::BELOW_ALL, 0.0);
     // A faulty half-width is on record; 0 fits anywhere.
@@ -26,6 +27,7 @@ pub(super) fn check(
         standoff: standoff.unwrap_or_default(),
         aim_along: aim_along.unwrap_or_default(),
         aim_across: aim_across.unwrap_or_default(),
+        aim_above: aim_above.unwrap_or_default(),
         speed: speed.unwrap_or_default(),
         ..Tolerance::default()
     };
@@ -36,6 +38,7 @@ pub(super) fn check(
         standoff: standoff?,
         aim_along: aim_along?,
         aim_across: aim_across?,
+        aim_above: aim_above?,
         speed: speed?,
         restitution: restitution?,
         friction: friction?,
@@ -51,6 +54,7 @@ fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
         ("standoff", tolerance.standoff, settings.standoff),
         ("aim_along", tolerance.aim_along, settings.aim_along),
         ("aim_across", tolerance.aim_across, settings.aim_across),
+        ("aim_above", tolerance.aim_above, settings.aim_above),
         (
             "speed",
             tolerance.speed * settings.speed.max,
@@ -77,7 +81,8 @@ fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
         ),
         ("standoff", tolerance.standoff, settings.standoff, "0 mm"),
     ] {
-        if leaves_a_choice(half_width, range) && half_width >= range.min {
+        let may_fall = name == "incidence" && settings.aims_above();
+        if leaves_a_choice(half_width, range) && half_width >= range.min && !may_fall {
             scope.report(
                 scope
                     .fault(name, format!("lets the {name} fall to {reached}"))

@@ -24,7 +24,7 @@ pub(in crate::problem) struct PartEntry {
     pub lengths_in: Field<LengthUnit>,
     /// Named boxes that make surfaces of the triangles whose centre they hold.
     pub regions: Field<Named<BoxEntry>>,
-    /// Where the part stands; at the origin where absent.
+    /// Where the part stands; at the origin of the scene where absent.
     pub place: Field<PlaceEntry>,
 }
 
@@ -126,11 +126,35 @@ pub(in crate::problem) enum End {
     Closed,
 }
 
-/// Where a part stands: turned about its origin, then shifted.
+/// Where a part stands.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "`nozzle`, or `{ on: .., at: .., rotate: .. }`")]
+pub(in crate::problem) enum PlaceEntry {
+    /// At the origin of this frame.
+    #[serde(rename = "scalar")]
+    AtOrigin(BaseEntry),
+    /// Moved in its frame.
+    #[serde(rename = "map")]
+    Moved(MoveEntry),
+}
+
+/// What a part stands on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(in crate::problem) enum BaseEntry {
+    /// The scene.
+    Scene,
+    /// The nozzle; the part moves with it.
+    Nozzle,
+}
+
+/// How a part is moved: turned about its origin, then shifted.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
-pub(in crate::problem) struct PlaceEntry {
-    /// Position of the part's origin in the scene.
+pub(in crate::problem) struct MoveEntry {
+    /// In whose frame; the scene's where absent.
+    pub on: Field<BaseEntry>,
+    /// Position of the part's origin in that frame.
     pub at: Field<Triple>,
     /// Angles about fixed x, then y, then z.
     pub rotate: Field<[Field<Angle>; 3]>,

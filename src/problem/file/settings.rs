@@ -45,6 +45,8 @@ pub(in crate::problem) struct SettingsEntry {
     pub aim_along: Field<OneOrRange<Length>>,
     /// Shift of the aim point across it; held at 0 mm where absent.
     pub aim_across: Field<OneOrRange<Length>>,
+    /// Shift of the aim point away from the target; held at 0 mm where absent.
+    pub aim_above: Field<OneOrRange<Length>>,
     /// Which contacts may be chosen; all of them where absent.
     pub contact: Field<OneOrMany>,
 }
@@ -127,6 +129,8 @@ pub(in crate::problem) struct ToleranceEntry {
     pub aim_along: Field<Length>,
     /// Of the aim point across it.
     pub aim_across: Field<Length>,
+    /// Of the aim point away from the target.
+    pub aim_above: Field<Length>,
     /// Of the coefficient of restitution, absolute.
     pub restitution: Field<f64>,
     /// Of both friction coefficients, relative.

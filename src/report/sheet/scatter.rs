@@ -70,7 +70,11 @@ fn sources(record: &Record) -> Vec<Source> {
     let tolerance = &problem.tolerance;
     // Half-width of a uniform distribution to its standard deviation.
     let uniform = 1.0 / 3.0_f64.sqrt();
-    let cotangent = best.settings.incidence_deg.to_radians().tan().recip();
+    // A jet along the target meets it over a deflector, at an angle that the settings do not tell.
+    let cotangent = match best.settings.incidence_deg {
+        0.0 => 0.0,
+        angle => angle.to_radians().tan().recip(),
+    };
     let restitution = best.contact_values.restitution;
     let mut sources = vec![
         (

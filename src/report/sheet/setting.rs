@@ -21,7 +21,7 @@ pub struct Setting {
 }
 
 /// All settings, in the order of the problem file.
-pub const SETTINGS: [Setting; 6] = [
+pub const SETTINGS: [Setting; 7] = [
     Setting {
         name: "incidence",
         key: "incidence_deg",
@@ -69,6 +69,14 @@ pub const SETTINGS: [Setting; 6] = [
         scale: 1e3,
         decimals: 2,
         of: |settings| settings.aim_across_m,
+    },
+    Setting {
+        name: "aim above",
+        key: "aim_above_m",
+        unit: "mm",
+        scale: 1e3,
+        decimals: 2,
+        of: |settings| settings.aim_above_m,
     },
 ];
 
@@ -124,7 +132,8 @@ impl Setting {
             "standoff_m" => (tolerance.standoff_m * self.scale, self.unit),
             "speed_m_s" => (tolerance.speed * 100.0, "%"),
             "aim_along_m" => (tolerance.aim_along_m * self.scale, self.unit),
-            _ => (tolerance.aim_across_m * self.scale, self.unit),
+            "aim_across_m" => (tolerance.aim_across_m * self.scale, self.unit),
+            _ => (tolerance.aim_above_m * self.scale, self.unit),
         };
         (value > 0.0).then(|| format!("+-{} {unit}", plain(value)))
     }
