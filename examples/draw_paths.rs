@@ -67,7 +67,7 @@ fn fire(setup: &Setup, choice: &Choice, pose: &Pose, shot: &Deviate) -> Shot {
     let mut heading = pose.side * across + pose.up * up + pose.direction * forward;
     let mut corners = vec![pose.exit + pose.side * shot.exit[0] + pose.up * shot.exit[1]];
     let (end, _) = Tracer::new(setup, choice, choice.speed).follow(shot, |impact| {
-        corners.push(impact.point);
+        corners.push(impact.centre);
         heading = impact.velocity.normalize();
     });
     let impacts = corners.len() - 1;

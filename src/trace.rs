@@ -60,8 +60,10 @@ pub struct PathImpact {
     pub tangential_impulse: f64,
     /// Stick or slip.
     pub regime: Regime,
-    /// The place, m.
+    /// The place of contact, m.
     pub point: Point3<f64>,
+    /// Where the centre of the shot is, m.
+    pub centre: Point3<f64>,
     /// Velocity of the centre afterwards, m/s.
     pub velocity: Vector3<f64>,
     /// R w afterwards, m/s, R being the shot's radius.
@@ -154,6 +156,7 @@ impl<'a> Tracer<'a> {
             let Some(hit) = met else {
                 return (End::Left, rays);
             };
+            let centre = hit.point + hit.normal * radius;
             let surface = &setup.surfaces[hit.surface as usize];
             let contact = self.contact_with(hit.surface as usize, deviate);
             let normal = if surface.roughness > 0.0 {
@@ -178,6 +181,7 @@ impl<'a> Tracer<'a> {
                     tangential_impulse: mass * after.tangential,
                     regime: after.regime,
                     point: hit.point,
+                    centre,
                     velocity,
                     rolling,
                 });
@@ -195,7 +199,7 @@ impl<'a> Tracer<'a> {
                 rolling = Vector3::zeros();
             }
             ray = Ray {
-                origin: hit.point + hit.normal * radius,
+                origin: centre,
                 direction: unit(velocity.into()).into(),
             };
             leaving = Some(hit.spot);

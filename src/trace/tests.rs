@@ -44,6 +44,7 @@ fn impact_of(volley: &Volley<f64>, i: usize) -> PathImpact {
             Regime::Slip
         },
         point: vector(&volley.hits.point).into(),
+        centre: vector(&volley.hits.point).into(),
         velocity: vector(&volley.velocity),
         rolling: vector(&volley.rolling),
     }
@@ -76,6 +77,7 @@ fn same_paths_in(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
         let followed = tracer.follow(deviate, |impact| {
             path.push(PathImpact {
                 on_target: false,
+                centre: impact.point,
                 ..*impact
             });
         });
