@@ -158,7 +158,7 @@ fn tables_can_be_read() {
     );
     assert!(numbers(&poses, "error").iter().all(|error| *error > 0.0));
     let searches = RUN.text("search.csv");
-    assert_eq!(numbers(&searches, "seconds").len(), 10);
+    assert_eq!(numbers(&searches, "seconds").len(), 9);
     assert!(
         numbers(&searches, "excess")
             .iter()
@@ -172,8 +172,10 @@ fn tables_can_be_read() {
     assert_eq!(
         column(&effects, "left_out"),
         [
+            "size of the shot in flight",
             "impacts after the first",
             "impacts after the second",
+            "spin between impacts",
             "width of the exit",
             "divergence of the jet",
             "scatter of the speed",

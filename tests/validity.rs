@@ -270,6 +270,21 @@ fn shots_that_stay_in_the_jet_are_not_independent() {
     assert!(stuck.is_finite() && stuck > 1e3, "{stuck}");
 }
 
+#[test]
+fn behind_a_deflector_interference_is_not_estimated() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/deflector.yaml");
+    let (mut setup, _) = Setup::load(&path).unwrap();
+    let choice = setup.problem.settings.middle();
+    let has = |setup: &Setup, name| {
+        validity::notes(setup, &choice, None)
+            .iter()
+            .any(|note| note.name == name)
+    };
+    assert!(!has(&setup, "interference_unknown"));
+    setup.problem.jet.mass_flow = Some(1e-3);
+    assert!(has(&setup, "interference_unknown") && !has(&setup, "interference"));
+}
+
 /// A prism with a regular polygon as its cross-section, open at both ends, as OBJ.
 fn polygon_prism(corners: usize) -> String {
     let mut text = String::new();

@@ -37,6 +37,9 @@ pub(super) fn note(
     evaluation: Option<&Evaluation>,
 ) -> Option<Note> {
     let flow = setup.problem.jet.mass_flow?;
+    if setup.surfaces.iter().any(|surface| surface.deflector) {
+        return Some(unknown_behind_a_deflector());
+    }
     let stream = Stream::new(setup, choice, flow);
     let rebound = mean_rebound(setup, choice)?;
     let passes = passes(evaluation);
@@ -63,6 +66,16 @@ pub(super) fn note(
             flow * 60.0
         ),
     })
+}
+
+/// The estimate is for a jet that meets the target along its axis.
+fn unknown_behind_a_deflector() -> Note {
+    Note {
+        name: "interference_unknown",
+        value: 0.0,
+        text: "whether rebounding shots meet incoming ones is not estimated for a jet that a deflector turns"
+            .into(),
+    }
 }
 
 impl Stream {
