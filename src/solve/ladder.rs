@@ -6,7 +6,7 @@
 
 mod bench;
 
-pub(super) use bench::{common_shots, objective};
+pub(super) use bench::{fewer, objective};
 
 use rayon::prelude::*;
 

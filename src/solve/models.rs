@@ -5,8 +5,9 @@ use rayon::prelude::*;
 use super::accuracy::{is_in_reach, least_objective};
 use super::control::Control;
 use super::judge::Effort;
-use super::ladder::{Ladder, common_shots, objective};
+use super::ladder::{Ladder, fewer, objective};
 use super::search::Search;
+use crate::jet::{Samples, Stream};
 use crate::problem::model::Model;
 use crate::setup::Setup;
 
@@ -76,15 +77,17 @@ impl<'a> Models<'a> {
     /// J of the best candidates on the shots of the search.
     pub fn claims(&self, searches: &[Search], shots: usize) -> Vec<Claim> {
         let is_whole = self.ladder.left_out().is_empty();
-        let samples = (!is_whole).then(|| common_shots(&self.asked, &self.searched, shots));
+        let draw = || Samples::with_rim(&self.asked.problem, Stream::Search, shots).deviates;
+        let whole = if is_whole { Vec::new() } else { draw() };
+        let fewer = fewer(&self.asked, &self.searched, &whole);
         let claim = |search: &Search| {
             let best = search.best();
             let searched = best.standing.objective()?;
-            let Some([whole, fewer]) = &samples else {
+            if is_whole {
                 return Some((searched, searched));
-            };
-            let with = objective(&self.asked, &best.choice, whole);
-            let without = objective(&self.searched, &best.choice, fewer);
+            }
+            let with = objective(&self.asked, &best.choice, &whole);
+            let without = objective(&self.searched, &best.choice, &fewer);
             Some((searched, searched + with - without))
         };
         searches.par_iter().map(claim).collect()

@@ -1,11 +1,12 @@
 //! Where effects are measured: the leading candidates, with and without them, on the same shots.
 
+use std::borrow::Cow;
 use std::hint::black_box;
 use std::time::Instant;
 
 use super::{Rung, SHOTS};
 use crate::evaluate::evaluate;
-use crate::jet::{Replicates, Samples, Stream};
+use crate::jet::{Deviate, Replicates, Samples, Stream};
 use crate::objective::Tally;
 use crate::problem::model::Effect;
 use crate::problem::setting::Choice;
@@ -18,22 +19,33 @@ use crate::solve::search::Search;
 use crate::solve::space::Space;
 use crate::verdict::{Subject, Verdict};
 
-/// The shots of a setup and of a reduced one, with the same weights: what they differ in is the
+/// Shots of a reduced setup with the weights of those of the whole one: what they differ in is the
 /// model alone.
-pub(in crate::solve) fn common_shots(setup: &Setup, reduced: &Setup, count: usize) -> [Samples; 2] {
-    let of = |setup: &Setup| Samples::with_rim(&setup.problem, Stream::Search, count);
-    let (whole, mut fewer) = (of(setup), of(reduced));
-    if fewer.deviates.len() == whole.deviates.len() {
-        for (deviate, with) in fewer.deviates.iter_mut().zip(&whole.deviates) {
-            deviate.weight = with.weight;
+pub(in crate::solve) fn fewer<'a>(
+    setup: &Setup,
+    reduced: &Setup,
+    whole: &'a [Deviate],
+) -> Cow<'a, [Deviate]> {
+    let (with, without) = (&setup.problem, &reduced.problem);
+    let draws_alike = with.jet == without.jet
+        && with.shot == without.shot
+        && Effect::Roughness.is_in(with) == Effect::Roughness.is_in(without)
+        && with.has_one_ray() == without.has_one_ray();
+    if draws_alike {
+        return whole.into();
+    }
+    let mut shots = Samples::with_rim(without, Stream::Search, whole.len()).deviates;
+    if shots.len() == whole.len() {
+        for (shot, with) in shots.iter_mut().zip(whole) {
+            shot.weight = with.weight;
         }
     }
-    [whole, fewer]
+    shots.into()
 }
 
 /// J at a choice.
-pub(in crate::solve) fn objective(setup: &Setup, choice: &Choice, samples: &Samples) -> f64 {
-    let tally = Tally::trace(setup, choice, choice.speed, &samples.deviates);
+pub(in crate::solve) fn objective(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> f64 {
+    let tally = Tally::trace(setup, choice, choice.speed, shots);
     tally.terms(&setup.problem.goals, choice.speed).total()
 }
 
@@ -42,6 +54,8 @@ pub(super) struct Bench<'a> {
     pub(super) setup: &'a Setup,
     /// The best choice of every contact that could win, the best one first.
     leading: Vec<Choice>,
+    /// Shots of the whole model.
+    shots: Vec<Deviate>,
     /// J of the whole model there.
     whole: Vec<f64>,
     effort: &'a Effort,
@@ -66,12 +80,13 @@ impl<'a> Bench<'a> {
         leading.sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
         let leading: Vec<Choice> = leading.into_iter().map(|best| best.choice).collect();
         leading.first()?;
-        let samples = Samples::with_rim(&setup.problem, Stream::Search, SHOTS);
+        let shots = Samples::with_rim(&setup.problem, Stream::Search, SHOTS).deviates;
         let whole = leading
             .iter()
-            .map(|choice| objective(setup, choice, &samples))
+            .map(|choice| objective(setup, choice, &shots))
             .collect();
         Some(Self {
+            shots,
             setup,
             leading,
             whole,
@@ -86,10 +101,10 @@ impl<'a> Bench<'a> {
 
     /// Changes of J, relative, at every leading choice.
     fn changes(&self, reduced: &Setup) -> Vec<f64> {
-        let [_, samples] = common_shots(self.setup, reduced, SHOTS);
+        let shots = fewer(self.setup, reduced, &self.shots);
         let pairs = self.leading.iter().zip(&self.whole);
         let change = |(choice, whole): (&Choice, &f64)| {
-            relative(objective(reduced, choice, &samples) - whole, *whole)
+            relative(objective(reduced, choice, &shots) - whole, *whole)
         };
         pairs.map(change).collect()
     }
@@ -102,9 +117,9 @@ impl<'a> Bench<'a> {
     }
 
     /// The best settings of a setup near the first leading choice.
-    fn descend(&self, setup: &Setup, samples: &Samples) -> Choice {
+    fn descend(&self, setup: &Setup, shots: &[Deviate]) -> Choice {
         let choice = &self.leading[0];
-        let judge = Judge::new(setup, &samples.deviates, self.effort, self.control.stop);
+        let judge = Judge::new(setup, shots, self.effort, self.control.stop);
         let search_speed = !speed_scales_out(setup, choice.contact);
         let space = Space::new(&setup.problem, choice.contact, search_speed);
         let start = Candidate::at(&space, &judge, &space.point(choice));
@@ -112,25 +127,30 @@ impl<'a> Bench<'a> {
         polish(&space, &judge, start, DESCENT_SIZE, settled).choice
     }
 
+    /// Shots for descents.
+    fn few_shots(&self) -> &[Deviate] {
+        &self.shots[..DESCENT_SHOTS.min(self.shots.len())]
+    }
+
     /// The whole model at the first leading choice.
     pub(super) fn start(&self) -> Start {
-        let samples = Samples::with_rim(&self.setup.problem, Stream::Search, DESCENT_SHOTS);
         let verdicts = passes(self.setup, &self.leading[0]).into_iter();
         Start {
             passes: verdicts.map(|(_, pass)| pass).collect(),
-            best: self.descend(self.setup, &samples),
+            best: self.descend(self.setup, self.few_shots()),
         }
     }
 
     pub(super) fn rung(&self, effect: Effect, start: &Start) -> Rung {
         let reduced = self.reduced(&[effect]);
         let changes = self.changes(&reduced);
-        let [whole, fewer] = common_shots(self.setup, &reduced, DESCENT_SHOTS);
+        let whole = self.few_shots();
+        let fewer = fewer(self.setup, &reduced, whole);
         let best_with = start.best;
         // An effect that does nothing here may be the cliff that the best settings keep away from.
         let best_without = self.descend(&reduced, &fewer);
         let [without, with] =
-            [&best_without, &best_with].map(|choice| objective(self.setup, choice, &whole));
+            [&best_without, &best_with].map(|choice| objective(self.setup, choice, whole));
         let before = start.passes.iter();
         let turned = passes(&reduced, &self.leading[0])
             .into_iter()
@@ -153,16 +173,17 @@ impl<'a> Bench<'a> {
     /// Time for a pose without some effects over time with all.
     pub(super) fn relative_time(&self, left_out: &[Effect]) -> f64 {
         let reduced = self.reduced(left_out);
-        let [whole, fewer] = common_shots(self.setup, &reduced, DESCENT_SHOTS);
-        let time = |setup: &Setup, samples: &Samples| {
+        let whole = self.few_shots();
+        let fewer = fewer(self.setup, &reduced, whole);
+        let time = |setup: &Setup, shots: &[Deviate]| {
             let started = Instant::now();
-            black_box(objective(setup, &self.leading[0], samples));
+            black_box(objective(setup, &self.leading[0], shots));
             started.elapsed().as_secs_f64()
         };
         let mut least = [f64::INFINITY; 2];
         for _ in 0..TIMED_TURNS {
             least[0] = time(&reduced, &fewer).min(least[0]);
-            least[1] = time(self.setup, &whole).min(least[1]);
+            least[1] = time(self.setup, whole).min(least[1]);
         }
         least[0] / least[1]
     }
@@ -176,14 +197,14 @@ pub(super) struct Start {
     best: Choice,
 }
 
-const DESCENT_SHOTS: usize = 256;
+const DESCENT_SHOTS: usize = 128;
 /// Longest edge of the first simplex of a descent, as a share of each range.
 const DESCENT_SIZE: f64 = 0.1;
 /// A descent ends when J differs by less than this share of the accuracy.
 const DESCENT_SETTLED: f64 = 0.3;
 /// What shots for verdicts are drawn for.
 const VERDICTS: u32 = 3;
-const TIMED_TURNS: usize = 5;
+const TIMED_TURNS: usize = 3;
 
 /// Whether each verdict on a choice passes.
 fn passes(setup: &Setup, choice: &Choice) -> Vec<(Subject, bool)> {
