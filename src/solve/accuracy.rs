@@ -65,7 +65,7 @@ pub(super) fn unsettled(
 }
 
 /// J of shots whose impulses are what is wanted but for rounding.
-fn rounding_of_objective(goals: &Goals) -> f64 {
+pub(super) fn rounding_of_objective(goals: &Goals) -> f64 {
     let tangential = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
     goals.normal_impulse.weight.max(tangential) * ROUNDING * ROUNDING
 }

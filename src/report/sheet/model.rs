@@ -46,7 +46,11 @@ fn description(name: &str) -> String {
     Effect::named(name).map_or_else(|| name.into(), |effect| effect.description().into())
 }
 
-/// A relative change with its sign, in percent.
+/// From here on a change is told as a factor, and from there on not exactly.
+const MANY: f64 = 10.0;
+const MOST: f64 = 1e6;
+
+/// A relative change with its sign, in percent, or as a factor.
 fn change(change: f64) -> String {
     if change == 0.0 {
         return "0".into();
@@ -55,6 +59,12 @@ fn change(change: f64) -> String {
     let size = change.abs() * 100.0;
     if size < 0.01 {
         return format!("{sign}<0.01 %");
+    }
+    if change >= MOST {
+        return "x >1e6".into();
+    }
+    if change >= MANY {
+        return format!("x {}", significant(1.0 + change, 2));
     }
     format!("{sign}{} %", significant(size, 2))
 }

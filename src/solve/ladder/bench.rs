@@ -11,7 +11,7 @@ use crate::objective::Tally;
 use crate::problem::model::Effect;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
-use crate::solve::accuracy::{is_in_reach, least_objective};
+use crate::solve::accuracy::{is_in_reach, least_objective, rounding_of_objective};
 use crate::solve::control::Control;
 use crate::solve::judge::{Effort, Judge, speed_scales_out};
 use crate::solve::polish::{Candidate, polish};
@@ -104,7 +104,7 @@ impl<'a> Bench<'a> {
         let shots = fewer(self.setup, reduced, &self.shots);
         let pairs = self.leading.iter().zip(&self.whole);
         let change = |(choice, whole): (&Choice, &f64)| {
-            relative(objective(reduced, choice, &shots) - whole, *whole)
+            self.relative(objective(reduced, choice, &shots) - whole, *whole)
         };
         pairs.map(change).collect()
     }
@@ -125,6 +125,16 @@ impl<'a> Bench<'a> {
         let start = Candidate::at(&space, &judge, &space.point(choice));
         let settled = DESCENT_SETTLED * setup.problem.accuracy;
         polish(&space, &judge, start, DESCENT_SIZE, settled).choice
+    }
+
+    /// A difference of J relative to J; none where it is within rounding.
+    fn relative(&self, difference: f64, objective: f64) -> f64 {
+        let rounding = rounding_of_objective(&self.setup.problem.goals);
+        if difference.abs() <= rounding {
+            0.0
+        } else {
+            difference / objective.max(rounding)
+        }
     }
 
     /// Shots for descents.
@@ -164,7 +174,7 @@ impl<'a> Bench<'a> {
             turned: turned.collect(),
             best_without,
             best_with,
-            regret: relative(without - with, with).max(0.0),
+            regret: self.relative(without - with, with).max(0.0),
             relative_time: 1.0,
             left_out: false,
         }
@@ -212,13 +222,4 @@ fn passes(setup: &Setup, choice: &Choice) -> Vec<(Subject, bool)> {
     let verdicts = Verdict::all(setup, &evaluate(setup, choice, &fresh));
     let verdict = |verdict: &Verdict| (verdict.subject, verdict.passes());
     verdicts.iter().map(verdict).collect()
-}
-
-/// A difference relative to a value, 0 for none.
-fn relative(difference: f64, value: f64) -> f64 {
-    if difference == 0.0 {
-        0.0
-    } else {
-        difference / value.max(f64::MIN_POSITIVE)
-    }
 }
