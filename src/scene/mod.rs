@@ -222,28 +222,16 @@ impl Scene {
             }
         }
         let lift = R::of(LIFT * SLACK * R::COARSENESS * self.size);
-        for i in 0..count {
-            let side = if hits.spots.front[i] { R::ONE } else { -R::ONE };
-            let normal = scaled(components(&hits.normal, i), side);
-            let normal = if rays.are_spheres {
-                unit(normal)
-            } else {
-                normal
-            };
-            let (origin, direction) = (components(&rays.origin, i), components(&rays.direction, i));
-            let above = if rays.are_spheres {
-                -rays.radius[i]
-            } else {
-                lift
-            };
-            let point = along(along(origin, direction, hits.distance[i]), normal, above);
-            put(&mut hits.normal, i, normal);
-            put(&mut hits.point, i, point);
+        if rays.are_spheres {
+            place::<R, true>(rays, hits, lift);
+        } else {
+            place::<R, false>(rays, hits, lift);
         }
     }
 
     /// Distance between the nozzle's body and the nearest surface of the parts that stand in the
-    /// scene, and that surface; negative when they overlap. `None` for a nozzle without a body, or when everything is farther than `limit`.
+    /// scene, and that surface; negative when they overlap. `None` for a nozzle without a body, or
+    /// when everything is farther than `limit`.
     pub fn clearance(
         &self,
         nozzle: &Nozzle,
@@ -349,6 +337,24 @@ fn longest_side(geometries: &[Geometry]) -> f64 {
         .filter_map(|geometry| geometry.mesh.bounds());
     let all = bounds.reduce(|(low, high), (a, b)| (low.inf(&a), high.sup(&b)));
     all.map_or(0.0, |(low, high)| (high - low).max())
+}
+
+/// Turns normals to the side that the rays come from, and finds the places of contact.
+#[inline(always)]
+fn place<R: Real, const BALLS: bool>(rays: &Rays<R>, hits: &mut Hits<R>, lift: R) {
+    for i in 0..padded(rays.count) {
+        let side = if hits.spots.front[i] { R::ONE } else { -R::ONE };
+        let mut normal = scaled(components(&hits.normal, i), side);
+        let mut above = lift;
+        if BALLS {
+            normal = unit(normal);
+            above = -rays.radius[i];
+        }
+        let (origin, direction) = (components(&rays.origin, i), components(&rays.direction, i));
+        let point = along(along(origin, direction, hits.distance[i]), normal, above);
+        put(&mut hits.normal, i, normal);
+        put(&mut hits.point, i, point);
+    }
 }
 
 fn farthest_coordinate(geometries: &[Geometry]) -> f64 {

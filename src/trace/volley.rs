@@ -326,13 +326,13 @@ impl<R: Real> Volley<R> {
         }
         self.rays.count = count;
         let kept = &kept[..count];
-        for vectors in [
-            &mut self.velocity,
-            &mut self.rolling,
-            &mut self.hits.point,
-            &mut self.hits.normal,
-        ] {
+        for vectors in [&mut self.velocity, &mut self.rolling, &mut self.hits.point] {
             vectors.iter_mut().for_each(|lane| keep(lane, kept));
+        }
+        if self.rays.are_spheres {
+            let normals = self.hits.normal.iter_mut();
+            normals.for_each(|lane| keep(lane, kept));
+            keep(&mut self.rays.radius, kept);
         }
         for lane in [
             &mut self.number,
@@ -342,7 +342,6 @@ impl<R: Real> Volley<R> {
             &mut self.restitution,
             &mut self.holds,
             &mut self.slides,
-            &mut self.rays.radius,
         ] {
             keep(lane, kept);
         }

@@ -83,7 +83,7 @@ impl Prism {
         if self.moved {
             best.normal = self.turned(&best.normal, rays.count, false);
         }
-        self.record(part, rays.count, &best, hits);
+        self.record(part, rays, &best, hits);
     }
 
     #[inline(always)]
@@ -165,7 +165,8 @@ impl Prism {
     }
 
     #[inline(always)]
-    fn record<R: Real>(&self, part: u32, count: usize, best: &Best<R>, hits: &mut Hits<R>) {
+    fn record<R: Real>(&self, part: u32, rays: &Rays<R>, best: &Best<R>, hits: &mut Hits<R>) {
+        let count = rays.count;
         for i in 0..padded(count) {
             let met = best.code[i] >= R::ZERO;
             let old = components(&hits.normal, i);
@@ -190,8 +191,13 @@ impl Prism {
         }
         for i in 0..count {
             if spots.part[i] == part {
-                let normal = [best.normal[0][i].wide(), best.normal[1][i].wide()];
-                hits.surface[i] = self.surface_touched(spots.piece[i], normal);
+                let piece = spots.piece[i];
+                hits.surface[i] = if rays.are_spheres {
+                    let normal = [best.normal[0][i].wide(), best.normal[1][i].wide()];
+                    self.surface_touched(piece, normal)
+                } else {
+                    self.surfaces[piece as usize]
+                };
             }
         }
     }
