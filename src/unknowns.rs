@@ -26,7 +26,7 @@ pub enum Quantity {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknowns {
     /// With both at their nominal values.
-    pub nominal: Effect,
+    pub nominal: Outcome,
     /// One for each that has a tolerance.
     pub ranges: Vec<UnknownRange>,
 }
@@ -37,12 +37,12 @@ pub struct UnknownRange {
     /// Which one.
     pub quantity: Quantity,
     /// Restitution or static friction at the target at the ends and what that does, low end first.
-    pub ends: [(f64, Effect); 2],
+    pub ends: [(f64, Outcome); 2],
 }
 
 /// What an answer does with one contact for all shots.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Effect {
+pub struct Outcome {
     /// J.
     pub objective: f64,
     /// Mean angle between path and surface after first hits on target, rad; `None` without any.
@@ -72,7 +72,7 @@ impl Unknowns {
         }
         let shots = common_shots(setup);
         let effect = |quantity: Quantity, change: f64| {
-            Effect::of(setup, choice, &with(&shots, quantity, change))
+            Outcome::of(setup, choice, &with(&shots, quantity, change))
         };
         let ranges = given
             .into_iter()
@@ -135,7 +135,7 @@ fn with(shots: &Replicates, quantity: Quantity, change: f64) -> Replicates {
     shots
 }
 
-impl Effect {
+impl Outcome {
     fn of(setup: &Setup, choice: &Choice, shots: &Replicates) -> Self {
         let evaluation = evaluate(setup, choice, shots);
         let shares = Verdict::all(setup, &evaluation)

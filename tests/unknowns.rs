@@ -75,7 +75,7 @@ fn rebound_angle(incidence: f64, restitution: f64, friction: f64) -> f64 {
     (restitution * normal).atan2(tangential).to_degrees()
 }
 
-fn degrees(effect: &peenpose::unknowns::Effect) -> f64 {
+fn degrees(effect: &peenpose::unknowns::Outcome) -> f64 {
     effect.rebound_angle.unwrap().to_degrees()
 }
 

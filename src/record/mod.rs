@@ -14,7 +14,9 @@ pub use answer::{
 };
 pub use model::{ModelRecord, RungRecord};
 pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
-pub use unknowns::{EffectRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord};
+pub use unknowns::{
+    OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,
+};
 pub use window::{DriftRecord, WindowRecord};
 
 use serde::{Deserialize, Serialize};

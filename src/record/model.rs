@@ -25,6 +25,8 @@ pub struct ModelRecord {
 pub struct RungRecord {
     /// Its name.
     pub effect: String,
+    /// What it is, for people.
+    pub description: String,
     /// Change of J without it at the leading settings, relative.
     pub change: f64,
     /// The largest such change over the leading settings of all contacts.
@@ -69,6 +71,7 @@ impl RungRecord {
         let turned = rung.turned.iter();
         Self {
             effect: rung.effect.name().into(),
+            description: rung.effect.description().into(),
             change: rung.change,
             largest_change: rung.largest_change,
             turned: turned

@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 use super::answer::subject_name;
 use crate::setup::Setup;
 use crate::units::degrees;
-use crate::unknowns::{Effect, Quantity, UnknownRange, Unknowns};
+use crate::unknowns::{Outcome, Quantity, UnknownRange, Unknowns};
 
 /// See [`Unknowns`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnknownsRecord {
     /// With both at their nominal values.
-    pub nominal: EffectRecord,
+    pub nominal: OutcomeRecord,
     /// One for each that has a tolerance.
     pub ranges: Vec<UnknownRangeRecord>,
 }
@@ -24,11 +24,11 @@ pub struct UnknownRangeRecord {
     /// Restitution, or static friction, at the target.
     pub low: f64,
     /// What that does.
-    pub at_low: EffectRecord,
+    pub at_low: OutcomeRecord,
     /// Restitution, or static friction, at the target.
     pub high: f64,
     /// What that does.
-    pub at_high: EffectRecord,
+    pub at_high: OutcomeRecord,
 }
 
 /// See [`Quantity`].
@@ -41,9 +41,9 @@ pub enum QuantityRecord {
     Friction,
 }
 
-/// See [`Effect`].
+/// See [`Outcome`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EffectRecord {
+pub struct OutcomeRecord {
     /// J.
     pub objective: f64,
     /// Mean angle between path and surface after first hits on target, deg; absent without any.
@@ -68,7 +68,7 @@ impl UnknownsRecord {
     /// The record of what was evaluated.
     pub fn new(setup: &Setup, unknowns: &Unknowns) -> Self {
         Self {
-            nominal: EffectRecord::new(setup, &unknowns.nominal),
+            nominal: OutcomeRecord::new(setup, &unknowns.nominal),
             ranges: unknowns
                 .ranges
                 .iter()
@@ -87,15 +87,15 @@ impl UnknownRangeRecord {
                 Quantity::Friction => QuantityRecord::Friction,
             },
             low: *low,
-            at_low: EffectRecord::new(setup, at_low),
+            at_low: OutcomeRecord::new(setup, at_low),
             high: *high,
-            at_high: EffectRecord::new(setup, at_high),
+            at_high: OutcomeRecord::new(setup, at_high),
         }
     }
 }
 
-impl EffectRecord {
-    fn new(setup: &Setup, effect: &Effect) -> Self {
+impl OutcomeRecord {
+    fn new(setup: &Setup, effect: &Outcome) -> Self {
         Self {
             objective: effect.objective,
             rebound_angle_deg: effect.rebound_angle.map(degrees),

@@ -1,7 +1,6 @@
 //! What each effect of the model does here, and what the search did without.
 
 use super::setting::SETTINGS;
-use crate::problem::model::Effect;
 use crate::record::{ModelRecord, Record, RungRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{fixed, significant};
@@ -23,7 +22,7 @@ pub fn block(record: &Record) -> Option<Block> {
     ]);
     for effect in &model.effects {
         table.row([
-            description(&effect.effect),
+            effect.description.clone(),
             change(effect.change),
             moves(effect),
             if effect.regret > 0.0 {
@@ -40,10 +39,6 @@ pub fn block(record: &Record) -> Option<Block> {
     block.table(&table.without_empty_columns());
     block.paragraph(&sentence(model));
     Some(block)
-}
-
-fn description(name: &str) -> String {
-    Effect::named(name).map_or_else(|| name.into(), |effect| effect.description().into())
 }
 
 /// From here on a change is told as a factor, and from there on not exactly.
@@ -106,11 +101,8 @@ fn turns(effect: &RungRecord) -> String {
 }
 
 fn sentence(model: &ModelRecord) -> String {
-    let left_out: Vec<String> = model
-        .searched_without
-        .iter()
-        .map(|name| description(name))
-        .collect();
+    let left_out = model.effects.iter().filter(|effect| effect.left_out);
+    let left_out: Vec<&str> = left_out.map(|e| e.description.as_str()).collect();
     let is_auto = model.asked.iter().any(|asked| asked == "auto");
     let what = if left_out.is_empty() {
         "Every effect matters here: none was left out".to_owned()

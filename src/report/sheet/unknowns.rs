@@ -1,7 +1,7 @@
 //! Restitution and friction at the ends of their ranges: which of them moves the result most.
 
 use crate::record::{
-    EffectRecord, QuantityRecord, Record, UnknownRangeRecord, UnknownsRecord, VerdictRecord,
+    OutcomeRecord, QuantityRecord, Record, UnknownRangeRecord, UnknownsRecord, VerdictRecord,
 };
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{decimals_for, fixed, impulse, plain, share, significant};
@@ -21,7 +21,7 @@ pub fn block(record: &Record) -> Option<Block> {
     ]);
     let verdicts = &record.best.verdicts;
     let decimals = decimals_for(largest_objective(unknowns), 4);
-    let mut row = |label: String, effect: &EffectRecord| {
+    let mut row = |label: String, effect: &OutcomeRecord| {
         table.row([
             label,
             effect
@@ -61,7 +61,7 @@ fn largest_objective(unknowns: &UnknownsRecord) -> f64 {
 }
 
 /// The goal that uses most of what it may.
-fn nearest_to_failing(effect: &EffectRecord, verdicts: &[VerdictRecord]) -> String {
+fn nearest_to_failing(effect: &OutcomeRecord, verdicts: &[VerdictRecord]) -> String {
     let allowed = |subject: &str| {
         let verdict = verdicts.iter().find(|verdict| verdict.subject == subject);
         verdict.map_or(0.0, |verdict| verdict.allowed)
@@ -88,7 +88,7 @@ const fn name(quantity: QuantityRecord) -> &'static str {
 }
 
 /// By how much J differs over the range.
-fn movement(range: &UnknownRangeRecord, nominal: &EffectRecord) -> f64 {
+fn movement(range: &UnknownRangeRecord, nominal: &OutcomeRecord) -> f64 {
     let all = [&range.at_low, nominal, &range.at_high].map(|effect| effect.objective);
     let (low, high) = all
         .into_iter()
