@@ -83,7 +83,7 @@ impl Prism {
         if self.moved {
             best.normal = self.turned(&best.normal, rays.count, false);
         }
-        self.record(part, rays, &best, hits);
+        self.record(part, rays.count, &best, hits);
     }
 
     #[inline(always)]
@@ -165,8 +165,7 @@ impl Prism {
     }
 
     #[inline(always)]
-    fn record<R: Real>(&self, part: u32, rays: &Rays<R>, best: &Best<R>, hits: &mut Hits<R>) {
-        let count = rays.count;
+    fn record<R: Real>(&self, part: u32, count: usize, best: &Best<R>, hits: &mut Hits<R>) {
         for i in 0..padded(count) {
             let met = best.code[i] >= R::ZERO;
             let old = components(&hits.normal, i);
@@ -189,14 +188,15 @@ impl Prism {
             spots.piece[i] = if met { piece } else { spots.piece[i] };
             spots.front[i] = if met { front } else { spots.front[i] };
         }
+        let first_edge = self.first_edge();
         for i in 0..count {
             if spots.part[i] == part {
                 let piece = spots.piece[i];
-                hits.surface[i] = if rays.are_spheres {
+                hits.surface[i] = if piece < first_edge {
+                    self.surfaces[piece as usize]
+                } else {
                     let normal = [best.normal[0][i].wide(), best.normal[1][i].wide()];
                     self.surface_touched(piece, normal)
-                } else {
-                    self.surfaces[piece as usize]
                 };
             }
         }

@@ -56,6 +56,7 @@ impl Prism {
     }
 
     /// Index of the first edge; walls and caps come before, rims behind.
+    #[inline(always)]
     pub(super) fn first_edge(&self) -> u32 {
         (self.walls.len() + self.caps.len()) as u32
     }
