@@ -131,10 +131,7 @@ impl Facets {
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
-        let start = Start {
-            piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
-            front: leaving.map(|spot| spot.front),
-        };
+        let start = Start::of(leaving, on_this_part);
         let Nearest {
             t, front, index, ..
         } = self.nearest(ray, &start, limit)?;

@@ -12,6 +12,7 @@ use crate::precision::Real;
 pub(super) use cylinder::Cylinder;
 pub(super) use edge::Edge;
 pub(super) use plane::Plane;
+pub(super) use touch::SLIDES;
 
 /// The surface that one piece of a cross-section becomes.
 #[derive(Clone, Copy, Debug)]

@@ -271,7 +271,8 @@ impl Scene {
         })
     }
 
-    /// The point of a surface that stands in the scene nearest to a given point, and the unit normal there towards free space:
+    /// The point of a surface that stands in the scene nearest to a given point, and the unit
+    /// normal there towards free space:
     /// on the front, or for an open mesh, whose winding tells nothing, on the side that is more
     /// enclosed.
     pub fn nearest_on_surface(

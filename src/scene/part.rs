@@ -147,10 +147,10 @@ impl BuiltPart {
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
-        if radius > 0.0 {
-            self.first_touch(ray, radius, leaving, on_this_part, limit)
-        } else {
-            self.first_crossing(ray, leaving, on_this_part, limit)
+        match &self.prism {
+            _ if radius <= 0.0 => self.first_crossing(ray, leaving, on_this_part, limit),
+            Some(prism) => prism.first_touch(ray, radius, leaving, on_this_part, limit),
+            None => self.touch_facets(ray, radius, leaving, on_this_part, limit),
         }
     }
 
@@ -168,23 +168,6 @@ impl BuiltPart {
             None => self
                 .facets
                 .first_crossing(ray, leaving, on_this_part, limit),
-        }
-    }
-
-    /// The first contact of a shot of some radius, nearer than `limit`, and the unit normal on the
-    /// front there.
-    #[inline]
-    fn first_touch(
-        &self,
-        ray: &Ray,
-        radius: f64,
-        leaving: Option<Spot>,
-        on_this_part: bool,
-        limit: f64,
-    ) -> Option<(Crossing, Vector3<f64>)> {
-        match &self.prism {
-            Some(prism) => prism.first_touch(ray, radius, leaving, on_this_part, limit),
-            None => self.touch_facets(ray, radius, leaving, on_this_part, limit),
         }
     }
 

@@ -96,10 +96,7 @@ impl Prism {
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
         let local = self.to_own_frame(ray);
-        let start = Start {
-            piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
-            front: leaving.map(|spot| spot.front),
-        };
+        let start = Start::of(leaving, on_this_part);
         let mut nearest = Nearest::within(limit);
         for (piece, wall) in (0..).zip(&self.walls) {
             let flight = Flight {

@@ -1,5 +1,7 @@
 //! Where a ray starts, and what follows for the surfaces there.
 
+use super::ray::Spot;
+
 /// Where a ray starts, and what it therefore must not hit.
 ///
 /// In a corner the start of a rebound lies on more than one wall, and rounding may put it on
@@ -13,6 +15,15 @@ pub(super) struct Start {
 }
 
 impl Start {
+    /// Of a ray that leaves a spot, if any, on the part that is asked or on another.
+    #[inline]
+    pub fn of(leaving: Option<Spot>, on_this_part: bool) -> Self {
+        Self {
+            piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
+            front: leaving.map(|spot| spot.front),
+        }
+    }
+
     /// Whether a wall that shows this side is one that the shot can reach without passing through
     /// another, as far as is known.
     #[inline]

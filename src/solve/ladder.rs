@@ -74,10 +74,11 @@ impl Ladder {
         left_out.map(|rung| rung.effect).collect()
     }
 
-    /// Measures what each effect does at the best candidates, and leaves out what does not matter.
+    /// Measures what some effects of a setup do at the best candidates.
     pub(super) fn climb(
         &mut self,
         setup: &Setup,
+        effects: &[Effect],
         searches: &[Search],
         effort: &Effort,
         control: &Control,
@@ -85,14 +86,13 @@ impl Ladder {
         let Some(bench) = Bench::new(setup, searches, effort, control) else {
             return;
         };
-        let effects = setup.problem.effects();
         let start = bench.start();
         self.rungs = effects
             .par_iter()
             .map(|&effect| bench.rung(effect, &start))
             .collect();
         for rung in &mut self.rungs {
-            rung.relative_time = bench.relative_time(&[rung.effect]);
+            rung.relative_time = bench.relative_time(rung.effect);
         }
         if self.model == Model::Auto {
             self.leave_out(&bench);
@@ -115,9 +115,8 @@ impl Ladder {
         }
     }
 
-    /// Marks what the problem file itself leaves out.
-    pub(super) fn mark(&mut self, left_out: &[Effect]) {
-        self.rungs.retain(|rung| left_out.contains(&rung.effect));
+    /// Marks all that was measured as left out.
+    pub(super) fn leave_out_all(&mut self) {
         for rung in &mut self.rungs {
             rung.left_out = true;
         }

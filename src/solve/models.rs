@@ -36,7 +36,9 @@ impl<'a> Models<'a> {
     /// Finds out which effects matter at the best candidates, where that is left to the program.
     pub fn climb(&mut self, searches: &mut [Search], effort: &Effort, control: &Control) {
         if self.whole.problem.model == Model::Auto {
-            self.ladder.climb(&self.asked, searches, effort, control);
+            let effects = self.asked.problem.effects();
+            self.ladder
+                .climb(&self.asked, &effects, searches, effort, control);
             self.reduce(searches);
         }
     }
@@ -45,8 +47,9 @@ impl<'a> Models<'a> {
     pub fn measure_unasked(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
         let unasked = self.whole.unasked();
         if !unasked.is_empty() {
-            self.ladder.climb(self.whole, searches, effort, control);
-            self.ladder.mark(&unasked);
+            self.ladder
+                .climb(self.whole, &unasked, searches, effort, control);
+            self.ladder.leave_out_all();
         }
     }
 

@@ -11,7 +11,7 @@ use super::{Cylinder, Edge, Extent, Flight, Meeting, Plane, chosen, dot, minus};
 use crate::precision::Real;
 
 /// Cosine of the angle to the normal below which a shot that touches a surface slides along it.
-const SLIDES: f64 = 1e-12;
+pub(in crate::scene) const SLIDES: f64 = 1e-12;
 
 /// A line in the cross-section that passes a circle round the origin.
 struct Passage<R> {

@@ -4,12 +4,10 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{Nearest, Prism};
-use crate::scene::form::{Flight, Meeting, Wall};
+use crate::scene::form::{Flight, Meeting, SLIDES, Wall};
 use crate::scene::ray::{Crossing, Ray, Spot};
 use crate::scene::start::Start;
 
-/// Cosine of the angle to the normal below which a shot that touches a surface slides along it.
-const SLIDES: f64 = 1e-12;
 /// Steps along a ray towards a rim; each covers the distance that is free for certain.
 const MOST_STEPS: usize = 256;
 
@@ -25,10 +23,7 @@ impl Prism {
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
         let local = self.to_own_frame(ray);
-        let start = Start {
-            piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
-            front: leaving.map(|spot| spot.front),
-        };
+        let start = Start::of(leaving, on_this_part);
         let flight = |piece: u32| Flight {
             origin: local.origin.into(),
             direction: local.direction.into(),

@@ -180,9 +180,9 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Time for a pose without some effects over time with all.
-    pub(super) fn relative_time(&self, left_out: &[Effect]) -> f64 {
-        let reduced = self.reduced(left_out);
+    /// Time for a pose without an effect over time with all.
+    pub(super) fn relative_time(&self, effect: Effect) -> f64 {
+        let reduced = self.reduced(&[effect]);
         let whole = self.few_shots();
         let fewer = fewer(self.setup, &reduced, whole);
         let time = |setup: &Setup, shots: &[Deviate]| {
