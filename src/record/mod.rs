@@ -3,6 +3,7 @@
 //! Angles are in degrees, everything else is SI, and every key ends with its unit.
 
 mod answer;
+mod evidence;
 mod model;
 mod question;
 mod unknowns;
@@ -11,6 +12,10 @@ mod window;
 pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
     SpreadRecord, TargetRecord, VerdictRecord,
+};
+pub use evidence::{
+    AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
+    PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
 pub use model::{ModelRecord, RungRecord};
 pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
@@ -48,6 +53,9 @@ pub struct Record {
     /// What restitution and friction do at the ends of their ranges; absent where they are known.
     #[serde(default)]
     pub unknowns: Option<UnknownsRecord>,
+    /// What pictures are drawn from; absent where none were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<EvidenceRecord>,
     /// Work done.
     pub work: WorkRecord,
     /// Checksum of the problem file.
@@ -159,6 +167,7 @@ impl Record {
             model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
+            evidence: None,
             work: circumstances.work,
             problem_sha256: circumstances.source.sha256.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
