@@ -61,6 +61,7 @@ fn the_keyway_is_read_in_si() {
             radius: 0.0005,
             density: 7000.0,
             size_spread: 0.0,
+            medium: None,
         }
     );
     assert_eq!(
@@ -318,7 +319,8 @@ fn every_other_key_is_read() {
         Shot {
             radius: 250e-6,
             density: 7800.0,
-            size_spread: 0.04
+            size_spread: 0.04,
+            medium: None,
         }
     );
     assert_eq!(problem.jet.spread, Spread::Gaussian);

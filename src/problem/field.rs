@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::marker::PhantomData;
+use std::ops::Deref;
 
 use serde::de::{Deserialize, Deserializer, Visitor};
 
@@ -40,6 +41,25 @@ impl<T: Clone> Field<T> {
             Self::Missing => Some(default),
             Self::Faulty => None,
         }
+    }
+}
+
+/// The value of a key that must be there: the check asks for it, and so does the schema.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(transparent, bound = "T: Deserialize<'de>")]
+pub(super) struct Needed<T>(Field<T>);
+
+impl<T> Default for Needed<T> {
+    fn default() -> Self {
+        Self(Field::Missing)
+    }
+}
+
+impl<T> Deref for Needed<T> {
+    type Target = Field<T>;
+
+    fn deref(&self) -> &Field<T> {
+        &self.0
     }
 }
 

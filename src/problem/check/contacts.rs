@@ -4,10 +4,14 @@ use super::limit::Limit;
 use super::scope::Scope;
 use crate::impact::{Contact, Law, Restitution};
 use crate::problem::equipment::ContactChoice;
-use crate::problem::field::Field;
+use crate::problem::fault::Fault;
+use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
-use crate::problem::file::equipment::{ContactEntry, LawEntry, RestitutionEntry};
+use crate::problem::file::contact::{ContactEntry, ContactsItem, LawEntry, RestitutionEntry};
+use crate::problem::file::settings::OneOrRange;
+use crate::problem::media::{self, LibraryContact};
 use crate::problem::setting::Range;
+use crate::units::shortened;
 
 /// The contacts of the file by name; `None` for a faulty one.
 pub(super) struct Contacts {
@@ -31,7 +35,13 @@ impl Contacts {
     }
 }
 
-pub(super) fn check(root: &Scope<'_>, field: &Field<Named<ContactEntry>>) -> Contacts {
+/// What a name out of the library is expected to be.
+const LISTED: &str = "a contact that `peenpose media` lists";
+
+/// The key that may hold names of library contacts instead of a contact.
+const USE: &str = "use";
+
+pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Contacts {
     let expected = "at least one contact, such as \
                     `dry: { mu_s: 0.30, mu_d: 0.27, restitution: 0.25 }`";
     let Some(Named(entries)) = root.required("contacts", field, expected) else {
@@ -47,27 +57,149 @@ pub(super) fn check(root: &Scope<'_>, field: &Field<Named<ContactEntry>>) -> Con
         );
     }
     let scope = root.of("contacts");
-    let choices: Vec<_> = entries
-        .iter()
-        .map(|(name, entry)| {
-            let valid = scope.valid_name(name);
-            let choice = scope
-                .required(name, entry, "mu_s, mu_d and restitution")
-                .and_then(|entry| choice(&scope.of(name), name, entry))
-                .filter(|_| valid);
-            (name.clone(), choice)
-        })
-        .collect();
+    let given: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
+    let mut choices = Vec::new();
+    let mut complete = true;
+    for (name, item) in entries {
+        let item = scope.required(name, item, "mu_s, mu_d and restitution");
+        if name == USE
+            && let Some(names) = item.and_then(library_names)
+        {
+            match from_library(&scope.of(USE), &names, &given) {
+                Some(found) => choices.extend(found),
+                None => complete = false,
+            }
+            continue;
+        }
+        let valid = scope.valid_name(name);
+        let choice = item
+            .and_then(|item| own(&scope, name, item))
+            .and_then(|entry| choice(&scope.of(name), name, entry))
+            .filter(|_| valid);
+        choices.push((name.clone(), choice));
+    }
     Contacts {
-        complete: !choices.is_empty(),
+        complete: complete && !choices.is_empty(),
         choices,
     }
 }
 
+/// The names under `use`, each with its place in the list; `None` for a contact that is called so.
+fn library_names(item: &ContactsItem) -> Option<Vec<(Option<usize>, Field<String>)>> {
+    match item {
+        ContactsItem::Name(name) => Some(vec![(None, Field::Present(name.clone()))]),
+        ContactsItem::Names(names) => {
+            let places = names.iter().enumerate();
+            Some(
+                places
+                    .map(|(index, name)| (Some(index), name.clone()))
+                    .collect(),
+            )
+        }
+        ContactsItem::Own(_) => None,
+    }
+}
+
+/// Contacts of the library, but for those that the file gives under the same name.
+fn from_library(
+    list: &Scope<'_>,
+    names: &[(Option<usize>, Field<String>)],
+    given: &[&str],
+) -> Option<Vec<(String, Option<ContactChoice>)>> {
+    if names.is_empty() {
+        list.report(list.own_fault("names no contact").expecting(LISTED));
+    }
+    let mut found: Vec<(String, Option<ContactChoice>)> = Vec::new();
+    let mut sound = !names.is_empty();
+    for (index, name) in names {
+        let item = index.map_or_else(|| list.clone(), |index| list.item(index));
+        let Field::Present(name) = name else {
+            if !name.is_given() {
+                item.report(item.own_fault("is missing").expecting(LISTED));
+            }
+            sound = false;
+            continue;
+        };
+        if found.iter().any(|(known, _)| known == name) {
+            item.report(
+                item.own_fault(format!("`{name}` is named twice"))
+                    .expecting("every contact once"),
+            );
+            sound = false;
+            continue;
+        }
+        let Some(known) = looked_up(&item, name) else {
+            sound = false;
+            continue;
+        };
+        if !given.contains(&known.name) {
+            let entry = merged(&ContactEntry::default(), known);
+            found.push((name.clone(), choice_of(&item, name, &entry, Some(known))));
+        }
+    }
+    sound.then_some(found)
+}
+
+/// The library's contact of this name; the fault is on record otherwise.
+fn looked_up(scope: &Scope<'_>, name: &str) -> Option<&'static LibraryContact> {
+    let known = media::contact(name);
+    if known.is_none() {
+        let message = format!("the library has no contact `{}`", shortened(name));
+        let names = media::contacts().iter().map(|known| known.name);
+        let fault: Fault = scope.own_fault(message).expecting(LISTED);
+        scope.report(fault.nearest(name, names));
+    }
+    known
+}
+
+/// The keys of a contact of the file's own.
+fn own<'f>(scope: &Scope<'_>, name: &str, item: &'f ContactsItem) -> Option<&'f ContactEntry> {
+    let found = match item {
+        ContactsItem::Own(entry) => return Some(entry),
+        ContactsItem::Name(text) => format!("`{}` is not a contact", shortened(text)),
+        ContactsItem::Names(_) => "is a list".to_owned(),
+    };
+    scope.report(scope.fault(name, found).expecting("a group of keys"));
+    None
+}
+
+/// What was written, with the library's numbers where it says nothing.
+fn merged(entry: &ContactEntry, known: &LibraryContact) -> ContactEntry {
+    let mut entry = entry.clone();
+    let searched = matches!(entry.mu_s.value(), Some(OneOrRange::Range(_)));
+    if !entry.mu_s.is_given() {
+        entry.mu_s = Field::Present(OneOrRange::One(known.static_friction.value));
+    }
+    if !entry.mu_d.is_given() && !entry.mu_d_ratio.is_given() && !searched {
+        entry.mu_d = Field::Present(known.dynamic_friction.value);
+    }
+    if !entry.restitution.is_given() {
+        let value = known.restitution.value;
+        entry.restitution = Field::Present(RestitutionEntry::Constant(value));
+    }
+    entry
+}
+
 fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<ContactChoice> {
+    match &entry.library {
+        Field::Missing => choice_of(scope, name, entry, None),
+        Field::Faulty => None,
+        Field::Present(library) => {
+            let known = looked_up(&scope.of(USE), library)?;
+            choice_of(scope, name, &merged(entry, known), Some(known))
+        }
+    }
+}
+
+fn choice_of(
+    scope: &Scope<'_>,
+    name: &str,
+    entry: &ContactEntry,
+    library: Option<&'static LibraryContact>,
+) -> Option<ContactChoice> {
     let law = entry.law.or(LawEntry::StickSlip).map(law);
     let restitution = scope
-        .required("restitution", &entry.restitution, "a number such as 0.25")
+        .required_here("restitution", &entry.restitution, "a number such as 0.25")
         .and_then(|entry| restitution(scope, entry));
     let tangential_restitution = scope.optional(
         "tangential_restitution",
@@ -76,7 +208,7 @@ fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<Contact
         0.0,
     );
     let static_friction = scope
-        .required("mu_s", &entry.mu_s, Limit::FRICTION.expected)
+        .required_here("mu_s", &entry.mu_s, Limit::FRICTION.expected)
         .and_then(|mu_s| scope.range("mu_s", mu_s, Limit::FRICTION));
     let dynamic = dynamic_friction(scope, entry, static_friction);
 
@@ -101,11 +233,12 @@ fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<Contact
             Dynamic::Ratio(ratio) if !static_friction.is_held() => Some(ratio),
             _ => None,
         },
+        library,
     })
 }
 
 /// The contact of a single surface, which cannot be tuned.
-pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<Contact> {
+pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<ContactChoice> {
     let choice = choice(scope, "", entry)?;
     if !choice.static_friction.is_held() {
         scope.report(
@@ -115,7 +248,7 @@ pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<Contact> 
         );
         return None;
     }
-    Some(choice.contact)
+    Some(choice)
 }
 
 /// How dynamic friction is given.
@@ -163,11 +296,11 @@ fn dynamic_friction(
                     .expecting("mu_d_ratio, a number from 0 to 1"),
             );
         } else {
-            scope.required("mu_d_ratio", &entry.mu_d_ratio, expected);
+            scope.required_here("mu_d_ratio", &entry.mu_d_ratio, expected);
         }
         return None;
     }
-    let value = scope.required("mu_d", &entry.mu_d, Limit::FRICTION.expected)?;
+    let value = scope.required_here("mu_d", &entry.mu_d, Limit::FRICTION.expected)?;
     let value = scope.within("mu_d", *value, Limit::FRICTION)?;
     if let Some(range) = static_friction
         && value > range.min
