@@ -465,7 +465,7 @@ fn keys_are_found_in_the_text() {
     assert_eq!(written("scene.hub.mesh.lip"), "hub");
     assert_eq!(written("nozzle.body[0].ball.radius"), "3 mm");
     let jet = source.locate("jet.divergence").unwrap();
-    assert_eq!((jet.line, jet.column), (19, 15));
+    assert_eq!((jet.line, jet.column), (20, 15));
     assert_eq!(source.locate("surfaces").unwrap().line, 1);
     let name = source.locate_name("shot.radius").unwrap();
     assert_eq!(&source.text[name.start..name.end], "radius");

@@ -49,12 +49,7 @@ impl<'a> Sections<'a> {
         self.text += "\n## Units\n\n| quantity | units |\n|---|---|\n";
         for dimension in Dimension::ALL {
             let units: Vec<String> = dimension.unit_names().map(code).collect();
-            let _ = writeln!(
-                self.text,
-                "| {} | {} |",
-                dimension.name(),
-                units.join(" or ")
-            );
+            let _ = writeln!(self.text, "| {} | {} |", dimension.name(), units.join(" "));
         }
     }
 
