@@ -7,6 +7,7 @@
 
 pub(super) mod contact;
 pub(super) mod equipment;
+mod form;
 pub(super) mod scene;
 pub(super) mod settings;
 
@@ -14,7 +15,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 
@@ -24,7 +25,6 @@ use scene::{PartEntry, TargetEntry};
 use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 
 use super::field::{Field, Needed};
-use super::schema;
 use crate::units::Dimension;
 
 /// The format that is read.
@@ -47,7 +47,7 @@ pub(super) struct ProblemFile {
     #[schemars(example = &"mm")]
     pub lengths_in: Field<LengthUnit>,
     /// Named parts.
-    #[schemars(extend("minProperties" = 1, "propertyNames" = schema::names()))]
+    #[schemars(extend("minProperties" = 1, "propertyNames" = form::names()))]
     pub scene: Needed<Named<PartEntry>>,
     /// What is to be peened.
     pub target: Needed<TargetEntry>,
@@ -59,8 +59,8 @@ pub(super) struct ProblemFile {
     pub nozzle: Field<NozzleEntry>,
     /// The friction choices, such as lubricants, by name.
     #[schemars(
-        with = "Needed<schema::Contacts>",
-        extend("minProperties" = 1, "propertyNames" = schema::names())
+        with = "Needed<contact::ContactsSchema>",
+        extend("minProperties" = 1, "propertyNames" = form::names())
     )]
     pub contacts: Needed<Named<ContactsItem>>,
     /// What may be chosen.
@@ -78,7 +78,7 @@ pub(super) struct ProblemFile {
     /// does not name is not modelled at all, in the search and in the figures. The
     /// [effects](#model) are listed at the end.
     #[schemars(
-        with = "Field<schema::ModelName>",
+        with = "Field<form::ModelName>",
         example = ["rebounds", "spin"],
         extend("default" = "auto")
     )]
@@ -148,7 +148,7 @@ macro_rules! quantities {
             }
 
             fn json_schema(_: &mut SchemaGenerator) -> Schema {
-                schema::quantity(Dimension::$dimension)
+                form::quantity(Dimension::$dimension)
             }
         }
     )*};
@@ -224,5 +224,22 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
         }
 
         deserializer.deserialize_map(NamedVisitor(PhantomData))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Named<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("Named_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": "object",
+            "additionalProperties": generator.subschema_for::<T>(),
+        })
     }
 }

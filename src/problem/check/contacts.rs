@@ -1,15 +1,14 @@
 //! `contacts`: the friction choices.
 
+use super::library;
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::impact::{Contact, Law, Restitution};
 use crate::problem::equipment::ContactChoice;
-use crate::problem::fault::Fault;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
 use crate::problem::file::contact::{ContactEntry, ContactsItem, LawEntry, RestitutionEntry};
-use crate::problem::file::settings::OneOrRange;
-use crate::problem::media::{self, LibraryContact};
+use crate::problem::media::LibraryContact;
 use crate::problem::setting::Range;
 use crate::units::shortened;
 
@@ -34,9 +33,6 @@ impl Contacts {
         self.choices.iter().map(|(name, _)| name.as_str())
     }
 }
-
-/// What a name out of the library is expected to be.
-const LISTED: &str = "a contact that `peenpose media` lists";
 
 /// The key that may hold names of library contacts instead of a contact.
 const USE: &str = "use";
@@ -63,12 +59,22 @@ pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Co
     for (name, item) in entries {
         let item = scope.required(name, item, "mu_s, mu_d and restitution");
         if name == USE
-            && let Some(names) = item.and_then(library_names)
+            && let Some(names) = item.and_then(library::names_under_use)
         {
-            match from_library(&scope.of(USE), &names, &given) {
-                Some(found) => choices.extend(found),
-                None => complete = false,
-            }
+            let list = scope.of(USE);
+            let found = library::named(&list, &names);
+            complete &= found.is_some();
+            // What the file gives under the same name goes before the library's.
+            let found = found.into_iter().flatten();
+            choices.extend(
+                found
+                    .filter(|known| !given.contains(&known.name))
+                    .map(|known| {
+                        let entry = library::merged(&ContactEntry::default(), known);
+                        let choice = choice_of(&list, known.name, &entry, Some(known));
+                        (known.name.to_owned(), choice)
+                    }),
+            );
             continue;
         }
         let valid = scope.valid_name(name);
@@ -84,74 +90,6 @@ pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Co
     }
 }
 
-/// The names under `use`, each with its place in the list; `None` for a contact that is called so.
-fn library_names(item: &ContactsItem) -> Option<Vec<(Option<usize>, Field<String>)>> {
-    match item {
-        ContactsItem::Name(name) => Some(vec![(None, Field::Present(name.clone()))]),
-        ContactsItem::Names(names) => {
-            let places = names.iter().enumerate();
-            Some(
-                places
-                    .map(|(index, name)| (Some(index), name.clone()))
-                    .collect(),
-            )
-        }
-        ContactsItem::Own(_) => None,
-    }
-}
-
-/// Contacts of the library, but for those that the file gives under the same name.
-fn from_library(
-    list: &Scope<'_>,
-    names: &[(Option<usize>, Field<String>)],
-    given: &[&str],
-) -> Option<Vec<(String, Option<ContactChoice>)>> {
-    if names.is_empty() {
-        list.report(list.own_fault("names no contact").expecting(LISTED));
-    }
-    let mut found: Vec<(String, Option<ContactChoice>)> = Vec::new();
-    let mut sound = !names.is_empty();
-    for (index, name) in names {
-        let item = index.map_or_else(|| list.clone(), |index| list.item(index));
-        let Field::Present(name) = name else {
-            if !name.is_given() {
-                item.report(item.own_fault("is missing").expecting(LISTED));
-            }
-            sound = false;
-            continue;
-        };
-        if found.iter().any(|(known, _)| known == name) {
-            item.report(
-                item.own_fault(format!("`{name}` is named twice"))
-                    .expecting("every contact once"),
-            );
-            sound = false;
-            continue;
-        }
-        let Some(known) = looked_up(&item, name) else {
-            sound = false;
-            continue;
-        };
-        if !given.contains(&known.name) {
-            let entry = merged(&ContactEntry::default(), known);
-            found.push((name.clone(), choice_of(&item, name, &entry, Some(known))));
-        }
-    }
-    sound.then_some(found)
-}
-
-/// The library's contact of this name; the fault is on record otherwise.
-fn looked_up(scope: &Scope<'_>, name: &str) -> Option<&'static LibraryContact> {
-    let known = media::contact(name);
-    if known.is_none() {
-        let message = format!("the library has no contact `{}`", shortened(name));
-        let names = media::contacts().iter().map(|known| known.name);
-        let fault: Fault = scope.own_fault(message).expecting(LISTED);
-        scope.report(fault.nearest(name, names));
-    }
-    known
-}
-
 /// The keys of a contact of the file's own.
 fn own<'f>(scope: &Scope<'_>, name: &str, item: &'f ContactsItem) -> Option<&'f ContactEntry> {
     let found = match item {
@@ -163,30 +101,13 @@ fn own<'f>(scope: &Scope<'_>, name: &str, item: &'f ContactsItem) -> Option<&'f 
     None
 }
 
-/// What was written, with the library's numbers where it says nothing.
-fn merged(entry: &ContactEntry, known: &LibraryContact) -> ContactEntry {
-    let mut entry = entry.clone();
-    let searched = matches!(entry.mu_s.value(), Some(OneOrRange::Range(_)));
-    if !entry.mu_s.is_given() {
-        entry.mu_s = Field::Present(OneOrRange::One(known.static_friction.value));
-    }
-    if !entry.mu_d.is_given() && !entry.mu_d_ratio.is_given() && !searched {
-        entry.mu_d = Field::Present(known.dynamic_friction.value);
-    }
-    if !entry.restitution.is_given() {
-        let value = known.restitution.value;
-        entry.restitution = Field::Present(RestitutionEntry::Constant(value));
-    }
-    entry
-}
-
 fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<ContactChoice> {
     match &entry.library {
         Field::Missing => choice_of(scope, name, entry, None),
         Field::Faulty => None,
         Field::Present(library) => {
-            let known = looked_up(&scope.of(USE), library)?;
-            choice_of(scope, name, &merged(entry, known), Some(known))
+            let known = library::looked_up(&scope.of(USE), library)?;
+            choice_of(scope, name, &library::merged(entry, known), Some(known))
         }
     }
 }

@@ -6,6 +6,7 @@
 mod contacts;
 mod coordinates;
 mod goals;
+mod library;
 mod limit;
 mod mesh;
 mod model;

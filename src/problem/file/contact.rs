@@ -1,13 +1,15 @@
 //! `contacts`, as written.
 
-use schemars::JsonSchema;
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::json;
 
 use super::Speed;
+use super::form;
 use super::settings::OneOrRange;
 use crate::problem::field::{Field, Needed};
-use crate::problem::schema;
 
 /// What may stand under a name in `contacts`: a contact, or, under `use`, names out of the library.
 #[derive(Clone, Debug, Deserialize)]
@@ -22,6 +24,38 @@ pub(in crate::problem) enum ContactsItem {
     /// A contact of its own.
     #[serde(rename = "map")]
     Own(ContactEntry),
+}
+
+/// Contacts by name, of which `use` may hold names out of the library instead.
+pub(in crate::problem) struct ContactsSchema;
+
+impl JsonSchema for ContactsSchema {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Contacts".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let own = generator.subschema_for::<ContactEntry>();
+        let names = form::contact_names();
+        json_schema!({
+            "type": "object",
+            "properties": {
+                "use": {
+                    "description": "Contacts of the library, `peenpose media`, beside the file's own.",
+                    "anyOf": [
+                        { "enum": names },
+                        { "type": "array", "minItems": 1, "items": { "enum": names } },
+                        own,
+                    ],
+                },
+            },
+            "additionalProperties": own,
+        })
+    }
 }
 
 /// One friction choice. With restitution that falls with speed the best speed no longer follows
@@ -53,7 +87,7 @@ pub(in crate::problem) struct ContactEntry {
     /// A contact of the library, `peenpose media`, whose numbers hold where the keys below are
     /// absent; nothing from the library where absent.
     #[serde(rename = "use")]
-    #[schemars(with = "Field<schema::ContactName>", example = &"steel-on-steel-dry")]
+    #[schemars(with = "Field<form::ContactName>", example = &"steel-on-steel-dry")]
     pub library: Field<String>,
     /// Static friction, 0 to 10. A range is searched, but not in the contact of a surface; that of
     /// `use` where absent.

@@ -5,9 +5,8 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::contact::ContactEntry;
-use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Triple};
+use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Triple, form};
 use crate::problem::field::{Field, Needed};
-use crate::problem::schema;
 
 /// The shot: solid spheres. Either both numbers are given, or a medium of the library, such as S110 or
 /// CW-14, stands in for those that are not.
@@ -26,7 +25,7 @@ use crate::problem::schema;
 pub(in crate::problem) struct ShotEntry {
     /// A medium of the library, `peenpose media`; nothing from the library where absent.
     #[serde(rename = "use")]
-    #[schemars(with = "Field<schema::MediumName>", example = &"S110")]
+    #[schemars(with = "Field<form::MediumName>", example = &"S110")]
     pub medium: Field<String>,
     /// Mean radius, 1 nm to 1 km; that of `use` where absent.
     #[schemars(example = &"0.5 mm")]
@@ -98,7 +97,7 @@ pub(in crate::problem) struct NozzleEntry {
 /// One piece of the body: exactly one of these keys.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
-#[schemars(extend("oneOf" = schema::exactly_one_of(&Self::SHAPES)))]
+#[schemars(extend("oneOf" = form::exactly_one_of(&Self::SHAPES)))]
 pub(in crate::problem) struct BodyEntry {
     /// A ball around the exit.
     pub ball: Field<BallEntry>,

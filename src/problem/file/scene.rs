@@ -4,9 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::{Angle, Length, LengthUnit, Named, Pair, Triple};
+use super::{Angle, Length, LengthUnit, Named, Pair, Triple, form};
 use crate::problem::field::{Field, Needed};
-use crate::problem::schema;
 
 /// One part: exactly one shape out of `keyway`, `bore`, `box`, `extrude` and `mesh`, and where it
 /// stands.
@@ -28,7 +27,7 @@ use crate::problem::schema;
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 #[schemars(extend(
-    "oneOf" = schema::exactly_one_of(&Self::SHAPES),
+    "oneOf" = form::exactly_one_of(&Self::SHAPES),
     "dependentRequired" = json!({ "lengths_in": ["mesh"], "regions": ["mesh"] }),
 ))]
 pub(in crate::problem) struct PartEntry {
@@ -53,7 +52,7 @@ pub(in crate::problem) struct PartEntry {
     /// surface of that name; later boxes win; none where absent.
     #[schemars(
         example = json!({ "lip": { "min": [-5, 8, 0], "max": [5, 9, 2] } }),
-        extend("propertyNames" = schema::names())
+        extend("propertyNames" = form::names())
     )]
     pub regions: Field<Named<BoxEntry>>,
     /// Where the part stands; at the origin of the scene, unturned, where absent.
@@ -138,7 +137,7 @@ pub(in crate::problem) struct ExtrudeEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 #[schemars(extend(
-    "oneOf" = schema::exactly_one_of(&["line_to", "arc_to"]),
+    "oneOf" = form::exactly_one_of(&["line_to", "arc_to"]),
     "dependentRequired" = json!({ "arc_to": ["via"], "via": ["arc_to"] }),
 ))]
 pub(in crate::problem) struct SegmentEntry {

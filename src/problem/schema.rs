@@ -4,21 +4,13 @@
 //! units. What numbers may be and what names refer to only the check can tell. One thing the schema
 //! is stricter about: a key that is there but has no value.
 
-mod library;
-
-use std::borrow::Cow;
-
+use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
-pub(super) use library::{ContactName, Contacts, MediumName, ModelName};
-
-use super::field::{Field, Needed};
-use super::file::{Named, ProblemFile};
-use super::name::NAME_PATTERN;
-use crate::units::Dimension;
+use super::field::NEEDED;
+use super::file::ProblemFile;
 
 /// The JSON Schema (draft 2020-12) of problem files, for editors and other programs.
 ///
@@ -46,9 +38,6 @@ pub fn schema() -> Value {
     );
     Value::Object(ordered)
 }
-
-/// Marks the schema of a key that must be there, until [`finish`] has seen it.
-const NEEDED: &str = "x-needed";
 
 /// What the derived schemas do not know: which keys must be there, that no others may, and that
 /// lines of comments are one paragraph.
@@ -92,81 +81,4 @@ fn joined_lines(text: &str) -> String {
         goes_on = is_plain;
     }
     joined
-}
-
-/// The schema of a number with a unit.
-pub(super) fn quantity(dimension: Dimension) -> Schema {
-    let units: Vec<&str> = dimension.unit_names().collect();
-    let described = dimension.described();
-    let mut letters = described.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    json_schema!({
-        "description": format!(
-            "{}; in {}.",
-            first.chain(letters).collect::<String>(),
-            units.join(", ")
-        ),
-        "type": "string",
-        "pattern": dimension.pattern(),
-        "patternErrorMessage": format!("expected {described}; units: {}", units.join(", ")),
-    })
-}
-
-/// What parts, contacts and regions may be called.
-pub(super) fn names() -> Value {
-    json!({ "pattern": NAME_PATTERN })
-}
-
-/// Exactly one of `keys` must be there.
-pub(super) fn exactly_one_of(keys: &[&str]) -> Value {
-    keys.iter()
-        .map(|key| json!({ "required": [key] }))
-        .collect()
-}
-
-impl<T: JsonSchema> JsonSchema for Field<T> {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        T::schema_name()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        generator.subschema_for::<T>()
-    }
-}
-
-impl<T: JsonSchema> JsonSchema for Needed<T> {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        T::schema_name()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let mut schema = generator.subschema_for::<T>();
-        schema.insert(NEEDED.into(), true.into());
-        schema
-    }
-}
-
-impl<T: JsonSchema> JsonSchema for Named<T> {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        format!("Named_{}", T::schema_name()).into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": "object",
-            "additionalProperties": generator.subschema_for::<T>(),
-        })
-    }
 }
