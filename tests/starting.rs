@@ -156,3 +156,20 @@ fn the_library_is_listed_with_every_source() {
         );
     }
 }
+
+#[test]
+fn the_readme_shows_the_keyway_as_it_is() {
+    let readme = include_str!("../README.md");
+    let file = include_str!("../problems/keyway.yaml");
+    let between = |start: &str, end: &str| {
+        let rest = readme.split_once(start).unwrap().1;
+        rest.split_once(end).unwrap().0
+    };
+    assert_eq!(
+        between("<!-- problem -->\n```yaml\n", "```\n<!-- /problem -->"),
+        file
+    );
+    let reading = problem::read_text(file, Path::new("keyway.yaml")).unwrap();
+    let sheet = between("<!-- sheet -->", "<!-- /sheet -->");
+    assert!(sheet.contains(&reading.source.sha256));
+}

@@ -24,18 +24,16 @@ pub fn schema() -> Value {
         .with_transform(RecursiveTransform(finish))
         .into_generator()
         .into_root_schema_for::<ProblemFile>();
+    let all = schema.as_object().cloned().unwrap_or_default();
     // What it is comes first, for those who read it.
     let mut ordered = Map::new();
     for key in ["$schema", "title", "description"] {
-        ordered.extend(schema.get(key).map(|value| (key.to_owned(), value.clone())));
+        ordered.extend(
+            all.get_key_value(key)
+                .map(|(key, value)| (key.clone(), value.clone())),
+        );
     }
-    ordered.extend(
-        schema
-            .as_object()
-            .into_iter()
-            .flatten()
-            .map(|(key, value)| (key.clone(), value.clone())),
-    );
+    ordered.extend(all);
     Value::Object(ordered)
 }
 
