@@ -11,6 +11,7 @@
 //! ```
 
 mod fault;
+mod pattern;
 #[cfg(test)]
 mod tests;
 
@@ -291,8 +292,8 @@ fn shifted(number: &str, places: i32) -> f64 {
 fn plain_spelling(unit: &str) -> String {
     let plain: String = unit
         .trim()
+        .replace("^3", "3")
         .chars()
-        .filter(|c| *c != '^')
         .map(|c| match c {
             '\u{b5}' | '\u{3bc}' => 'u',
             '·' | '⋅' | '*' | ' ' => '.',

@@ -61,6 +61,7 @@ fn the_keyway_is_read_in_si() {
             radius: 0.0005,
             density: 7000.0,
             size_spread: 0.0,
+            medium: None,
         }
     );
     assert_eq!(
@@ -318,7 +319,8 @@ fn every_other_key_is_read() {
         Shot {
             radius: 250e-6,
             density: 7800.0,
-            size_spread: 0.04
+            size_spread: 0.04,
+            medium: None,
         }
     );
     assert_eq!(problem.jet.spread, Spread::Gaussian);
@@ -463,7 +465,7 @@ fn keys_are_found_in_the_text() {
     assert_eq!(written("scene.hub.mesh.lip"), "hub");
     assert_eq!(written("nozzle.body[0].ball.radius"), "3 mm");
     let jet = source.locate("jet.divergence").unwrap();
-    assert_eq!((jet.line, jet.column), (19, 15));
+    assert_eq!((jet.line, jet.column), (20, 15));
     assert_eq!(source.locate("surfaces").unwrap().line, 1);
     let name = source.locate_name("shot.radius").unwrap();
     assert_eq!(&source.text[name.start..name.end], "radius");

@@ -472,6 +472,7 @@ fn rule(surface: &str) -> SurfaceRule {
         weight: None,
         contact: None,
         roughness: 0.0,
+        library: None,
         role: Role::Part,
     }
 }

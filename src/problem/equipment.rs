@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::impact::{Contact, Sphere};
+use crate::problem::media::{LibraryContact, Medium};
 use crate::problem::setting::Range;
 
 /// The shot: solid spheres.
@@ -14,6 +15,8 @@ pub struct Shot {
     pub density: f64,
     /// Standard deviation of the radius relative to its mean, cut at two.
     pub size_spread: f64,
+    /// The medium that the file names; its numbers hold where the file gives none.
+    pub medium: Option<&'static Medium>,
 }
 
 impl Shot {
@@ -92,6 +95,8 @@ pub struct ContactChoice {
     pub static_friction: Range,
     /// Dynamic over static friction, for a tuned contact.
     pub dynamic_ratio: Option<f64>,
+    /// The contact of the library that the file names; its numbers hold where the file gives none.
+    pub library: Option<&'static LibraryContact>,
 }
 
 impl ContactChoice {
@@ -121,6 +126,8 @@ pub struct SurfaceRule {
     pub weight: Option<f64>,
     /// Its own contact, whatever contact is chosen.
     pub contact: Option<Contact>,
+    /// The contact of the library that its own contact takes from.
+    pub library: Option<&'static LibraryContact>,
     /// Standard deviation of the tilt of its normal about each direction in it, rad.
     pub roughness: f64,
     /// What a hit on it counts as.

@@ -1,8 +1,11 @@
 //! One key of the file: absent, faulty or present.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
+use std::ops::Deref;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::{Deserialize, Deserializer, Visitor};
 
 /// The value of a key. Reading goes on after a faulty one, whose fault is on record.
@@ -43,6 +46,25 @@ impl<T: Clone> Field<T> {
     }
 }
 
+/// The value of a key that must be there: the check asks for it, and so does the schema.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(transparent, bound = "T: Deserialize<'de>")]
+pub(super) struct Needed<T>(Field<T>);
+
+impl<T> Default for Needed<T> {
+    fn default() -> Self {
+        Self(Field::Missing)
+    }
+}
+
+impl<T> Deref for Needed<T> {
+    type Target = Field<T>;
+
+    fn deref(&self) -> &Field<T> {
+        &self.0
+    }
+}
+
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Field<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct FieldVisitor<T>(PhantomData<T>);
@@ -64,5 +86,38 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Field<T> {
         }
 
         deserializer.deserialize_option(FieldVisitor(PhantomData))
+    }
+}
+
+/// What marks the schema of a key that must be there.
+pub(super) const NEEDED: &str = "x-needed";
+
+impl<T: JsonSchema> JsonSchema for Field<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        generator.subschema_for::<T>()
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Needed<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = generator.subschema_for::<T>();
+        schema.insert(NEEDED.into(), true.into());
+        schema
     }
 }

@@ -1,58 +1,89 @@
 //! A problem file as it was written: one type per group of keys, one field per key.
 //!
-//! Plain data. Quantities are in SI already; what they mean together is checked elsewhere.
+//! Plain data. Quantities are in SI already; what they mean together is checked elsewhere. The JSON
+//! Schema and `docs/problem-file.md` are made from these types: the comment of a type is the text
+//! above its keys, that of a field what its key means. `; .. where absent.` at the end of a comment
+//! says what holds where a key is absent and no plain value, given as `default`, would do.
 
+pub(super) mod contact;
 pub(super) mod equipment;
+mod form;
 pub(super) mod scene;
 pub(super) mod settings;
 
+use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 
-use equipment::{ContactEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
+use contact::ContactsItem;
+use equipment::{JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
 use scene::{PartEntry, TargetEntry};
 use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 
-use super::field::Field;
+use super::field::{Field, Needed};
+use crate::units::Dimension;
 
-/// A problem file, format 1.
-#[derive(Debug, Default, Deserialize)]
+/// The format that is read.
+pub(super) const FORMAT: u64 = 1;
+
+/// What a part looks like, what the jet is, what its target must receive and what the surfaces
+/// around it may take.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
+#[schemars(title = "peenpose problem file")]
 pub(super) struct ProblemFile {
-    /// Version of the file format: 1.
-    pub format: Field<u64>,
+    /// Version of the file format.
+    #[schemars(example = FORMAT, extend("const" = FORMAT))]
+    pub format: Needed<u64>,
     /// What the problem is about; the name of the file where absent.
+    #[schemars(example = &"Keyway floor")]
     pub title: Field<String>,
-    /// Unit of coordinate lists and mesh files; needed when there are any.
+    /// Unit of coordinate lists and mesh files, which need it; none, for a file without any, where
+    /// absent.
+    #[schemars(example = &"mm")]
     pub lengths_in: Field<LengthUnit>,
     /// Named parts.
-    pub scene: Field<Named<PartEntry>>,
+    #[schemars(extend("minProperties" = 1, "propertyNames" = form::names()))]
+    pub scene: Needed<Named<PartEntry>>,
     /// What is to be peened.
-    pub target: Field<TargetEntry>,
+    pub target: Needed<TargetEntry>,
     /// The shot.
-    pub shot: Field<ShotEntry>,
+    pub shot: Needed<ShotEntry>,
     /// How the shots leave the nozzle.
-    pub jet: Field<JetEntry>,
-    /// The body that carries the jet; none where absent.
+    pub jet: Needed<JetEntry>,
+    /// The body that carries the jet; a nozzle that takes no room where absent.
     pub nozzle: Field<NozzleEntry>,
-    /// Named friction choices.
-    pub contacts: Field<Named<ContactEntry>>,
-    /// A range is searched, a single value is held.
-    pub settings: Field<SettingsEntry>,
+    /// The friction choices, such as lubricants, by name.
+    #[schemars(
+        with = "Needed<contact::ContactsSchema>",
+        extend("minProperties" = 1, "propertyNames" = form::names())
+    )]
+    pub contacts: Needed<Named<ContactsItem>>,
+    /// What may be chosen.
+    pub settings: Needed<SettingsEntry>,
     /// What must be reached and what must not happen.
-    pub goals: Field<GoalsEntry>,
-    /// Where one surface, `part.surface`, differs from the others.
+    pub goals: Needed<GoalsEntry>,
+    /// Where one surface, by its full name, differs from the others; nowhere where absent.
     pub surfaces: Field<Named<SurfaceEntry>>,
-    /// When a path ends.
+    /// When a path ends; the defaults of its keys where absent.
     pub paths: Field<PathsEntry>,
-    /// How exactly a shop sets the settings: half-widths.
+    /// How exactly a shop sets the settings; exactly where absent.
     pub tolerance: Field<ToleranceEntry>,
-    /// Which effects are modelled: `auto`, `full` or a list; `auto` where absent.
+    /// Which effects are modelled. `auto` searches without what does not matter in the scene at
+    /// hand, and says what each effect does there; `full` never leaves anything out; what a list
+    /// does not name is not modelled at all, in the search and in the figures. The
+    /// [effects](#model) are listed at the end.
+    #[schemars(
+        with = "Field<form::ModelName>",
+        example = ["rebounds", "spin"],
+        extend("default" = "auto")
+    )]
     pub model: Field<OneOrMany>,
-    /// How the answer is searched.
+    /// How the answer is searched; the defaults of its keys where absent.
     pub solve: Field<SolveEntry>,
 }
 
@@ -104,16 +135,34 @@ pub(super) trait Quantity: Copy {
 }
 
 macro_rules! quantities {
-    ($($name:ident)*) => {$(
+    ($($name:ident: $dimension:ident,)*) => {$(
         impl Quantity for $name {
             fn si(self) -> f64 {
                 self.0
             }
         }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                form::quantity(Dimension::$dimension)
+            }
+        }
     )*};
 }
 
-quantities! { Length Angle Speed Impulse Density MassFlow Percentage }
+quantities! {
+    Length: Length,
+    Angle: Angle,
+    Speed: Speed,
+    Impulse: Impulse,
+    Density: Density,
+    MassFlow: MassFlow,
+    Percentage: Fraction,
+}
 
 impl Quantity for f64 {
     fn si(self) -> f64 {
@@ -122,7 +171,8 @@ impl Quantity for f64 {
 }
 
 /// The unit of bare coordinates.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[schemars(inline)]
 pub(super) enum LengthUnit {
     #[serde(rename = "um")]
     Micrometre,
@@ -151,7 +201,7 @@ impl LengthUnit {
 
 /// Names with a value each, in the order of the file.
 #[derive(Clone, Debug)]
-pub(super) struct Named<T>(pub Vec<(String, Field<T>)>);
+pub(super) struct Named<T>(pub Vec<(String, Needed<T>)>);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -174,5 +224,22 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
         }
 
         deserializer.deserialize_map(NamedVisitor(PhantomData))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Named<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("Named_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": "object",
+            "additionalProperties": generator.subschema_for::<T>(),
+        })
     }
 }

@@ -22,6 +22,7 @@
 pub mod equipment;
 pub mod fault;
 pub mod goal;
+pub mod media;
 pub mod model;
 pub mod part;
 pub mod setting;
@@ -30,14 +31,17 @@ mod check;
 mod faults;
 mod field;
 mod file;
+mod name;
 mod reader;
 mod reading;
 mod render;
+mod schema;
 mod source;
 mod yaml;
 
 pub use reading::{Reading, read, read_text};
 pub use render::{one_line, render};
+pub use schema::schema;
 pub use source::Source;
 
 use equipment::{ContactChoice, Jet, Nozzle, PathLimits, Shot, SurfaceRule};

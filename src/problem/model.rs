@@ -93,6 +93,24 @@ impl Effect {
         }
     }
 
+    /// What a model without it does instead, for people.
+    pub const fn without(self) -> &'static str {
+        match self {
+            Self::ShotSize => "shots fly as points; their size acts through the mass only",
+            Self::Rebounds => "nothing after the first hit",
+            Self::LaterRebounds => "nothing after the second impact",
+            Self::Spin => "every impact begins without spin",
+            Self::ExitWidth => "shots leave from the centre of the exit",
+            Self::Divergence => "shots leave along the axis",
+            Self::SpeedScatter => "every shot has the same speed",
+            Self::SizeScatter => "every shot has the same size",
+            Self::FallingRestitution => {
+                "restitution is what it is at the normal speed of the leading settings"
+            }
+            Self::Roughness => "walls are smooth",
+        }
+    }
+
     /// Whether a problem has it.
     pub fn is_in(self, problem: &Problem) -> bool {
         match self {

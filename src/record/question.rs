@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::library::{LibraryContactRecord, MediumRecord};
 use super::window::key_and_unit;
 use crate::problem::equipment::Spread;
 use crate::problem::setting::{Range, Setting};
@@ -23,6 +24,12 @@ pub struct QuestionRecord {
     pub shot_mass_kg: f64,
     /// Standard deviation of the radius relative to it.
     pub size_spread: f64,
+    /// The medium of the library that the file names; absent where it names none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub medium: Option<MediumRecord>,
+    /// The contacts that take numbers from the library.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub library_contacts: Vec<LibraryContactRecord>,
     /// Diameter of the exit, m.
     pub exit_diameter_m: f64,
     /// Half-angle of the cone, deg.
@@ -109,6 +116,8 @@ impl QuestionRecord {
             shot_density_kg_m3: problem.shot.density,
             shot_mass_kg: problem.shot.mass(),
             size_spread: problem.shot.size_spread,
+            medium: MediumRecord::of(&problem.shot),
+            library_contacts: LibraryContactRecord::all(problem),
             exit_diameter_m: problem.jet.exit_diameter,
             divergence_deg: degrees(problem.jet.divergence),
             spread: match problem.jet.spread {

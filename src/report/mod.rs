@@ -1,13 +1,15 @@
-//! Reports, made from a record or a chart alone.
+//! Reports, made from a record or a chart alone, and the library as a table.
 
 mod chart;
 pub mod figure;
 mod finding;
 mod layout;
+mod library;
 mod number;
 mod series;
 mod sheet;
 pub mod table;
 
 pub use chart::chart;
+pub use library::library;
 pub use sheet::sheet;

@@ -17,6 +17,7 @@ pub fn keyway(length: f64) -> Problem {
         contact: Contact::new(mu, 0.9 * mu, 0.25).unwrap(),
         static_friction: Range::held(mu),
         dynamic_ratio: None,
+        library: None,
     };
     let degrees = f64::to_radians;
     Problem {
@@ -47,6 +48,7 @@ pub fn keyway(length: f64) -> Problem {
             radius: 0.5e-3,
             density: 7000.0,
             size_spread: 0.0,
+            medium: None,
         },
         jet: Jet {
             exit_diameter: 1.5e-3,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 
 use crate::impact::ImpactArgs;
+use crate::init::Template;
 
 /// Finds nozzle settings for precision shot peening deep inside keyways, bores and slots.
 #[derive(Parser)]
@@ -36,6 +37,12 @@ pub enum Command {
     Check(CheckArgs),
     /// Compute one impact, or print the paper's tables
     Impact(ImpactArgs),
+    /// Write a commented problem file to start from
+    Init(InitArgs),
+    /// List shot and contacts that a problem file may use, with the source of every number
+    Media(MediaArgs),
+    /// Print the JSON Schema of problem files, for editors
+    Schema,
 }
 
 /// Arguments of `solve`.
@@ -125,4 +132,26 @@ pub struct CheckArgs {
     /// Problem files
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
+}
+
+/// Arguments of `init`.
+#[derive(clap::Args)]
+pub struct InitArgs {
+    /// What the part is like; keyway where absent, but asked for on a terminal
+    #[arg(value_enum)]
+    pub kind: Option<Template>,
+    /// Write it to this file, with what belongs to it beside; it goes to stdout otherwise
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Write over files that are there already
+    #[arg(long, requires = "out")]
+    pub force: bool,
+}
+
+/// Arguments of `media`.
+#[derive(clap::Args)]
+pub struct MediaArgs {
+    /// Print JSON instead of tables
+    #[arg(long)]
+    pub json: bool,
 }

@@ -5,8 +5,11 @@ mod chart;
 mod check;
 mod evaluate;
 mod impact;
+mod init;
+mod media;
 mod output;
 mod progress;
+mod schema;
 mod solve;
 
 use std::process::ExitCode;
@@ -26,6 +29,9 @@ fn main() -> ExitCode {
         Command::Impact(args) => impact::run(args)
             .map_err(Failure::from)
             .and_then(output::text),
+        Command::Init(args) => init::run(args),
+        Command::Media(args) => media::run(args),
+        Command::Schema => schema::run(),
     };
     match outcome {
         Ok(code) => code,

@@ -1,13 +1,16 @@
 //! `contacts`: the friction choices.
 
+use super::library;
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::impact::{Contact, Law, Restitution};
 use crate::problem::equipment::ContactChoice;
-use crate::problem::field::Field;
+use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
-use crate::problem::file::equipment::{ContactEntry, LawEntry, RestitutionEntry};
+use crate::problem::file::contact::{ContactEntry, ContactsItem, LawEntry, RestitutionEntry};
+use crate::problem::media::LibraryContact;
 use crate::problem::setting::Range;
+use crate::units::shortened;
 
 /// The contacts of the file by name; `None` for a faulty one.
 pub(super) struct Contacts {
@@ -31,7 +34,10 @@ impl Contacts {
     }
 }
 
-pub(super) fn check(root: &Scope<'_>, field: &Field<Named<ContactEntry>>) -> Contacts {
+/// The key that may hold names of library contacts instead of a contact.
+const USE: &str = "use";
+
+pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Contacts {
     let expected = "at least one contact, such as \
                     `dry: { mu_s: 0.30, mu_d: 0.27, restitution: 0.25 }`";
     let Some(Named(entries)) = root.required("contacts", field, expected) else {
@@ -47,27 +53,74 @@ pub(super) fn check(root: &Scope<'_>, field: &Field<Named<ContactEntry>>) -> Con
         );
     }
     let scope = root.of("contacts");
-    let choices: Vec<_> = entries
-        .iter()
-        .map(|(name, entry)| {
-            let valid = scope.valid_name(name);
-            let choice = scope
-                .required(name, entry, "mu_s, mu_d and restitution")
-                .and_then(|entry| choice(&scope.of(name), name, entry))
-                .filter(|_| valid);
-            (name.clone(), choice)
-        })
-        .collect();
+    let given: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
+    let mut choices = Vec::new();
+    let mut complete = true;
+    for (name, item) in entries {
+        let item = scope.required(name, item, "mu_s, mu_d and restitution");
+        if name == USE
+            && let Some(names) = item.and_then(library::names_under_use)
+        {
+            let list = scope.of(USE);
+            let found = library::named(&list, &names);
+            complete &= found.is_some();
+            // What the file gives under the same name goes before the library's.
+            let found = found.into_iter().flatten();
+            choices.extend(
+                found
+                    .filter(|known| !given.contains(&known.name))
+                    .map(|known| {
+                        let entry = library::merged(&ContactEntry::default(), known);
+                        let choice = choice_of(&list, known.name, &entry, Some(known));
+                        (known.name.to_owned(), choice)
+                    }),
+            );
+            continue;
+        }
+        let valid = scope.valid_name(name);
+        let choice = item
+            .and_then(|item| own(&scope, name, item))
+            .and_then(|entry| choice(&scope.of(name), name, entry))
+            .filter(|_| valid);
+        choices.push((name.clone(), choice));
+    }
     Contacts {
-        complete: !choices.is_empty(),
+        complete: complete && !choices.is_empty(),
         choices,
     }
 }
 
+/// The keys of a contact of the file's own.
+fn own<'f>(scope: &Scope<'_>, name: &str, item: &'f ContactsItem) -> Option<&'f ContactEntry> {
+    let found = match item {
+        ContactsItem::Own(entry) => return Some(entry),
+        ContactsItem::Name(text) => format!("`{}` is not a contact", shortened(text)),
+        ContactsItem::Names(_) => "is a list".to_owned(),
+    };
+    scope.report(scope.fault(name, found).expecting("a group of keys"));
+    None
+}
+
 fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<ContactChoice> {
+    match &entry.library {
+        Field::Missing => choice_of(scope, name, entry, None),
+        Field::Faulty => None,
+        Field::Present(library) => {
+            let known = library::looked_up(&scope.of(USE), library)?;
+            choice_of(scope, name, &library::merged(entry, known), Some(known))
+        }
+    }
+}
+
+fn choice_of(
+    scope: &Scope<'_>,
+    name: &str,
+    entry: &ContactEntry,
+    library: Option<&'static LibraryContact>,
+) -> Option<ContactChoice> {
     let law = entry.law.or(LawEntry::StickSlip).map(law);
     let restitution = scope
-        .required("restitution", &entry.restitution, "a number such as 0.25")
+        .required_here("restitution", &entry.restitution, "a number such as 0.25")
         .and_then(|entry| restitution(scope, entry));
     let tangential_restitution = scope.optional(
         "tangential_restitution",
@@ -76,7 +129,7 @@ fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<Contact
         0.0,
     );
     let static_friction = scope
-        .required("mu_s", &entry.mu_s, Limit::FRICTION.expected)
+        .required_here("mu_s", &entry.mu_s, Limit::FRICTION.expected)
         .and_then(|mu_s| scope.range("mu_s", mu_s, Limit::FRICTION));
     let dynamic = dynamic_friction(scope, entry, static_friction);
 
@@ -101,11 +154,12 @@ fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<Contact
             Dynamic::Ratio(ratio) if !static_friction.is_held() => Some(ratio),
             _ => None,
         },
+        library,
     })
 }
 
 /// The contact of a single surface, which cannot be tuned.
-pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<Contact> {
+pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<ContactChoice> {
     let choice = choice(scope, "", entry)?;
     if !choice.static_friction.is_held() {
         scope.report(
@@ -115,7 +169,7 @@ pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<Contact> 
         );
         return None;
     }
-    Some(choice.contact)
+    Some(choice)
 }
 
 /// How dynamic friction is given.
@@ -163,11 +217,11 @@ fn dynamic_friction(
                     .expecting("mu_d_ratio, a number from 0 to 1"),
             );
         } else {
-            scope.required("mu_d_ratio", &entry.mu_d_ratio, expected);
+            scope.required_here("mu_d_ratio", &entry.mu_d_ratio, expected);
         }
         return None;
     }
-    let value = scope.required("mu_d", &entry.mu_d, Limit::FRICTION.expected)?;
+    let value = scope.required_here("mu_d", &entry.mu_d, Limit::FRICTION.expected)?;
     let value = scope.within("mu_d", *value, Limit::FRICTION)?;
     if let Some(range) = static_friction
         && value > range.min

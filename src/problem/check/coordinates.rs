@@ -6,7 +6,7 @@ use nalgebra::{Point2, Point3, Vector3};
 
 use super::limit::Limit;
 use super::scope::Scope;
-use crate::problem::field::Field;
+use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::BoxEntry;
 use crate::problem::file::{LengthUnit, Pair, Triple};
 use crate::units::{self, Dimension};
@@ -31,7 +31,7 @@ impl<'a> Coordinates<'a> {
     /// The unit of coordinate lists and mesh files.
     pub fn unit(&self) -> Option<LengthUnit> {
         if self.unreported.replace(false) {
-            self.root.required(
+            self.root.required_here(
                 "lengths_in",
                 &Field::<LengthUnit>::Missing,
                 "um, mm, cm, m or in, as the file has coordinates or a mesh",
@@ -67,7 +67,7 @@ impl<'a> Coordinates<'a> {
         entry: &BoxEntry,
         unit: Option<LengthUnit>,
     ) -> Option<(Point3<f64>, Point3<f64>)> {
-        let corner = |name: &str, field: &Field<Triple>| {
+        let corner = |name: &str, field: &Needed<Triple>| {
             let triple = scope.required(name, field, "a corner `[x, y, z]`")?;
             self.point_in(&scope.of(name), triple, unit)
         };

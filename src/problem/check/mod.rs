@@ -6,6 +6,7 @@
 mod contacts;
 mod coordinates;
 mod goals;
+mod library;
 mod limit;
 mod mesh;
 mod model;
@@ -15,6 +16,7 @@ mod scene;
 mod scope;
 mod settings;
 mod shape;
+mod shot;
 mod surfaces;
 mod target;
 mod tolerance;
@@ -22,11 +24,11 @@ mod tolerance;
 use std::path::Path;
 
 use super::Problem;
-use super::equipment::{Jet, PathLimits, Shot, Spread};
+use super::equipment::{Jet, PathLimits, Spread};
 use super::faults::Faults;
-use super::file::ProblemFile;
-use super::file::equipment::{JetEntry, PathsEntry, ShotEntry, SpreadEntry};
+use super::file::equipment::{JetEntry, PathsEntry, SpreadEntry};
 use super::file::settings::SolveEntry;
+use super::file::{FORMAT, ProblemFile};
 use super::part::{Part, Target};
 use coordinates::Coordinates;
 use limit::Limit;
@@ -47,7 +49,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
     let format = root
         .required("format", &file.format, "`format: 1`")
         .filter(|format| {
-            let known = **format == 1;
+            let known = **format == FORMAT;
             if !known {
                 root.report(
                     root.fault("format", format!("format {format} is not known"))
@@ -61,7 +63,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
     let target = target::check(&root, &file.target, &scene, &coordinates);
     let shot = root
         .required("shot", &file.shot, "`{ radius: .., density: .. }`")
-        .and_then(|entry| shot(&root.of("shot"), entry));
+        .and_then(|entry| shot::check(&root.of("shot"), entry));
     let jet = root
         .required("jet", &file.jet, "`{ exit_diameter: .., divergence: .. }`")
         .and_then(|entry| jet(&root.of("jet"), entry));
@@ -127,17 +129,6 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         target,
         problem,
     }
-}
-
-fn shot(scope: &Scope<'_>, entry: &ShotEntry) -> Option<Shot> {
-    let radius = scope.needed("radius", &entry.radius, Limit::LENGTH);
-    let density = scope.needed("density", &entry.density, Limit::DENSITY);
-    let size_spread = scope.optional("size_spread", &entry.size_spread, Limit::SPREAD, 0.0);
-    Some(Shot {
-        radius: radius?,
-        density: density?,
-        size_spread: size_spread?,
-    })
 }
 
 fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {

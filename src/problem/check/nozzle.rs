@@ -4,6 +4,7 @@ use super::coordinates::direction;
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::equipment::{Body, Nozzle};
+use crate::problem::fault::one_of;
 use crate::problem::field::Field;
 use crate::problem::file::equipment::{BallEntry, BodyEntry, CapsuleEntry, NozzleEntry};
 
@@ -25,12 +26,12 @@ pub(super) fn check(scope: &Scope<'_>, entry: &NozzleEntry) -> Option<Nozzle> {
 }
 
 fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
-    const EXPECTED: &str = "exactly one of ball, capsule";
+    let expected = || format!("exactly {}", one_of(&BodyEntry::SHAPES));
     let entry = match field {
         Field::Present(entry) => entry,
         Field::Faulty => return None,
         Field::Missing => {
-            scope.report(scope.own_fault("is missing").expecting(EXPECTED));
+            scope.report(scope.own_fault("is missing").expecting(expected()));
             return None;
         }
     };
@@ -41,13 +42,13 @@ fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
             scope.report_name(
                 scope
                     .fault("capsule", "is a second shape")
-                    .expecting(EXPECTED),
+                    .expecting(expected()),
             );
             None
         }
         (false, false) => {
             if !scope.is_misspelt("ball") && !scope.is_misspelt("capsule") {
-                scope.report(scope.own_fault("has no shape").expecting(EXPECTED));
+                scope.report(scope.own_fault("has no shape").expecting(expected()));
             }
             None
         }

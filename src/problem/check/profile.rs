@@ -3,10 +3,11 @@
 use nalgebra::Point2;
 
 use super::coordinates::Coordinates;
-use super::scope::{NAME_EXPECTED, Scope, is_name};
+use super::scope::Scope;
 use crate::problem::field::Field;
 use crate::problem::file::Pair;
 use crate::problem::file::scene::SegmentEntry;
+use crate::problem::name::{NAME_EXPECTED, is_name};
 use crate::problem::part::{Ends, Segment};
 
 /// Two ends nearer than this are one, m.
@@ -52,7 +53,7 @@ pub(super) fn check(
             Field::Present(from) => coordinates.flat_point(&scope.of("from"), from),
             Field::Faulty => None,
             Field::Missing if index == 0 => {
-                scope.required("from", &entry.from, "the first point, `[x, y]`");
+                scope.required_here("from", &entry.from, "the first point, `[x, y]`");
                 None
             }
             Field::Missing => previous,
@@ -110,7 +111,7 @@ fn path(
             (point("line_to", &entry.line_to), None)
         }
         (false, true) => {
-            scope.required("via", &entry.via, "a point of the arc, `[x, y]`");
+            scope.required_here("via", &entry.via, "a point of the arc, `[x, y]`");
             let via = point("via", &entry.via);
             (point("arc_to", &entry.arc_to), Some(via))
         }

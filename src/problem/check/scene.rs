@@ -8,8 +8,8 @@ use super::coordinates::Coordinates;
 use super::limit::Limit;
 use super::scope::Scope;
 use super::{mesh, shape};
-use crate::problem::fault::Fault;
-use crate::problem::field::Field;
+use crate::problem::fault::{Fault, one_of};
+use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
 use crate::problem::file::scene::{BaseEntry, MoveEntry, PartEntry, PlaceEntry};
 use crate::problem::part::{Part, Place, Shape};
@@ -95,7 +95,7 @@ impl Scene {
 /// Checks every part; mesh files lie in `folder` or below.
 pub(super) fn check(
     root: &Scope<'_>,
-    field: &Field<Named<PartEntry>>,
+    field: &Needed<Named<PartEntry>>,
     coordinates: &Coordinates<'_>,
     folder: &Path,
 ) -> Scene {
@@ -127,8 +127,6 @@ pub(super) fn check(
     }
 }
 
-const SHAPES: &str = "exactly one of keyway, bore, box, extrude, mesh";
-
 fn part(
     scope: &Scope<'_>,
     name: &str,
@@ -146,29 +144,36 @@ fn part(
             place.zip(entry.on.or(BaseEntry::Scene))
         }
     };
-    let given: Vec<&str> = [
-        ("keyway", entry.keyway.is_given()),
-        ("bore", entry.bore.is_given()),
-        ("box", entry.block.is_given()),
-        ("extrude", entry.extrude.is_given()),
-        ("mesh", entry.mesh.is_given()),
-    ]
-    .into_iter()
-    .filter_map(|(name, given)| given.then_some(name))
-    .collect();
+    let shapes_given = [
+        entry.keyway.is_given(),
+        entry.bore.is_given(),
+        entry.block.is_given(),
+        entry.extrude.is_given(),
+        entry.mesh.is_given(),
+    ];
+    let given: Vec<&str> = PartEntry::SHAPES
+        .into_iter()
+        .zip(shapes_given)
+        .filter_map(|(name, given)| given.then_some(name))
+        .collect();
+    let expected = || format!("exactly {}", one_of(&PartEntry::SHAPES));
     match given.as_slice() {
         [_] => {}
         [] => {
             let missing = "has no shape";
-            if !["keyway", "bore", "box", "extrude", "mesh"]
+            if !PartEntry::SHAPES
                 .iter()
                 .any(|shape| scope.is_misspelt(shape))
             {
-                scope.report_name(scope.own_fault(missing).expecting(SHAPES));
+                scope.report_name(scope.own_fault(missing).expecting(expected()));
             }
         }
         [_, second, ..] => {
-            scope.report_name(scope.fault(second, "is a second shape").expecting(SHAPES));
+            scope.report_name(
+                scope
+                    .fault(second, "is a second shape")
+                    .expecting(expected()),
+            );
         }
     }
     if !entry.mesh.is_given() && given.len() == 1 {

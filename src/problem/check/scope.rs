@@ -2,13 +2,14 @@
 
 use crate::problem::fault::Fault;
 use crate::problem::faults::Faults;
-use crate::problem::field::Field;
+use crate::problem::field::{Field, Needed};
 use crate::problem::file::Quantity;
 use crate::problem::file::settings::OneOrRange;
 use crate::problem::setting::Range;
 use crate::problem::source::{child_key, item_key};
 
 use super::limit::Limit;
+use crate::problem::name::{NAME_EXPECTED, is_name};
 
 /// One group of keys under check.
 #[derive(Clone)]
@@ -66,6 +67,16 @@ impl<'a> Scope<'a> {
     pub fn required<'f, T>(
         &self,
         name: &str,
+        field: &'f Needed<T>,
+        expected: &str,
+    ) -> Option<&'f T> {
+        self.required_here(name, field, expected)
+    }
+
+    /// The value of a key that must be there because of what stands, or does not stand, beside it.
+    pub fn required_here<'f, T>(
+        &self,
+        name: &str,
         field: &'f Field<T>,
         expected: &str,
     ) -> Option<&'f T> {
@@ -82,8 +93,18 @@ impl<'a> Scope<'a> {
     }
 
     /// A key that must be there, within its limits.
-    pub fn needed<Q: Quantity>(&self, name: &str, field: &Field<Q>, limit: Limit) -> Option<f64> {
-        let value = self.required(name, field, limit.expected)?.si();
+    pub fn needed<Q: Quantity>(&self, name: &str, field: &Needed<Q>, limit: Limit) -> Option<f64> {
+        self.needed_here(name, field, limit)
+    }
+
+    /// The same for a key that must be there because of what does not stand beside it.
+    pub fn needed_here<Q: Quantity>(
+        &self,
+        name: &str,
+        field: &Field<Q>,
+        limit: Limit,
+    ) -> Option<f64> {
+        let value = self.required_here(name, field, limit.expected)?.si();
         self.within(name, value, limit)
     }
 
@@ -179,15 +200,4 @@ impl<'a> Scope<'a> {
         }
         sound
     }
-}
-
-/// What a name may consist of.
-pub(super) const NAME_EXPECTED: &str = "letters, digits, `_` and `-`";
-
-/// Whether parts, contacts and surfaces may be called `name`.
-pub(super) fn is_name(name: &str) -> bool {
-    !name.is_empty()
-        && name
-            .chars()
-            .all(|c| c.is_alphanumeric() || c == '_' || c == '-')
 }

@@ -6,7 +6,7 @@ use super::contacts::Contacts;
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::fault::one_of;
-use crate::problem::field::Field;
+use crate::problem::field::{Field, Needed};
 use crate::problem::file::Length;
 use crate::problem::file::Quantity;
 use crate::problem::file::settings::{OneOrMany, OneOrRange, SettingsEntry};
@@ -61,7 +61,7 @@ pub(super) fn check(
 fn needed<Q: Quantity>(
     scope: &Scope<'_>,
     name: &str,
-    field: &Field<OneOrRange<Q>>,
+    field: &Needed<OneOrRange<Q>>,
     limit: Limit,
 ) -> Option<Range> {
     let expected = format!("{}, or a range `[min, max]`", limit.expected);

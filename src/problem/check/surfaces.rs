@@ -69,7 +69,8 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
         allow: allow?,
         share: share?,
         weight: weight?,
-        contact: contact?,
+        contact: contact.as_ref()?.as_ref().map(|choice| choice.contact),
+        library: contact?.and_then(|choice| choice.library),
         roughness: roughness?,
         role: role?,
     })

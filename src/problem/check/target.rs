@@ -4,13 +4,13 @@ use super::coordinates::{self, Coordinates};
 use super::scene::Scene;
 use super::scope::Scope;
 use crate::problem::fault::Fault;
-use crate::problem::field::Field;
+use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::TargetEntry;
 use crate::problem::part::Target;
 
 pub(super) fn check(
     root: &Scope<'_>,
-    field: &Field<TargetEntry>,
+    field: &Needed<TargetEntry>,
     scene: &Scene,
     coordinates: &Coordinates<'_>,
 ) -> Option<Target> {

@@ -1,43 +1,71 @@
-//! `shot`, `jet`, `nozzle`, `contacts`, `surfaces` and `paths`, as written.
+//! `shot`, `jet`, `nozzle`, `surfaces` and `paths`, as written.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::json;
 
-use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Speed, Triple};
-use crate::problem::field::Field;
+use super::contact::ContactEntry;
+use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Triple, form};
+use crate::problem::field::{Field, Needed};
 
-use super::settings::OneOrRange;
-
-/// The shot: solid spheres.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// The shot: solid spheres. Either both numbers are given, or a medium of the library, such as S110 or
+/// CW-14, stands in for those that are not.
+///
+/// ```yaml
+/// shot: { radius: 0.5 mm, density: 7000 kg/m3 }
+/// # or
+/// shot: { use: S110, size_spread: 8 % }
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
+#[schemars(extend("anyOf" = json!([
+    { "required": ["use"] },
+    { "required": ["radius", "density"] },
+])))]
 pub(in crate::problem) struct ShotEntry {
-    /// Mean radius.
+    /// A medium of the library, `peenpose media`; nothing from the library where absent.
+    #[serde(rename = "use")]
+    #[schemars(with = "Field<form::MediumName>", example = &"S110")]
+    pub medium: Field<String>,
+    /// Mean radius, 1 nm to 1 km; that of `use` where absent.
+    #[schemars(example = &"0.5 mm")]
     pub radius: Field<Length>,
-    /// Density.
+    /// Density, 1 to 100000 kg/m3; that of `use` where absent.
+    #[schemars(example = &"7000 kg/m3")]
     pub density: Field<Density>,
-    /// Standard deviation of the radius, cut at two; 0 % where absent.
+    /// Standard deviation of the radius, cut at two, 0 to below 50 %.
+    #[schemars(example = &"5 %", extend("default" = "0 %"))]
     pub size_spread: Field<Percentage>,
 }
 
 /// How the shots leave the nozzle.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct JetEntry {
-    /// Diameter of the exit; 0 mm for a point.
-    pub exit_diameter: Field<Length>,
-    /// Half-angle of the cone; 0 deg for a parallel jet.
-    pub divergence: Field<Angle>,
-    /// How directions fill the cone; uniform where absent.
+    /// Diameter of the exit, 0 mm (a point) to 1 km.
+    #[schemars(example = &"1.5 mm")]
+    pub exit_diameter: Needed<Length>,
+    /// Half-angle of the cone, 0 deg (a parallel jet) to below 90 deg.
+    #[schemars(example = &"4 deg")]
+    pub divergence: Needed<Angle>,
+    /// How directions fill the cone: `uniform` in solid angle, or `gaussian`, with half the
+    /// half-angle as the standard deviation, cut at the half-angle.
+    #[schemars(example = &"gaussian", extend("default" = "uniform"))]
     pub spread: Field<SpreadEntry>,
-    /// Standard deviation of the speed, cut at two; 0 % where absent.
+    /// Standard deviation of the speed before it is cut at two, 0 to below 50 %.
+    #[schemars(example = &"5 %", extend("default" = "0 %"))]
     pub speed_spread: Field<Percentage>,
-    /// Mass of shot per time; unknown where absent.
+    /// Mass of shot per time, above 0 kg/min. Changes no figure; with it the sheet says whether
+    /// shots get into each other's way, see [model.md](model.md#what-is-left-out); unknown where
+    /// absent.
+    #[schemars(example = &"5 kg/min")]
     pub mass_flow: Field<MassFlow>,
 }
 
 /// How directions fill the cone.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(inline)]
 pub(in crate::problem) enum SpreadEntry {
     /// Uniform in solid angle.
     Uniform,
@@ -45,123 +73,104 @@ pub(in crate::problem) enum SpreadEntry {
     Gaussian,
 }
 
-/// The solid body that carries the jet.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// The solid body, which must stay clear of every surface. Nothing is ever shaded or hit by it, but
+/// for [parts placed `on: nozzle`](#place).
+///
+/// ```yaml
+/// nozzle:
+///   body:
+///     - { ball: { radius: 3 mm } }
+///     - { capsule: { length: 60 mm, radius: 2 mm } }
+///     - { capsule: { length: 60 mm, radius: 3 mm, direction: [0, 0, -1] } }
+///   clearance: 0.5 mm
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct NozzleEntry {
-    /// Its pieces; none where absent.
+    /// Its pieces; none, so that it takes no room, where absent.
     pub body: Field<Vec<Field<BodyEntry>>>,
-    /// Least distance from every surface; 0 mm where absent.
+    /// Least distance to every surface, up to 1 km.
+    #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub clearance: Field<Length>,
 }
 
-/// One piece of the body: exactly one of the keys.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// One piece of the body: exactly one of these keys.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
+#[schemars(extend("oneOf" = form::exactly_one_of(&Self::SHAPES)))]
 pub(in crate::problem) struct BodyEntry {
-    /// A ball round the exit.
+    /// A ball around the exit.
     pub ball: Field<BallEntry>,
     /// A rod with round ends that starts at the exit.
     pub capsule: Field<CapsuleEntry>,
 }
 
-/// A ball round the exit.
-#[derive(Clone, Debug, Default, Deserialize)]
+impl BodyEntry {
+    /// The keys of which one must be there.
+    pub const SHAPES: [&str; 2] = ["ball", "capsule"];
+}
+
+/// A ball around the exit.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BallEntry {
-    /// Radius.
-    pub radius: Field<Length>,
+    /// Radius, 1 nm to 1 km.
+    #[schemars(example = &"3 mm")]
+    pub radius: Needed<Length>,
 }
 
 /// A rod with round ends that starts at the exit.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct CapsuleEntry {
-    /// Length.
-    pub length: Field<Length>,
-    /// Radius.
-    pub radius: Field<Length>,
-    /// Fixed direction in the scene; back along the jet axis where absent.
+    /// Length, 1 nm to 1 km.
+    #[schemars(example = &"60 mm")]
+    pub length: Needed<Length>,
+    /// Radius, 1 nm to 1 km.
+    #[schemars(example = &"2 mm")]
+    pub radius: Needed<Length>,
+    /// A fixed direction in the scene: a lance that keeps it whatever the jet does; back along the
+    /// jet where absent.
+    #[schemars(example = [0, 0, -1])]
     pub direction: Field<Triple>,
 }
 
-/// One friction choice.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default)]
-pub(in crate::problem) struct ContactEntry {
-    /// Static friction; a range is searched.
-    pub mu_s: Field<OneOrRange<f64>>,
-    /// Dynamic friction, at most the static one.
-    pub mu_d: Field<f64>,
-    /// Dynamic over static friction, instead of `mu_d`.
-    pub mu_d_ratio: Field<f64>,
-    /// Normal coefficient of restitution.
-    pub restitution: Field<RestitutionEntry>,
-    /// Tangential coefficient of restitution, -1 to 1; 0 where absent.
-    pub tangential_restitution: Field<f64>,
-    /// The friction law; `stick_slip` where absent.
-    pub law: Field<LawEntry>,
-}
-
-/// A coefficient of restitution, constant or falling with speed.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(rename = "a number such as 0.25, or `{ value: 0.5, at: 10 m/s, exponent: 0.25 }`")]
-pub(in crate::problem) enum RestitutionEntry {
-    /// The same at every speed.
-    #[serde(rename = "scalar")]
-    Constant(f64),
-    /// Falling with the normal speed.
-    #[serde(rename = "map")]
-    Falling(FallingEntry),
-}
-
-/// value (speed / at)^(-exponent), at most 1.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default)]
-pub(in crate::problem) struct FallingEntry {
-    /// The coefficient at the speed at which it was measured.
-    pub value: Field<f64>,
-    /// That normal speed.
-    pub at: Field<Speed>,
-    /// How steeply it falls; 0.25 is the plastic limit.
-    pub exponent: Field<f64>,
-}
-
-/// The friction law of a contact.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(in crate::problem) enum LawEntry {
-    /// Static friction decides whether it sticks, dynamic friction acts while it slips.
-    StickSlip,
-    /// Dynamic friction until the slip stops.
-    Kinetic,
-    /// As stick-slip, for shots that cannot spin.
-    Irrotational,
-    /// Slip even where it would stick; only to compare with published tables.
-    AlwaysSlip,
-}
-
 /// Where one surface differs from the others.
-#[derive(Clone, Debug, Default, Deserialize)]
+///
+/// ```yaml
+/// surfaces:
+///   hub.bore: { allow: 5 uN.s, share: 0.1 %, weight: 2 }
+///   mask.z_min: { contact: { mu_s: 0.8, mu_d: 0.7, restitution: 0.4 } }
+///   hole.wall: { role: deflector }
+///   slot.floor: { roughness: 3 deg }
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct SurfaceEntry {
-    /// Normal impulse that it may take.
+    /// Normal impulse of one impact that it may take, above 0 N.s; that of `goals.rebound` where absent.
+    #[schemars(example = &"5 uN.s")]
     pub allow: Field<Impulse>,
-    /// Share of all shots that may exceed it.
+    /// Share of all shots that may exceed it, 0 to 100 %; that of `goals.rebound` where absent.
+    #[schemars(example = &"0.1 %")]
     pub share: Field<Percentage>,
-    /// Weight of its impacts in the objective.
+    /// Weight of its impacts in the objective, 0 to 1e9; that of `goals.rebound` where absent.
+    #[schemars(example = 2)]
     pub weight: Field<f64>,
-    /// Its own contact, whatever contact is chosen.
+    /// Its own contact, whatever contact is chosen; the chosen one where absent.
     pub contact: Field<ContactEntry>,
-    /// Standard deviation of the tilt of its normal; 0 deg where absent.
+    /// Standard deviation of the tilt of its normal about each direction in it, 0 to 30 deg.
+    #[schemars(example = &"3 deg", extend("default" = "0 deg"))]
     pub roughness: Field<Angle>,
-    /// What a hit on it counts as; `part` where absent.
+    /// What a hit on it counts as. With `deflector` it belongs to the flight, and is neither first
+    /// hit nor rebound: not for the target, and not beside `allow`, `share` or `weight`.
+    #[schemars(example = &"deflector", extend("default" = "part"))]
     pub role: Field<RoleEntry>,
 }
 
 /// What a hit on a surface counts as.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(inline)]
 pub(in crate::problem) enum RoleEntry {
     /// First hit or rebound, as any surface.
     Part,
@@ -170,11 +179,13 @@ pub(in crate::problem) enum RoleEntry {
 }
 
 /// When a path ends.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct PathsEntry {
-    /// Most impacts, the first hit included; 6 where absent.
+    /// Most impacts that are followed, the first hit included, 1 to 1000.
+    #[schemars(example = 2, extend("default" = 6))]
     pub impacts: Field<u64>,
-    /// Share of its first energy below which a shot is followed no further; 1 % where absent.
+    /// Share of its energy at the exit below which a shot is followed no further, 0 to below 100 %.
+    #[schemars(example = &"0.1 %", extend("default" = "1 %"))]
     pub least_energy: Field<Percentage>,
 }

@@ -1,13 +1,35 @@
 //! `scene` and `target`, as written.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::json;
 
-use super::{Angle, Length, LengthUnit, Named, Pair, Triple};
-use crate::problem::field::Field;
+use super::{Angle, Length, LengthUnit, Named, Pair, Triple, form};
+use crate::problem::field::{Field, Needed};
 
-/// One part: exactly one shape, and where it stands.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// One part: exactly one shape out of `keyway`, `bore`, `box`, `extrude` and `mesh`, and where it
+/// stands.
+///
+/// ```yaml
+/// scene:
+///   hub: { keyway: { bore: 30 mm, width: 8 mm, depth: 3.3 mm, length: 40 mm, root_radius: 0.2 mm } }
+///   hole: { bore: { diameter: 12 mm, length: 48 mm, ends: { far: closed } }, place: { at: [40, 0, 0] } }
+///   mask: { box: { min: [-20, -15, 45], max: [20, 10, 50] } }
+///   slot:
+///     extrude:
+///       length: 40 mm
+///       profile:
+///         - { from: [-3, 30], line_to: [-3, 26], surface: wall_neg }
+///         - { arc_to: [3, 26], via: [0, 23], surface: floor }
+///         - { line_to: [3, 30], surface: wall_pos }
+///     place: { at: [-40, 0, 0], rotate: [0 deg, 0 deg, 90 deg] }
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
+#[schemars(extend(
+    "oneOf" = form::exactly_one_of(&Self::SHAPES),
+    "dependentRequired" = json!({ "lengths_in": ["mesh"], "regions": ["mesh"] }),
+))]
 pub(in crate::problem) struct PartEntry {
     /// A bore with a groove towards +y.
     pub keyway: Field<KeywayEntry>,
@@ -18,107 +40,154 @@ pub(in crate::problem) struct PartEntry {
     pub block: Field<BoxEntry>,
     /// A cross-section of lines and arcs, along z.
     pub extrude: Field<ExtrudeEntry>,
-    /// A file of triangles (STL, OBJ, PLY), relative to the problem file.
+    /// A file of triangles, STL, OBJ or PLY, in the folder of the problem file or below, with `/`
+    /// between names. Named groups of an OBJ or solids of an STL become surfaces; without any there
+    /// is one, `all`.
+    #[schemars(example = &"housing.obj")]
     pub mesh: Field<String>,
-    /// Unit of this mesh file where it differs from the file's `lengths_in`.
+    /// Unit of this mesh file; the file's `lengths_in` where absent.
+    #[schemars(example = &"in")]
     pub lengths_in: Field<LengthUnit>,
-    /// Named boxes that make surfaces of the triangles whose centre they hold.
+    /// Named boxes, in the mesh's own coordinates. Triangles whose centre lies in one become the
+    /// surface of that name; later boxes win; none where absent.
+    #[schemars(
+        example = json!({ "lip": { "min": [-5, 8, 0], "max": [5, 9, 2] } }),
+        extend("propertyNames" = form::names())
+    )]
     pub regions: Field<Named<BoxEntry>>,
-    /// Where the part stands; at the origin of the scene where absent.
+    /// Where the part stands; at the origin of the scene, unturned, where absent.
     pub place: Field<PlaceEntry>,
 }
 
-/// A bore with a groove of rectangular section; its axis is z.
-#[derive(Clone, Debug, Default, Deserialize)]
+impl PartEntry {
+    /// The keys of which one must be there.
+    pub const SHAPES: [&str; 5] = ["keyway", "bore", "box", "extrude", "mesh"];
+}
+
+/// A bore along z from 0 to `length`, open at both ends, with a groove of rectangular section towards
+/// +y. The floor lies at y = bore/2 + depth. Surfaces: `floor`, `wall_neg` (x < 0), `wall_pos`,
+/// `bore`, and with a root radius `root_neg` and `root_pos`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct KeywayEntry {
-    /// Diameter of the bore.
-    pub bore: Field<Length>,
-    /// Width of the groove.
-    pub width: Field<Length>,
-    /// Depth of the groove below the crown of the bore.
-    pub depth: Field<Length>,
-    /// Length along z.
-    pub length: Field<Length>,
-    /// Radius between floor and walls; 0 mm where absent.
+    /// Diameter of the bore, 1 nm to 1 km.
+    #[schemars(example = &"30 mm")]
+    pub bore: Needed<Length>,
+    /// Width of the groove, below `bore`.
+    #[schemars(example = &"8 mm")]
+    pub width: Needed<Length>,
+    /// Depth of the floor below the crown of the bore, 1 nm to 1 km.
+    #[schemars(example = &"3.3 mm")]
+    pub depth: Needed<Length>,
+    /// Length along z, 1 nm to 1 km.
+    #[schemars(example = &"40 mm")]
+    pub length: Needed<Length>,
+    /// Radius between floor and walls, at most half the width and at most the height of the
+    /// straight walls.
+    #[schemars(example = &"0.2 mm", extend("default" = "0 mm"))]
     pub root_radius: Field<Length>,
 }
 
-/// A round hole or pin along z.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// A round hole along z from 0 to `length`; a pin when it is seen from outside. Surfaces: `wall`, and
+/// `near` (z = 0) and `far` where closed.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BoreEntry {
-    /// Diameter.
-    pub diameter: Field<Length>,
-    /// Length along z.
-    pub length: Field<Length>,
-    /// Which ends are closed; none where absent.
+    /// Diameter, 1 nm to 1 km.
+    #[schemars(example = &"12 mm")]
+    pub diameter: Needed<Length>,
+    /// Length along z, 1 nm to 1 km.
+    #[schemars(example = &"48 mm")]
+    pub length: Needed<Length>,
+    /// Whether its ends are closed: both alike, or each on its own.
+    #[schemars(example = json!({ "far": "closed" }), extend("default" = "open"))]
     pub ends: Field<EndsEntry>,
 }
 
-/// Two opposite corners of an axis-parallel box.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// An axis-parallel box by two opposite corners. Surfaces, where it is a part: `x_min`, `x_max`,
+/// `y_min`, `y_max`, `z_min`, `z_max`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BoxEntry {
     /// Smallest corner.
-    pub min: Field<Triple>,
-    /// Largest corner.
-    pub max: Field<Triple>,
+    #[schemars(example = [-20, -15, 45])]
+    pub min: Needed<Triple>,
+    /// Largest corner, larger along every axis.
+    #[schemars(example = [20, 10, 50])]
+    pub max: Needed<Triple>,
 }
 
-/// A cross-section along z.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// A cross-section of lines and arcs, along z from 0 to `length`. Free space lies to the left of its
+/// direction. Surfaces: those that its segments name, and `near` (z = 0) and `far` where closed.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ExtrudeEntry {
-    /// Length along z.
-    pub length: Field<Length>,
-    /// Which ends are closed; none where absent.
+    /// Length along z, 1 nm to 1 km.
+    #[schemars(example = &"40 mm")]
+    pub length: Needed<Length>,
+    /// Whether its ends are closed, as for `bore`. The outline must be closed where an end is.
+    #[schemars(example = &"closed", extend("default" = "open"))]
     pub ends: Field<EndsEntry>,
-    /// Lines and arcs, each from the end of the one before; free space lies to the left.
-    pub profile: Field<Vec<Field<SegmentEntry>>>,
+    /// Its lines and arcs, each from the end of the one before.
+    #[schemars(extend("minItems" = 1))]
+    pub profile: Needed<Vec<Field<SegmentEntry>>>,
 }
 
 /// One line or arc of a cross-section.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
+#[schemars(extend(
+    "oneOf" = form::exactly_one_of(&["line_to", "arc_to"]),
+    "dependentRequired" = json!({ "arc_to": ["via"], "via": ["arc_to"] }),
+))]
 pub(in crate::problem) struct SegmentEntry {
-    /// Where it starts; the end of the segment before where absent.
+    /// Where it starts. Needed in the first segment; elsewhere it begins a new outline; the end of
+    /// the segment before where absent.
+    #[schemars(example = [-3, 30])]
     pub from: Field<Pair>,
-    /// A straight line to this point.
+    /// A straight line to this point; `arc_to` where absent.
+    #[schemars(example = [-3, 26])]
     pub line_to: Field<Pair>,
-    /// A circular arc to this point.
+    /// A circular arc to this point; `line_to` where absent.
+    #[schemars(example = [3, 26])]
     pub arc_to: Field<Pair>,
-    /// A point that the arc passes through on its way.
+    /// A point that the arc passes through. Needed beside `arc_to`; a line where absent.
+    #[schemars(example = [0, 23])]
     pub via: Field<Pair>,
-    /// Name of the surface that it becomes.
-    pub surface: Field<String>,
+    /// Name of the surface that it becomes; several segments may share one.
+    #[schemars(example = &"floor")]
+    pub surface: Needed<String>,
 }
 
 /// Both ends alike, or each on its own.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename = "`open`, `closed`, or `{ near: .., far: .. }`")]
+#[schemars(rename = "EndsEntry", untagged, inline)]
 pub(in crate::problem) enum EndsEntry {
     /// Both ends alike.
     #[serde(rename = "scalar")]
     Both(End),
-    /// Each end on its own; open where absent.
+    /// Each end on its own.
     #[serde(rename = "map")]
     Each(EachEnd),
 }
 
-/// The ends of a part along z.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// The ends of a part along z, each on its own.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct EachEnd {
     /// The end at z = 0.
+    #[schemars(example = &"closed", extend("default" = "open"))]
     pub near: Field<End>,
     /// The end at z = length.
+    #[schemars(example = &"closed", extend("default" = "open"))]
     pub far: Field<End>,
 }
 
 /// Whether an end carries a flat cap.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(inline)]
 pub(in crate::problem) enum End {
     /// No cap.
     Open,
@@ -127,8 +196,9 @@ pub(in crate::problem) enum End {
 }
 
 /// Where a part stands.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename = "`nozzle`, or `{ on: .., at: .., rotate: .. }`")]
+#[schemars(rename = "PlaceEntry", untagged, inline)]
 pub(in crate::problem) enum PlaceEntry {
     /// At the origin of this frame.
     #[serde(rename = "scalar")]
@@ -139,8 +209,9 @@ pub(in crate::problem) enum PlaceEntry {
 }
 
 /// What a part stands on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(inline)]
 pub(in crate::problem) enum BaseEntry {
     /// The scene.
     Scene,
@@ -148,30 +219,68 @@ pub(in crate::problem) enum BaseEntry {
     Nozzle,
 }
 
-/// How a part is moved: turned about its origin, then shifted.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// Turns a part about its own origin, then shifts it.
+///
+/// A part **`on: nozzle`** moves with the nozzle, such as a deflector pin on its lance; `at` and
+/// `rotate` are in the frame of the nozzle then. That has its origin in the centre of the exit and z
+/// along the jet; y lies in the target's plane, and at azimuth 0 x points away from the target the
+/// flatter the jet is. `place: nozzle` puts a part there unmoved. Shots hit such parts like any
+/// other, each shot where its own setup error takes the nozzle. They cannot hold the target, and the
+/// clearance is not measured to or from them: pieces of [`nozzle.body`](#nozzle) stand for what of
+/// them must keep clear.
+///
+/// ```yaml
+/// scene:
+///   pin:
+///     bore: { diameter: 3 mm, length: 5 mm, ends: closed }
+///     place: { on: nozzle, at: [0, 0, 8], rotate: [0 deg, 45 deg, 0 deg] }
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct MoveEntry {
-    /// In whose frame; the scene's where absent.
+    /// In whose frame.
+    #[schemars(example = &"nozzle", extend("default" = "scene"))]
     pub on: Field<BaseEntry>,
-    /// Position of the part's origin in that frame.
+    /// Where the part's origin goes in that frame.
+    #[schemars(example = [40, 0, 0], extend("default" = [0, 0, 0]))]
     pub at: Field<Triple>,
-    /// Angles about fixed x, then y, then z.
+    /// Angles about fixed x, then y, then z, -360 deg to 360 deg each.
+    #[schemars(
+        example = ["0 deg", "0 deg", "90 deg"],
+        extend("default" = ["0 deg", "0 deg", "0 deg"])
+    )]
     pub rotate: Field<[Field<Angle>; 3]>,
 }
 
 /// What is to be peened.
-#[derive(Clone, Debug, Default, Deserialize)]
+///
+/// ```yaml
+/// target:
+///   surface: hub.floor
+///   within: { min: [-3, 18, 15], max: [3, 19, 25] }
+///   aim: [0, 18.3, 20]
+///   along: [0, 0, 1]
+///   facing: [0, -1, 0]
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct TargetEntry {
     /// The surface, `part.surface`.
-    pub surface: Field<String>,
-    /// Only this box of it; the rest is secondary.
+    #[schemars(example = &"hub.floor")]
+    pub surface: Needed<String>,
+    /// Only this box of it; the rest is secondary; all of it where absent.
+    #[schemars(example = json!({ "min": [-3, 18, 15], "max": [3, 19, 25] }))]
     pub within: Field<BoxEntry>,
-    /// Where the jet axis meets it; the centre of the target where absent.
+    /// Where the jet axis meets the target; must lie on it; its centre where absent.
+    #[schemars(example = json!([0, 18.3, 20]))]
     pub aim: Field<Triple>,
-    /// The direction that azimuth 0 means, laid into the target's plane.
+    /// The direction that azimuth 0 means, laid into the target's plane; z, or x on a target that
+    /// faces along z, where absent.
+    #[schemars(example = [0, 0, 1])]
     pub along: Field<Triple>,
-    /// A direction towards the nozzle's side of the target; the surface's own where absent.
+    /// Any direction towards the nozzle's side of the target, where the default is not meant: thin
+    /// sheets, the outside of an open shell. The default is the front of the surface; for an open
+    /// mesh, whose winding tells nothing, the side that is more enclosed; the free side where absent.
+    #[schemars(example = [0, -1, 0])]
     pub facing: Field<Triple>,
 }

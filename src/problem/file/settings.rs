@@ -1,13 +1,15 @@
 //! `settings`, `goals`, `tolerance` and `solve`, as written.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Angle, Impulse, Length, Percentage, Speed};
-use crate::problem::field::Field;
+use crate::problem::field::{Field, Needed};
 
 /// A single value, which is held, or a range, which is searched.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename = "a single value or a range `[min, max]`")]
+#[schemars(rename = "OneOrRange_{T}", untagged, inline)]
 pub(in crate::problem) enum OneOrRange<T> {
     /// Held.
     #[serde(rename = "scalar")]
@@ -18,8 +20,9 @@ pub(in crate::problem) enum OneOrRange<T> {
 }
 
 /// One name or several.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename = "a name or a list of names")]
+#[schemars(rename = "OneOrMany", untagged, inline)]
 pub(in crate::problem) enum OneOrMany {
     /// A single one.
     #[serde(rename = "scalar")]
@@ -29,120 +32,179 @@ pub(in crate::problem) enum OneOrMany {
     Many(Vec<Field<String>>),
 }
 
-/// What may be chosen.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// What may be chosen. A range `[min, max]` is searched, a single value is held.
+///
+/// ```yaml
+/// settings:
+///   incidence: [30 deg, 85 deg]
+///   azimuth: 0 deg
+///   standoff: [6 mm, 20 mm]
+///   speed: [5 m/s, 40 m/s]
+///   contact: [dry, oiled]
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct SettingsEntry {
-    /// Angle between jet axis and target plane; 90 deg is perpendicular.
-    pub incidence: Field<OneOrRange<Angle>>,
-    /// Direction of the jet in the target plane; 0 deg is along `target.along`.
-    pub azimuth: Field<OneOrRange<Angle>>,
-    /// From the aim point back along the axis to the exit.
-    pub standoff: Field<OneOrRange<Length>>,
-    /// Speed of the shot at the exit.
-    pub speed: Field<OneOrRange<Speed>>,
-    /// Shift of the aim point along azimuth 0; held at 0 mm where absent.
+    /// Angle between jet axis and target plane, above 0 deg to 90 deg, which is perpendicular;
+    /// 0 deg, along the target, only where all of `aim_above` is above 0 mm.
+    #[schemars(example = ["30 deg", "85 deg"])]
+    pub incidence: Needed<OneOrRange<Angle>>,
+    /// Direction of the jet in the target's plane, -360 deg to 360 deg, at most a full turn wide;
+    /// 0 deg is along `target.along`.
+    #[schemars(example = ["-90 deg", "90 deg"])]
+    pub azimuth: Needed<OneOrRange<Angle>>,
+    /// From the aim point back along the axis to the exit, 1 nm to 1 km.
+    #[schemars(example = ["6 mm", "20 mm"])]
+    pub standoff: Needed<OneOrRange<Length>>,
+    /// Speed of the shot at the exit, 1 um/s to 10000 m/s.
+    #[schemars(example = ["5 m/s", "40 m/s"])]
+    pub speed: Needed<OneOrRange<Speed>>,
+    /// Moves the aim point along azimuth 0, -1 km to 1 km.
+    #[schemars(example = ["-2 mm", "2 mm"], extend("default" = "0 mm"))]
     pub aim_along: Field<OneOrRange<Length>>,
-    /// Shift of the aim point across it; held at 0 mm where absent.
+    /// Moves it across, along azimuth 90 deg.
+    #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_across: Field<OneOrRange<Length>>,
-    /// Shift of the aim point away from the target; held at 0 mm where absent.
+    /// Moves it away from the target, along its normal: a jet at 0 deg runs parallel to the target
+    /// at this height.
+    #[schemars(example = &"6 mm", extend("default" = "0 mm"))]
     pub aim_above: Field<OneOrRange<Length>>,
-    /// Which contacts may be chosen; all of them where absent.
+    /// The contacts that may be chosen; all of them where absent.
+    #[schemars(example = ["dry", "oiled"])]
     pub contact: Field<OneOrMany>,
 }
 
-/// What must be reached and what must not happen.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// What must be reached and what must not happen. `weight` is that of the goal in the objective;
+/// verdicts do not depend on it.
+///
+/// ```yaml
+/// goals:
+///   normal_impulse: { target: 40 uN.s, tolerance: 15 %, share: 5 %, weight: 1 }
+///   tangential_impulse: { limit: 8 uN.s, share: 5 %, weight: 1 }
+///   rebound: { allow: 10 uN.s, share: 1 %, weight: 0.5 }
+///   miss: { share: 1 %, weight: 2 }
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct GoalsEntry {
     /// First hits on the target shall give this normal impulse.
-    pub normal_impulse: Field<NormalImpulseEntry>,
+    pub normal_impulse: Needed<NormalImpulseEntry>,
     /// First hits on the target shall not give more tangential impulse; no limit where absent.
     pub tangential_impulse: Field<TangentialImpulseEntry>,
     /// What other surfaces may take; no limit where absent.
     pub rebound: Field<ReboundEntry>,
-    /// Shots whose first hit is not on the target.
+    /// Shots whose first hit is not on the target; the defaults of its keys where absent.
     pub miss: Field<MissEntry>,
 }
 
 /// First hits on the target shall give this normal impulse.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct NormalImpulseEntry {
-    /// The impulse.
-    pub target: Field<Impulse>,
-    /// Deviation from which a shot breaks the goal; 10 % where absent.
+    /// The impulse, above 0 N.s, to 1e6 N.s.
+    #[schemars(example = &"40 uN.s")]
+    pub target: Needed<Impulse>,
+    /// A first hit on target breaks the goal when it is off by more, 0 to 1000 %.
+    #[schemars(example = &"15 %", extend("default" = "10 %"))]
     pub tolerance: Field<Percentage>,
-    /// Share of the first hits on target that may break it; 5 % where absent.
+    /// Share of the first hits on target that may break it, 0 to 100 %.
+    #[schemars(example = &"2 %", extend("default" = "5 %"))]
     pub share: Field<Percentage>,
-    /// Weight in the objective; 1 where absent.
+    /// Weight in the objective, 0 to 1e9.
+    #[schemars(example = 0.5, extend("default" = 1))]
     pub weight: Field<f64>,
 }
 
 /// First hits on the target shall not give more tangential impulse.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct TangentialImpulseEntry {
-    /// The limit.
-    pub limit: Field<Impulse>,
-    /// Share of the first hits on target that may break it; 5 % where absent.
+    /// The limit, above 0 N.s.
+    #[schemars(example = &"8 uN.s")]
+    pub limit: Needed<Impulse>,
+    /// Share of the first hits on target that may break it, 0 to 100 %.
+    #[schemars(example = &"2 %", extend("default" = "5 %"))]
     pub share: Field<Percentage>,
-    /// Weight in the objective; 1 where absent.
+    /// Weight in the objective, 0 to 1e9.
+    #[schemars(example = 0.5, extend("default" = 1))]
     pub weight: Field<f64>,
 }
 
-/// What other surfaces may take.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// What other surfaces than the target may take. [`surfaces`](#surfaces) says where one of them
+/// differs.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ReboundEntry {
-    /// Normal impulse of one impact.
-    pub allow: Field<Impulse>,
-    /// Share of all shots that may break it on each surface; 1 % where absent.
+    /// Normal impulse of one impact on any of them, above 0 N.s.
+    #[schemars(example = &"10 uN.s")]
+    pub allow: Needed<Impulse>,
+    /// Share of all shots that may break it on each surface, 0 to 100 %.
+    #[schemars(example = &"0.5 %", extend("default" = "1 %"))]
     pub share: Field<Percentage>,
-    /// Weight in the objective; 1 where absent.
+    /// Weight in the objective, 0 to 1e9.
+    #[schemars(example = 0.5, extend("default" = 1))]
     pub weight: Field<f64>,
 }
 
 /// Shots whose first hit is not on the target.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct MissEntry {
-    /// Share of all shots that may miss; 1 % where absent.
+    /// Share of all shots that may miss, 0 to 100 %.
+    #[schemars(example = &"2 %", extend("default" = "1 %"))]
     pub share: Field<Percentage>,
-    /// Weight in the objective; 1 where absent.
+    /// Weight in the objective, 0 to 1e9.
+    #[schemars(example = 2, extend("default" = 1))]
     pub weight: Field<f64>,
 }
 
-/// How exactly a shop sets the settings: half-widths, exact where absent.
-#[derive(Clone, Debug, Default, Deserialize)]
+/// How exactly a shop sets what the sheet says: half-widths. Every shot is fired from its own setting
+/// within that box, so the answer is best for what will really be set. With one for `restitution`
+/// or `friction` the sheet says which of the two moves the result most.
+///
+/// A half-width may be at most half the range that is searched, and neither incidence nor standoff
+/// may reach 0 (the incidence may where `aim_above` lets it be 0).
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ToleranceEntry {
-    /// Of the incidence.
+    /// Of the incidence, 0 to 360 deg.
+    #[schemars(example = &"2 deg", extend("default" = "0 deg"))]
     pub incidence: Field<Angle>,
-    /// Of the azimuth.
+    /// Of the azimuth, 0 to 360 deg.
+    #[schemars(example = &"2 deg", extend("default" = "0 deg"))]
     pub azimuth: Field<Angle>,
-    /// Of the standoff.
+    /// Of the standoff, 0 mm to 1 km.
+    #[schemars(example = &"1 mm", extend("default" = "0 mm"))]
     pub standoff: Field<Length>,
-    /// Of the speed, relative.
+    /// Of the speed, relative, 0 to below 100 %.
+    #[schemars(example = &"3 %", extend("default" = "0 %"))]
     pub speed: Field<Percentage>,
-    /// Of the aim point along azimuth 0.
+    /// Of the aim point along azimuth 0, 0 mm to 1 km.
+    #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_along: Field<Length>,
-    /// Of the aim point across it.
+    /// Of the aim point across it, 0 mm to 1 km.
+    #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_across: Field<Length>,
-    /// Of the aim point away from the target.
+    /// Of the aim point away from the target, 0 mm to 1 km.
+    #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_above: Field<Length>,
-    /// Of the coefficient of restitution, absolute.
+    /// Of the coefficient of restitution, absolute, 0 to 1; the result is kept within 0 to 1.
+    #[schemars(example = 0.1, extend("default" = 0))]
     pub restitution: Field<f64>,
-    /// Of both friction coefficients, relative.
+    /// Of both friction coefficients at once, relative, 0 to below 100 %.
+    #[schemars(example = &"20 %", extend("default" = "0 %"))]
     pub friction: Field<Percentage>,
 }
 
 /// How the answer is searched.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct SolveEntry {
-    /// Accuracy of the objective; 1 % where absent.
+    /// Accuracy of the objective, above 0 to 100 %. The search ends when fresh shots confirm it.
+    /// `--accuracy` overrides it.
+    #[schemars(example = &"0.5 %", extend("default" = "1 %"))]
     pub accuracy: Field<Percentage>,
-    /// Seed of every sample; 1 where absent.
+    /// Seed of every sample, a whole number from 0. `--seed` overrides it.
+    #[schemars(example = 2, extend("default" = 1))]
     pub seed: Field<u64>,
 }

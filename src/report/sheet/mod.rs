@@ -7,6 +7,7 @@ mod contacts;
 mod headline;
 mod model;
 mod objective;
+mod origins;
 mod received;
 mod scatter;
 mod setting;

@@ -1,5 +1,6 @@
 //! What to set: each setting with its window, the medium, and the pose for a robot.
 
+use super::origins::origins;
 use super::setting::{SETTINGS, Setting};
 use crate::record::{AnswerRecord, ContactRecord, Record, StatusRecord};
 use crate::report::layout::{Align, Block, Table};
@@ -77,8 +78,12 @@ fn equipment(record: &Record) -> Vec<(&'static str, String)> {
     } else {
         String::new()
     };
+    let medium = problem
+        .medium
+        .as_ref()
+        .map_or_else(String::new, |medium| format!("{}, ", medium.name));
     let shot = format!(
-        "{} mm diameter, {} kg/m3, {} mg{size}",
+        "{medium}{} mm diameter, {} kg/m3, {} mg{size}",
         plain(problem.shot_radius_m * 2e3),
         plain(problem.shot_density_kg_m3),
         significant(problem.shot_mass_kg * 1e6, 3),
@@ -90,14 +95,16 @@ fn equipment(record: &Record) -> Vec<(&'static str, String)> {
         problem.spread,
         share_asked(problem.speed_spread),
     );
-    vec![
+    let mut lines = vec![
         (
             "contact",
             format!("{}: {}", best.contact, coefficients(&best.contact_values)),
         ),
         ("shot", shot),
         ("jet", jet),
-    ]
+    ];
+    lines.extend(origins(record));
+    lines
 }
 
 /// The coefficients of a contact.

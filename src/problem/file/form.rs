@@ -1,0 +1,88 @@
+//! Schemas of values that the derived ones do not describe: quantities, and names out of lists.
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Value, json};
+
+use crate::problem::media;
+use crate::problem::model::Effect;
+use crate::problem::name::NAME_PATTERN;
+use crate::units::Dimension;
+
+/// The schema of a number with a unit.
+pub(in crate::problem) fn quantity(dimension: Dimension) -> Schema {
+    let units: Vec<&str> = dimension.unit_names().collect();
+    let described = dimension.described();
+    let mut letters = described.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    json_schema!({
+        "description": format!(
+            "{}; in {}.",
+            first.chain(letters).collect::<String>(),
+            units.join(", ")
+        ),
+        "type": "string",
+        "pattern": dimension.pattern(),
+        "patternErrorMessage": format!("expected {described}; units: {}", units.join(", ")),
+    })
+}
+
+/// What parts, contacts and regions may be called.
+pub(in crate::problem) fn names() -> Value {
+    json!({ "pattern": NAME_PATTERN })
+}
+
+/// Exactly one of `keys` must be there.
+pub(in crate::problem) fn exactly_one_of(keys: &[&str]) -> Value {
+    keys.iter()
+        .map(|key| json!({ "required": [key] }))
+        .collect()
+}
+
+/// A medium of the library.
+pub(in crate::problem) struct MediumName;
+
+/// A contact of the library.
+pub(in crate::problem) struct ContactName;
+
+/// `auto`, `full`, or effects.
+pub(in crate::problem) struct ModelName;
+
+fn medium_names() -> Vec<&'static str> {
+    media::media().iter().map(|known| known.name).collect()
+}
+
+/// The names of all contacts of the library.
+pub(super) fn contact_names() -> Vec<&'static str> {
+    media::contacts().iter().map(|known| known.name).collect()
+}
+
+macro_rules! inline_schemas {
+    ($($name:ident: $schema:expr;)*) => {$(
+        impl JsonSchema for $name {
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                $schema
+            }
+        }
+    )*};
+}
+
+inline_schemas! {
+    MediumName: json_schema!({ "enum": medium_names() });
+    ContactName: json_schema!({ "enum": contact_names() });
+    ModelName: json_schema!({
+        "anyOf": [
+            { "enum": ["auto", "full"] },
+            { "type": "array", "items": { "enum": Effect::ALL.map(Effect::name) } },
+        ],
+    });
+}
