@@ -1,0 +1,37 @@
+//! Sweeps one setting and holds the others: what the jet does from 55 to 80 degrees, as CSV.
+//!
+//!     cargo run --release --example sweep -- problems/keyway.yaml > sweep.csv
+
+use std::error::Error;
+use std::path::Path;
+
+use peenpose::evaluate::evaluate;
+use peenpose::jet::Replicates;
+use peenpose::setup::Setup;
+use peenpose::solve::{ANSWERS, Control, clearance_violation, solve};
+use peenpose::verdict::Verdict;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let file = std::env::args().nth(1);
+    let file = file.as_deref().unwrap_or("problems/keyway.yaml");
+    let (setup, _source) = Setup::load(Path::new(file))?;
+    let best = solve(&setup, &Control::default()).answers[0].choice;
+
+    // The same fresh shots at every angle, so that differences are not noise.
+    let shots = Replicates::new(&setup.problem, ANSWERS, 16_384);
+    println!("incidence_deg,fits,J,standard_error,mean_normal_impulse_N_s,passes");
+    for incidence_deg in 55..=80 {
+        let mut choice = best;
+        choice.incidence = f64::from(incidence_deg).to_radians();
+        let found = evaluate(&setup, &choice, &shots);
+        let fits = clearance_violation(&setup, &choice).is_none();
+        println!(
+            "{incidence_deg},{fits},{:.6},{:.6},{:.4e},{}",
+            found.terms.total(),
+            found.standard_error,
+            found.target.normal_impulse.mean,
+            fits && Verdict::all(&setup, &found).iter().all(Verdict::passes),
+        );
+    }
+    Ok(())
+}
