@@ -20,7 +20,7 @@ pub(super) fn check(
         Field::Present(entries) => entries,
     };
     if entries.len() < 2 {
-        let fault = scope.own_fault("has no two rows to interpolate between");
+        let fault = scope.own_fault("has fewer than two rows");
         scope.report(fault.expecting("at least two rows `{ pressure: .., speed: .. }`"));
         return None;
     }
