@@ -20,7 +20,9 @@ use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 
 use contact::ContactsItem;
-use equipment::{JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
+use equipment::{
+    CoverageEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry,
+};
 use scene::{PartEntry, TargetEntry};
 use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 
@@ -71,6 +73,8 @@ pub(super) struct ProblemFile {
     pub surfaces: Field<Named<SurfaceEntry>>,
     /// When a path ends; the defaults of its keys where absent.
     pub paths: Field<PathsEntry>,
+    /// What is to be said about coverage; nothing where absent.
+    pub coverage: Field<CoverageEntry>,
     /// How exactly a shop sets the settings; exactly where absent.
     pub tolerance: Field<ToleranceEntry>,
     /// Which effects are modelled. `auto` searches without what does not matter in the scene at
@@ -123,6 +127,11 @@ pub(super) struct Density(pub f64);
 #[serde(rename = "mass flow")]
 pub(super) struct MassFlow(pub f64);
 
+/// A pressure with its unit, such as `3 bar`; here in Pa.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename = "pressure")]
+pub(super) struct Pressure(pub f64);
+
 /// A percentage, such as `5 %`; here as a fraction of 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename = "percentage")]
@@ -161,6 +170,7 @@ quantities! {
     Impulse: Impulse,
     Density: Density,
     MassFlow: MassFlow,
+    Pressure: Pressure,
     Percentage: Fraction,
 }
 

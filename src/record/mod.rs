@@ -3,7 +3,9 @@
 //! Angles are in degrees, everything else is SI, and every key ends with its unit.
 
 mod answer;
+mod coverage;
 mod evidence;
+mod json;
 mod library;
 mod model;
 mod question;
@@ -14,13 +16,14 @@ pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
     SpreadRecord, TargetRecord, VerdictRecord,
 };
+pub use coverage::{CoverageRecord, DensityRecord};
 pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
 pub use library::{LibraryContactRecord, MediumRecord, OriginRecord};
 pub use model::{ModelRecord, RungRecord};
-pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,
 };
@@ -28,6 +31,8 @@ pub use window::{DriftRecord, WindowRecord};
 
 use serde::{Deserialize, Serialize};
 
+use crate::coverage::Coverage;
+use crate::evidence::{Evidence, SHOTS};
 use crate::problem::Source;
 use crate::setup::Setup;
 use crate::solve::{Answer, Ladder, Status, Window};
@@ -55,6 +60,10 @@ pub struct Record {
     /// What restitution and friction do at the ends of their ranges; absent where they are known.
     #[serde(default)]
     pub unknowns: Option<UnknownsRecord>,
+    /// How densely hits fall on the target; absent where the problem does not ask for it, or the
+    /// nozzle does not fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<CoverageRecord>,
     /// What pictures are drawn from; absent where none were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<EvidenceRecord>,
@@ -157,6 +166,9 @@ impl Record {
             .iter()
             .map(|answer| AnswerRecord::new(setup, answer))
             .collect();
+        let best = answers.first()?;
+        let fits = best.evaluation.is_some();
+        let coverage = fits.then(|| Coverage::of(setup, &best.choice)).flatten();
         Some(Self {
             status: circumstances.status,
             problem: QuestionRecord::new(&setup.problem, circumstances.source),
@@ -169,6 +181,7 @@ impl Record {
             model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
+            coverage: coverage.as_ref().map(CoverageRecord::new),
             evidence: None,
             work: circumstances.work,
             problem_sha256: circumstances.source.sha256.clone(),
@@ -177,12 +190,12 @@ impl Record {
         })
     }
 
-    /// The record as JSON text.
+    /// The record as JSON text: a line for each key, lists of numbers on one line.
     ///
     /// # Errors
     /// None is expected: every number in a record is finite.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string_pretty(self).map(|text| text + "\n")
+        json::text(self)
     }
 
     /// Reads a record back.
@@ -191,6 +204,19 @@ impl Record {
     /// When the text is not a record.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text)
+    }
+
+    /// The same with what the pictures of the best settings are drawn from; `best` is the first
+    /// of the answers behind it.
+    #[must_use]
+    pub fn with_evidence(self, setup: &Setup, best: &Answer) -> Self {
+        let fits = best.evaluation.is_some();
+        let shots = if fits { SHOTS } else { 0 };
+        let shown = Evidence::of(setup, &best.choice, shots);
+        Self {
+            evidence: Some(EvidenceRecord::new(setup, &best.choice, &shown)),
+            ..self
+        }
     }
 
     /// Whether every verdict on the best settings passes.

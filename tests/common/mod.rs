@@ -57,6 +57,7 @@ pub fn keyway(length: f64) -> Problem {
             speed_spread: 0.05,
             mass_flow: None,
         },
+        calibration: None,
         nozzle: Nozzle {
             body: vec![Body::Ball { radius: 3e-3 }],
             clearance: 0.0,
@@ -117,6 +118,7 @@ pub fn keyway(length: f64) -> Problem {
             shot_size: false,
             spin: true,
         },
+        coverage: None,
         tolerance: Tolerance::default(),
         model: Model::Full,
         accuracy: 0.01,

@@ -4,11 +4,13 @@ mod args;
 mod chart;
 mod check;
 mod evaluate;
+mod export;
 mod impact;
 mod init;
 mod media;
 mod output;
 mod progress;
+mod report;
 mod schema;
 mod solve;
 
@@ -24,6 +26,8 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Report(args) => report::run(args),
+        Command::Export(args) => export::run(args),
         Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
         Command::Impact(args) => impact::run(args)

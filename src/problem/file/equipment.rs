@@ -5,7 +5,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::contact::ContactEntry;
-use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Triple, form};
+use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Pressure, Speed, Triple, form};
 use crate::problem::field::{Field, Needed};
 
 /// The shot: solid spheres. Either both numbers are given, or a medium of the library, such as S110 or
@@ -60,6 +60,30 @@ pub(in crate::problem) struct JetEntry {
     /// absent.
     #[schemars(example = &"5 kg/min")]
     pub mass_flow: Field<MassFlow>,
+    /// The machine's calibration, measured with this shot and nozzle: at least two pressures, each
+    /// with the mean speed of the shot at the exit, both strictly rising. With it the sheet says
+    /// the pressure that belongs to the speed, linear between the two rows beside it and never
+    /// beyond the first or the last one. No figure depends on it; unknown where absent.
+    #[schemars(
+        length(min = 2),
+        example = json!([
+            { "pressure": "2 bar", "speed": "22 m/s" },
+            { "pressure": "4 bar", "speed": "36 m/s" },
+        ])
+    )]
+    pub pressure: Field<Vec<Field<CalibrationEntry>>>,
+}
+
+/// One row of the calibration.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub(in crate::problem) struct CalibrationEntry {
+    /// The pressure that is set, above 0 bar.
+    #[schemars(example = &"2 bar")]
+    pub pressure: Needed<Pressure>,
+    /// The mean speed of the shot at the exit, above 0 m/s.
+    #[schemars(example = &"22 m/s")]
+    pub speed: Needed<Speed>,
 }
 
 /// How directions fill the cone.
@@ -176,6 +200,27 @@ pub(in crate::problem) enum RoleEntry {
     Part,
     /// Part of the flight.
     Deflector,
+}
+
+/// What is to be said about coverage: how densely first hits fall on the target, and how much shot
+/// and time it takes until the share `wanted` of it is dented, on the mean and where hits are few.
+///
+/// Dents are taken to fall at random with the density of the place: coverage is then
+/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). The nozzle is taken to stand still, and only
+/// first hits count. Times need `jet.mass_flow`. No other figure depends on it.
+///
+/// ```yaml
+/// coverage: { dent_diameter: 0.2 mm, wanted: 95 % }
+/// ```
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub(in crate::problem) struct CoverageEntry {
+    /// Diameter d of the dent that one hit leaves, as measured on a strip, 1 nm to 1 km.
+    #[schemars(example = &"0.2 mm")]
+    pub dent_diameter: Needed<Length>,
+    /// Share of the area that is to be dented, above 0 % and below 100 %.
+    #[schemars(example = &"95 %", extend("default" = "98 %"))]
+    pub wanted: Field<Percentage>,
 }
 
 /// When a path ends.
