@@ -47,7 +47,7 @@ pub fn target(record: &Record) -> Option<Block> {
             limit,
         ));
     }
-    block.table(&table);
+    block.table(table);
     if hit {
         block.paragraph(&format!(
             "{} of {} hit {} first; {}.",
@@ -129,7 +129,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
         Block::titled("OTHER SURFACES")
     } else {
         let mut block = Block::default();
-        block.table(&table);
+        block.table(table);
         block
     };
     if !never.is_empty() {

@@ -26,7 +26,7 @@ pub fn settings(record: &Record) -> Block {
     for setting in SETTINGS.iter().filter(|setting| setting.is_used(record)) {
         table.row(row(record, setting));
     }
-    block.table(&table.without_empty_columns());
+    block.table(table.without_empty_columns());
     for (label, text) in equipment(record) {
         block.hanging(&format!("{label:<10} "), &text);
     }
