@@ -5,9 +5,11 @@ pub mod figure;
 mod finding;
 mod layout;
 mod number;
+mod page;
 mod series;
 mod sheet;
 pub mod table;
 
 pub use chart::chart;
+pub use page::{PageFault, page};
 pub use sheet::sheet;

@@ -1,9 +1,11 @@
-//! Figures, drawn from a chart alone: SVG with texts, and PNG with the embedded font.
+//! Figures, drawn from a chart or a record alone: SVG with texts, and PNG with the embedded font.
 //!
-//! This module is the only one that knows plotters and resvg.
+//! This module is the only one that knows plotters, resvg and the ramps of colours.
 
 mod axis;
 mod effect;
+mod hits;
+mod linear;
 mod plot;
 mod png;
 mod pose;
@@ -15,6 +17,7 @@ pub(super) use axis::time;
 pub(super) use pose::curve_name;
 
 use crate::chart::Chart;
+use crate::record::Record;
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,6 +52,23 @@ impl Figure {
                     .map_err(|fault| FigureFault::new(name, &fault))
             })
             .collect()
+    }
+
+    /// The figure of the hits on the target; `None` where the record holds none.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_hits(record: &Record) -> Result<Option<Self>, FigureFault> {
+        let name = "hits";
+        let svg = record
+            .evidence
+            .as_ref()
+            .and_then(|it| hits::svg(record, it));
+        svg.map(|svg| match svg {
+            Ok(svg) => Ok(Self { name, svg }),
+            Err(fault) => Err(FigureFault::new(name, &fault)),
+        })
+        .transpose()
     }
 
     /// The figure as PNG.

@@ -1,19 +1,19 @@
 //! The technique sheet: what to set, whether it passes, what limits it; then the proof.
 
-mod blocked;
-mod cause;
-mod closing;
-mod contacts;
-mod headline;
-mod model;
-mod objective;
-mod received;
+pub(super) mod blocked;
+pub(super) mod cause;
+pub(super) mod closing;
+pub(super) mod contacts;
+pub(super) mod headline;
+pub(super) mod model;
+pub(super) mod objective;
+pub(super) mod received;
 mod scatter;
-mod setting;
-mod settings;
+pub(super) mod setting;
+pub(super) mod settings;
 mod subject;
-mod unknowns;
-mod verdicts;
+pub(super) mod unknowns;
+pub(super) mod verdicts;
 
 use super::layout::Block;
 use crate::record::Record;

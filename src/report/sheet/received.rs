@@ -147,7 +147,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
 }
 
 /// The target's own surface is secondary outside the patch.
-fn shown_name(record: &Record, name: &str) -> String {
+pub fn shown_name(record: &Record, name: &str) -> String {
     match &record.best.target {
         Some(target) if target.surface == name => format!("{name} off target"),
         _ => name.into(),
@@ -169,7 +169,7 @@ fn never_means(best: &AnswerRecord) -> String {
 }
 
 /// Which impact of a path it mainly is that hits a surface.
-fn mainly(receipt: &ReceiptRecord) -> String {
+pub fn mainly(receipt: &ReceiptRecord) -> String {
     let counts = &receipt.impacts_per_shot_by_number;
     let total: f64 = counts.iter().sum();
     let Some((index, most)) = counts
