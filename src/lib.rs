@@ -133,6 +133,8 @@ pub mod unknowns;
 pub mod solve;
 pub mod validity;
 
+pub mod evidence;
+
 pub mod record;
 
 pub mod chart;

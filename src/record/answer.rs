@@ -97,6 +97,10 @@ pub struct PoseRecord {
     pub direction: [f64; 3],
     /// Rotation that takes the z axis to the jet's direction.
     pub quaternion_xyzw: [f64; 4],
+    /// The same with the exit as the origin, row by row: takes points of the nozzle's frame, m, to
+    /// the scene's; absent in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub matrix_4x4: Option<[[f64; 4]; 4]>,
 }
 
 /// The terms of the objective with their weights.
@@ -278,8 +282,16 @@ impl PoseRecord {
             exit_m: pose.exit.coords.into(),
             direction: pose.direction.into(),
             quaternion_xyzw: pose.rotation().coords.into(),
+            matrix_4x4: Some(matrix(pose)),
         }
     }
+}
+
+/// The frame of the nozzle in the scene, row by row.
+fn matrix(pose: &Pose) -> [[f64; 4]; 4] {
+    let columns = [pose.up, pose.side, pose.direction, pose.exit.coords];
+    let row = |axis: usize| columns.map(|column| column[axis]);
+    [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
 }
 
 impl ObjectiveRecord {

@@ -4,6 +4,7 @@
 
 mod answer;
 mod evidence;
+mod json;
 mod model;
 mod question;
 mod unknowns;
@@ -26,6 +27,7 @@ pub use window::{DriftRecord, WindowRecord};
 
 use serde::{Deserialize, Serialize};
 
+use crate::evidence::{Evidence, SHOTS};
 use crate::problem::Source;
 use crate::setup::Setup;
 use crate::solve::{Answer, Ladder, Status, Window};
@@ -175,12 +177,12 @@ impl Record {
         })
     }
 
-    /// The record as JSON text.
+    /// The record as JSON text: a line for each key, lists of numbers on one line.
     ///
     /// # Errors
     /// None is expected: every number in a record is finite.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string_pretty(self).map(|text| text + "\n")
+        json::text(self)
     }
 
     /// Reads a record back.
@@ -189,6 +191,19 @@ impl Record {
     /// When the text is not a record.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text)
+    }
+
+    /// The same with what the pictures of the best settings are drawn from; `best` is the first
+    /// of the answers behind it.
+    #[must_use]
+    pub fn with_evidence(self, setup: &Setup, best: &Answer) -> Self {
+        let fits = best.evaluation.is_some();
+        let shots = if fits { SHOTS } else { 0 };
+        let shown = Evidence::of(setup, &best.choice, shots);
+        Self {
+            evidence: Some(EvidenceRecord::new(setup, &best.choice, &shown)),
+            ..self
+        }
     }
 
     /// Whether every verdict on the best settings passes.

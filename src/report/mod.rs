@@ -2,6 +2,7 @@
 
 mod chart;
 pub mod figure;
+mod files;
 mod finding;
 mod layout;
 mod number;
@@ -11,5 +12,6 @@ mod sheet;
 pub mod table;
 
 pub use chart::chart;
+pub use files::files;
 pub use page::{PageFault, page};
 pub use sheet::sheet;

@@ -30,6 +30,8 @@ pub enum Command {
     Solve(SolveArgs),
     /// Say what given settings do
     Evaluate(EvaluateArgs),
+    /// Make all reports again from the result in a folder
+    Report(ReportArgs),
     /// Measure speed against accuracy on a problem file, as figures and tables
     Chart(ChartArgs),
     /// Show all faults of problem files at once
@@ -43,7 +45,7 @@ pub enum Command {
 pub struct SolveArgs {
     /// The problem file
     pub file: PathBuf,
-    /// Write result.json and sheet.txt into this folder
+    /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print result.json instead of the technique sheet
@@ -86,9 +88,17 @@ pub struct EvaluateArgs {
     /// Print JSON instead of the sheet
     #[arg(long)]
     pub json: bool,
-    /// Write result.json and sheet.txt into this folder
+    /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `report`.
+#[derive(clap::Args)]
+pub struct ReportArgs {
+    /// The folder that `--out` has written into
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }
 
 /// Arguments of `chart`.

@@ -54,13 +54,17 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     };
     let notes = validity::notes(&setup, &choice, answer.evaluation.as_ref());
     let unknowns = Unknowns::of(&setup, &choice);
-    let record = Record::new(&setup, &[answer], &[], notes, unknowns, circumstances)
+    let answers = [answer];
+    let mut record = Record::new(&setup, &answers, &[], notes, unknowns, circumstances)
         .ok_or("there is nothing to report".to_owned())?;
+    if args.out.is_some() {
+        record = record.with_evidence(&setup, &answers[0]);
+    }
     output::record(&record, args.json, args.out.as_deref())
 }
 
 /// The settings asked for: from a result, from `--set`, or held in the file.
-fn choice(args: &EvaluateArgs, problem: &Problem) -> Result<Choice, String> {
+fn choice(args: &EvaluateArgs, problem: &Problem) -> Result<Choice, Failure> {
     let mut known = Known::held(problem);
     if let Some(path) = &args.from {
         known.take(&from_result(path, problem)?);
@@ -68,16 +72,12 @@ fn choice(args: &EvaluateArgs, problem: &Problem) -> Result<Choice, String> {
     for text in &args.set {
         known.set(text, problem)?;
     }
-    known.complete(problem)
+    Ok(known.complete(problem)?)
 }
 
 /// The best settings of a result.
-fn from_result(path: &Path, problem: &Problem) -> Result<Choice, String> {
-    let shown = path.display();
-    let text =
-        std::fs::read_to_string(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
-    let record =
-        Record::from_json(&text).map_err(|error| format!("{shown} is not a result: {error}"))?;
+fn from_result(path: &Path, problem: &Problem) -> Result<Choice, Failure> {
+    let record = output::read_record(path)?;
     let best = record.best;
     Ok(Choice {
         incidence: best.settings.incidence_deg.to_radians(),

@@ -7,6 +7,7 @@ mod evaluate;
 mod impact;
 mod output;
 mod progress;
+mod report;
 mod solve;
 
 use std::process::ExitCode;
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Report(args) => report::run(args),
         Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
         Command::Impact(args) => impact::run(args)

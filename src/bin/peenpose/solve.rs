@@ -55,7 +55,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
             seconds: started.elapsed().as_secs_f64(),
         },
     };
-    let record = Record::new(
+    let mut record = Record::new(
         &setup,
         &solution.answers,
         &windows,
@@ -64,6 +64,9 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         circumstances,
     )
     .ok_or("there is no contact to choose".to_owned())?;
+    if args.out.is_some() {
+        record = record.with_evidence(&setup, best);
+    }
     output::record(&record, args.json, args.out.as_deref())
 }
 

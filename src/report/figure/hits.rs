@@ -14,18 +14,20 @@ use crate::report::number::{
     count, decimals_for, fixed, impulse_asked, plain, share, share_asked, significant,
 };
 
-const SIZE: (u32, u32) = (2000, 1330);
+const SIZE: (u32, u32) = (2000, 1230);
 /// Upper left corners of maps and histograms, px, and their sizes.
 const LEFT: [i32; 3] = [130, 790, 1450];
-const TOP: [i32; 2] = [250, 920];
+const TOP: [i32; 2] = [250, 810];
 const WIDTH: i32 = 390;
-const MAP_HEIGHT: i32 = 500;
-const HISTOGRAM_HEIGHT: i32 = 290;
+const MAP_HEIGHT: i32 = 390;
+const HISTOGRAM_HEIGHT: i32 = 300;
 /// Where the colour bar stands beside a map, px, and how wide it is.
 const BAR_APART: i32 = 24;
 const BAR_WIDTH: i32 = 26;
 /// Room round the hits, relative to their extent.
 const ROOM: f64 = 0.08;
+/// Room beside the marks of a histogram, relative to its extent.
+const ROOM_FOR_NAMES: f64 = 0.2;
 /// Cells along the longer side of a map.
 const FEWEST_CELLS: f64 = 8.0;
 const MOST_CELLS: f64 = 36.0;
@@ -192,8 +194,6 @@ impl Grid {
 /// A map of a quantity over the target.
 struct Map {
     title: &'static str,
-    /// What its colours mean, with the unit.
-    unit: String,
     values: Vec<Option<f64>>,
     scale: Range<f64>,
     gradient: Gradient,
@@ -223,24 +223,21 @@ fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
     let tangential_most = most(&tangential);
     [
         Map {
-            title: "How dense",
-            unit: "% of the shots per mm\u{b2}".into(),
+            title: "Hits, % of the shots per mm\u{b2}",
             scale: 0.0..most(&density),
             values: density,
             gradient: colorous::CIVIDIS,
             marks: Vec::new(),
         },
         Map {
-            title: "Mean N*",
-            unit: "N*, uN.s".into(),
+            title: "Mean N*, uN.s",
             values: normal,
             scale: wanted - half..wanted + half,
             gradient: colorous::PURPLE_ORANGE,
             marks: tolerance_marks(goals),
         },
         Map {
-            title: "Mean f*",
-            unit: "f*, uN.s".into(),
+            title: "Mean f*, uN.s",
             scale: 0.0..limit
                 .filter(|limit| *limit < 2.0 * tangential_most)
                 .map_or(tangential_most, |limit| limit.max(tangential_most)),
@@ -348,8 +345,6 @@ impl Map {
         area.draw(&Rectangle::new(frame, GHOST.stroke_width(2)))?;
         let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
         let right = left + BAR_WIDTH;
-        let name = (left - 4, top - 34);
-        sheet::text(area, &self.unit, name, HPos::Left, &letters(LABEL), FAINT)?;
         let place = |value: f64| height((value - from) / (to - from));
         let mut taken: Vec<i32> = Vec::new();
         for (value, name) in self
@@ -484,8 +479,13 @@ impl Histogram {
         // Marks that are near are worth seeing.
         let near = |value: &f64| (lowest - span..=highest + span).contains(value);
         let marks = || self.marks.iter().map(|(value, ..)| *value).filter(near);
-        let low = marks().fold(lowest, f64::min) - 0.05 * span;
-        let high = marks().fold(highest, f64::max) + 0.05 * span;
+        let room = if marks().next().is_some() {
+            ROOM_FOR_NAMES
+        } else {
+            ROOM
+        } * span;
+        let low = marks().fold(lowest, f64::min) - room;
+        let high = marks().fold(highest, f64::max) + room;
         let width = (high - low) / BARS as f64;
         let mut counts = [0_usize; BARS];
         for value in &self.values {

@@ -161,15 +161,10 @@ impl<'a, 'b> Plot<'a, 'b> {
             self.sheet.draw(&PathElement::new(ends.to_vec(), style))?;
         }
         let [(left, _), (right, top)] = self.corners;
-        let side = if ends[1].0 > (left + right) / 2 {
-            HPos::Right
+        let (side, shift) = if ends[1].0 < (left + right) / 2 {
+            (HPos::Right, -8)
         } else {
-            HPos::Left
-        };
-        let shift = if ends[1].0 > (left + right) / 2 {
-            -8
-        } else {
-            8
+            (HPos::Left, 8)
         };
         let place = (ends[1].0 + shift, top + 6);
         sheet::text(self.sheet, name, place, side, &letters(LABEL), INK)

@@ -9,7 +9,7 @@ use crate::record::{
 
 /// Dots of each kind that are drawn at most: more would only hide each other. Shots are spread
 /// evenly, so the first ones stand for all.
-const MOST_DOTS: usize = 1500;
+const MOST_DOTS: usize = 1000;
 /// Parts of a millimetre that are kept.
 const FINENESS: f64 = 1e4;
 
@@ -54,6 +54,8 @@ struct Piece {
 struct Path {
     points: Vec<f64>,
     breaks: bool,
+    /// Whether it was picked because it breaks something.
+    picked: bool,
 }
 
 /// Impacts, one value per impact in each column.
@@ -108,6 +110,7 @@ impl<'a> Scene<'a> {
                 .map(|path| Path {
                     points: points(frame, &path.points_m),
                     breaks: path.breaks,
+                    picked: path.picked,
                 })
                 .collect(),
             hits: hits(record, evidence),

@@ -13,8 +13,9 @@ use crate::report::number::{count, plain};
 const WIDTH: f64 = 1000.0;
 const PICTURE: f64 = 600.0;
 const HEIGHT: f64 = 664.0;
-/// Room round what has to be seen, as a factor.
-const ROOM: f64 = 1.1;
+/// How much more is seen than target and exit, and the room round that, as factors.
+const SURROUNDINGS: f64 = 2.0;
+const ROOM: f64 = 1.06;
 /// The body of the nozzle, which one sees through, on white.
 const NOZZLE_ON_WHITE: Colour = Colour(165, 170, 176);
 /// How many shades a surface has.
@@ -89,7 +90,8 @@ impl Still {
         let rim = rim.try_normalize(1e-9).unwrap_or(view.up) * record.problem.exit_diameter_m / 2.0;
         let is_target = |shape: &&SurfaceShapeRecord| shape.role == RoleRecord::Target;
         let (targets, others): (Vec<_>, Vec<_>) = evidence.surfaces.iter().partition(is_target);
-        let (breaking, kept): (Vec<_>, Vec<_>) = evidence.paths.iter().partition(|p| p.breaks);
+        let shown = evidence.paths.iter().filter(|path| !path.picked);
+        let (breaking, kept): (Vec<_>, Vec<_>) = shown.partition(|path| path.breaks);
         let (bar, bar_length) = view.scale_bar();
         Self {
             look: LOOK,
@@ -120,8 +122,8 @@ impl Still {
             legend: legend(&kept, !breaking.is_empty()),
             legend_height: PICTURE + 20.0,
             caption: format!(
-                "{} shots; cut through the aim point{}, seen against {}.",
-                count(evidence.paths.len()),
+                "{} shots as they come; cut through the aim point{}, seen against {}.",
+                count(breaking.len() + kept.len()),
                 if evidence.places.is_empty() {
                     ""
                 } else {
@@ -174,12 +176,12 @@ fn legend(kept: &[&PathRecord], any_breaks: bool) -> Vec<Entry> {
         entries.push(entry(flight.colour, 2.5, false, flight.name));
     }
     if any_breaks {
-        entries.push(entry(LOOK.breaks, 3.0, true, "breaks a limit or misses"));
+        entries.push(entry(LOOK.breaks, 3.0, true, "breaks a limit"));
     }
     let mut x = 16.0;
     for entry in &mut entries {
         entry.x = x;
-        x += 58.0 + 7.0 * entry.text.len() as f64;
+        x += 56.0 + 6.9 * entry.text.len() as f64;
     }
     entries
 }
@@ -215,15 +217,18 @@ impl View {
         let aim = Point3::from(frame.aim_m);
         let exit = Point3::from(record.best.pose.exit_m);
         let middle = nalgebra::center(&aim, &exit);
-        let targets = evidence
-            .surfaces
-            .iter()
-            .filter(|s| s.role == RoleRecord::Target);
-        let reach = targets
-            .flat_map(|shape| &shape.points_m)
-            .map(|at| (Point3::from(at.map(f64::from)) - middle).norm())
-            .fold(1.1 * (exit - aim).norm(), f64::max);
-        Self {
+        let distance = |at: &[f32; 3]| (Point3::from(at.map(f64::from)) - middle).norm();
+        let farthest = |of: &dyn Fn(&&SurfaceShapeRecord) -> bool| {
+            let points = evidence
+                .surfaces
+                .iter()
+                .filter(of)
+                .flat_map(|shape| &shape.points_m);
+            points.map(distance).fold((exit - aim).norm(), f64::max)
+        };
+        let reach = SURROUNDINGS * farthest(&|shape| shape.role == RoleRecord::Target);
+        let reach = reach.min(farthest(&|_| true));
+        let mut view = Self {
             aim,
             right,
             up,
@@ -235,7 +240,22 @@ impl View {
             } else {
                 "azimuth 0"
             },
-        }
+        };
+        view.centre(&evidence.surfaces, &exit);
+        view
+    }
+
+    /// Moves up or down so that what is cut stands in the middle.
+    fn centre(&mut self, shapes: &[SurfaceShapeRecord], exit: &Corner) {
+        let cuts = shapes.iter().flat_map(|shape| self.cut(shape)).flatten();
+        let ends = cuts
+            .chain([self.aim, *exit])
+            .map(|end| self.at(&end)[1].clamp(0.0, PICTURE));
+        let (top, bottom) = ends.fold((PICTURE, 0.0_f64), |(top, bottom), y| {
+            (top.min(y), bottom.max(y))
+        });
+        let shift = f64::midpoint(top, bottom) - PICTURE / 2.0;
+        self.middle -= self.up * (shift / self.scale);
     }
 
     /// Units of the drawing.

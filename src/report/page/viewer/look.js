@@ -8,5 +8,5 @@ const LOOK = {
     pathWidth: 1.5, // px
     breakWidth: 2.6, // px
     sectionWidth: 2.2, // px
-    dot: 0.012, // diameter of a dot with the wanted impulse, relative to what is in view
+    dot: 0.009, // diameter of a dot with the wanted impulse, relative to what is in view
 };

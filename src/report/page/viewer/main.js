@@ -68,22 +68,29 @@ function startViewer() {
 /** Fills the world and the legend. */
 function fillStage(root, scene, stage, section, say) {
     const legend = root.querySelector(".legend");
-    const add = (into, name, swatch, object) => {
+    const add = (into, name, swatch, object, isShown = true) => {
         if (object) {
+            object.visible = isShown;
             stage.world.add(object);
-            into(name, swatch, (isShown) => {
-                object.visible = isShown;
+            const show = (shown) => {
+                object.visible = shown;
                 stage.draw();
-            });
+            };
+            into(name, swatch, show, isShown);
         }
     };
-    const shots = legendGroup(legend, `Shots, ${scene.paths.length} of the jet`);
-    const { flights, breaks } = pathObjects(scene, stage.near);
+    const asTheyCome = scene.paths.filter((path) => !path.picked);
+    const picked = scene.paths.filter((path) => path.picked);
+    const shots = legendGroup(legend, `${asTheyCome.length} shots as they come`);
+    const { flights, breaks } = pathObjects(asTheyCome, stage.near);
     flights.forEach((lines, flight) => {
         const { name, colour } = LOOK.flights[flight];
         add(shots, name, { kind: "line", colour }, lines);
     });
-    add(shots, "break a limit or miss", { kind: "dashes", colour: LOOK.breaks }, breaks);
+    const dashes = { kind: "dashes", colour: LOOK.breaks };
+    add(shots, "break a limit or miss", dashes, breaks);
+    // So many would look as if they were the rule.
+    add(shots, `${picked.length} more that do, picked`, dashes, pathObjects(picked, stage.near).breaks, false);
 
     const impacts = legendGroup(legend, "Impacts, area of a dot: N*");
     const kinds = [

@@ -7,11 +7,11 @@ function legendGroup(parent, title) {
     legend.textContent = title;
     group.append(legend);
     parent.append(group);
-    return (name, swatch, show) => {
+    return (name, swatch, show, isShown = true) => {
         const label = document.createElement("label");
         const box = document.createElement("input");
         box.type = "checkbox";
-        box.checked = true;
+        box.checked = isShown;
         box.addEventListener("change", () => show(box.checked));
         const sample = document.createElement("span");
         sample.className = `swatch ${swatch.kind}`;
@@ -36,9 +36,9 @@ function connectSection(root, section, redraw) {
         offset.max = section.to;
         offset.step = (section.to - section.from) / 200 || 1;
         offset.value = section.offset;
-        const text = `${section.offset.toFixed(1)} mm from the aim point`;
+        const text = `${section.offset.toFixed(1)} mm`;
         shown.textContent = text;
-        offset.setAttribute("aria-valuetext", text);
+        offset.setAttribute("aria-valuetext", `${text} from the aim point`);
         direction.disabled = !section.isOn;
         offset.disabled = !section.isOn;
         redraw();

@@ -75,24 +75,24 @@ function segments(points, colour, width, dash = 0, opacity = 1) {
     return lines;
 }
 
-/** The flights of the shots that keep every limit, by bounce; and the whole way of those that break one. */
-function pathObjects(scene, size) {
+/** The ways of shots: by bounce where they keep every limit, whole where they break one. */
+function pathObjects(paths, size) {
     const kept = LOOK.flights.map(() => []);
     const broken = [];
-    for (const path of scene.paths) {
-        for (let start = 0; start + 3 < path.points.length; start += 3) {
+    for (const { points, breaks } of paths) {
+        for (let start = 0; start + 3 < points.length; start += 3) {
             const flight = Math.min(start / 3, LOOK.flights.length - 1);
-            (path.breaks ? broken : kept[flight]).push(...path.points.slice(start, start + 6));
+            (breaks ? broken : kept[flight]).push(...points.slice(start, start + 6));
         }
     }
-    const flights = kept.map((points, flight) =>
-        points.length > 0 ? segments(points, LOOK.flights[flight].colour, LOOK.pathWidth, 0, 0.7) : null,
-    );
-    const breaks = broken.length > 0 ? segments(broken, LOOK.breaks, LOOK.breakWidth, size / 60, 0.9) : null;
-    return { flights, breaks };
+    const lines = (points, ...look) => (points.length > 0 ? segments(points, ...look) : null);
+    return {
+        flights: kept.map((points, flight) => lines(points, LOOK.flights[flight].colour, LOOK.pathWidth, 0, 0.7)),
+        breaks: lines(broken, LOOK.breaks, LOOK.breakWidth, size / 60, 0.9),
+    };
 }
 
-/** Round dots whose area goes with the impulse; those that break a limit are red with a dark rim. */
+/** Round dots whose area goes with the impulse; those that break a limit are larger and red with a dark rim. */
 function dots(places, wanted, colour, size) {
     const count = places.impulse.length;
     const sizes = new Float32Array(count);
@@ -132,8 +132,8 @@ function dots(places, wanted, colour, size) {
             void main() {
                 float radius = 2.0 * length(gl_PointCoord - 0.5);
                 if (radius > 1.0) discard;
-                vec3 rim = edge > 0.5 ? vec3(0.1, 0.0, 0.0) : vec3(1.0);
-                gl_FragColor = vec4(radius > 0.72 ? rim : inner, 1.0);
+                bool isRim = edge > 0.5 && radius > 0.7;
+                gl_FragColor = vec4(isRim ? vec3(0.1, 0.0, 0.0) : inner, 1.0);
                 #include <colorspace_fragment>
             }`,
     });

@@ -1,5 +1,6 @@
 // Camera, light, drawing on demand, and the ways to move: pointer, keys, buttons.
 
+const SURROUNDINGS = 2; // how much more is in view than target and exit
 const KEY_TURN = Math.PI / 36; // per key press
 
 class Stage {
@@ -31,8 +32,8 @@ class Stage {
     }
 
     light() {
-        this.world.add(new THREE.HemisphereLight(0xffffff, 0xb8bec6, 2.2));
-        const lamp = new THREE.DirectionalLight(0xffffff, 1.3);
+        this.world.add(new THREE.HemisphereLight(0xffffff, 0xc8ced6, 2.6));
+        const lamp = new THREE.DirectionalLight(0xffffff, 1.6);
         this.camera.add(lamp);
         lamp.position.set(-0.6, 0.8, 1);
         this.world.add(this.camera);
@@ -44,9 +45,9 @@ class Stage {
         this.middle = exit.clone().multiplyScalar(0.5);
         const target = scene.surfaces.filter((surface) => surface.role === "target");
         const reach = Math.max(0, ...target.flatMap(({ points }) => extentFrom(points, this.middle)));
-        this.near = Math.max(1.15 * reach, 1.1 * exit.length());
         const all = scene.surfaces.flatMap(({ points }) => extentFrom(points, this.middle));
-        this.far = Math.max(this.near, ...all);
+        this.far = Math.max(reach, exit.length(), ...all);
+        this.near = Math.min(SURROUNDINGS * Math.max(reach, exit.length()), this.far);
     }
 
     /** Looks at the cut from its open side, a little from above. */

@@ -1,57 +1,31 @@
-//! The numbers of a chart as tables: comma-separated values with a heading, SI units in it.
+//! The tables of a chart.
 
-use std::fmt::Display;
+use std::io;
 
+use super::{Rows, Table};
 use crate::chart::{Chart, Method, Precision, Sampling, Walls};
 use crate::report::number::plain;
 
-/// A table as text.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Table {
-    /// Name of its file, without ending: that of the figure it belongs to.
-    pub name: &'static str,
-    /// Its text.
-    pub csv: String,
+pub(super) fn all(chart: &Chart) -> io::Result<Vec<Table>> {
+    Ok(vec![poses(chart)?, searches(chart)?, effects(chart)?])
 }
 
-impl Table {
-    /// The tables of a chart, each if there is something in it.
-    pub fn of_chart(chart: &Chart) -> Vec<Self> {
-        let tables = [poses(chart), searches(chart), effects(chart)];
-        tables
-            .into_iter()
-            .filter(|table| table.csv.lines().count() > 1)
-            .collect()
-    }
-
-    fn headed(name: &'static str, columns: &str) -> Self {
-        Self {
-            name,
-            csv: format!("{columns}\n"),
-        }
-    }
-
-    fn row(&mut self, cells: &[&dyn Display]) {
-        let cells: Vec<String> = cells.iter().map(|cell| field(&cell.to_string())).collect();
-        self.csv += &cells.join(",");
-        self.csv.push('\n');
-    }
-}
-
-/// A cell; in quotes where it holds what separates cells.
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.into()
-    }
-}
-
-fn poses(chart: &Chart) -> Table {
-    let mut table = Table::headed(
+fn poses(chart: &Chart) -> io::Result<Table> {
+    let mut table = Rows::headed(
         "pose",
-        "sampling,walls,chord_angle_deg,triangles,precision,shots,seconds,error,bias,bias_standard_error",
-    );
+        &[
+            "sampling",
+            "walls",
+            "chord_angle_deg",
+            "triangles",
+            "precision",
+            "shots",
+            "seconds",
+            "error",
+            "bias",
+            "bias_standard_error",
+        ],
+    )?;
     for curve in &chart.poses {
         let sampling = match curve.sampling {
             Sampling::Random => "random",
@@ -79,18 +53,27 @@ fn poses(chart: &Chart) -> Table {
                 &point.error,
                 &curve.bias,
                 &curve.bias_standard_error,
-            ]);
+            ])?;
         }
     }
-    table
+    table.finish()
 }
 
 /// Starts with the columns that `peenpose chart --beside` reads.
-fn searches(chart: &Chart) -> Table {
-    let mut table = Table::headed(
+fn searches(chart: &Chart) -> io::Result<Table> {
+    let mut table = Rows::headed(
         "search",
-        "method,speed,seconds,excess,excess_standard_error,seed,shots_per_pose,contact",
-    );
+        &[
+            "method",
+            "speed",
+            "seconds",
+            "excess",
+            "excess_standard_error",
+            "seed",
+            "shots_per_pose",
+            "contact",
+        ],
+    )?;
     for run in chart.searches.iter().flat_map(|searches| &searches.runs) {
         let (method, speed) = match run.method {
             Method::Accuracy(accuracy) => ("accuracy", format!("{} %", plain(accuracy * 100.0))),
@@ -105,16 +88,23 @@ fn searches(chart: &Chart) -> Table {
             &run.seed,
             &run.shots_per_pose,
             &run.contact,
-        ]);
+        ])?;
     }
-    table
+    table.finish()
 }
 
-fn effects(chart: &Chart) -> Table {
-    let mut table = Table::headed(
+fn effects(chart: &Chart) -> io::Result<Table> {
+    let mut table = Rows::headed(
         "effect",
-        "left_out,change,change_standard_error,regret,regret_standard_error,relative_cost",
-    );
+        &[
+            "left_out",
+            "change",
+            "change_standard_error",
+            "regret",
+            "regret_standard_error",
+            "relative_cost",
+        ],
+    )?;
     for effect in &chart.effects {
         table.row(&[
             &effect.name,
@@ -123,7 +113,7 @@ fn effects(chart: &Chart) -> Table {
             &effect.regret,
             &effect.regret_standard_error,
             &effect.relative_cost,
-        ]);
+        ])?;
     }
-    table
+    table.finish()
 }
