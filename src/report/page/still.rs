@@ -245,12 +245,12 @@ impl View {
         view
     }
 
-    /// Moves up or down so that what is cut stands in the middle.
+    /// Moves up or down so that what can be seen stands in the middle.
     fn centre(&mut self, shapes: &[SurfaceShapeRecord], exit: &Corner) {
-        let cuts = shapes.iter().flat_map(|shape| self.cut(shape)).flatten();
-        let ends = cuts
-            .chain([self.aim, *exit])
-            .map(|end| self.at(&end)[1].clamp(0.0, PICTURE));
+        let points = shapes.iter().flat_map(|shape| &shape.points_m);
+        let corners = points.map(|at| Point3::from(at.map(f64::from)));
+        let all = corners.chain([self.aim, *exit]);
+        let ends = all.map(|corner| self.at(&corner)[1].clamp(0.0, PICTURE));
         let (top, bottom) = ends.fold((PICTURE, 0.0_f64), |(top, bottom), y| {
             (top.min(y), bottom.max(y))
         });

@@ -1,21 +1,20 @@
 // Puts the view together from the data in the page.
 
 function startViewer() {
-    const root = document.getElementById("viewer");
+    // Without WebGL the still picture stays.
+    if (!document.createElement("canvas").getContext("webgl2")) {
+        return;
+    }
     const scene = SCENE;
     for (const surface of scene.surfaces) {
         surface.isShown = true;
     }
+    // Shown first: a canvas has no size before.
+    document.documentElement.classList.add("has-view");
+    const root = document.getElementById("viewer");
     const canvas = root.querySelector("canvas");
     const section = new Section(scene, scene.surfaces);
-    let stage;
-    try {
-        stage = new Stage(canvas, scene, section);
-    } catch {
-        // Without WebGL the still picture stays.
-        return;
-    }
-    document.documentElement.classList.add("has-view");
+    const stage = new Stage(canvas, scene, section);
     const status = root.querySelector("[role=status]");
     const say = (text) => (status.textContent = text);
     fillStage(root, scene, stage, section, say);
@@ -59,10 +58,9 @@ function startViewer() {
     for (const button of root.querySelectorAll("button[data-do]")) {
         button.addEventListener("click", buttons[button.dataset.do]);
     }
+    stage.reset();
     stage.fit();
     showSection();
-    stage.reset();
-    say("");
 }
 
 /** Fills the world and the legend. */

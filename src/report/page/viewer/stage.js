@@ -48,6 +48,13 @@ class Stage {
         const all = scene.surfaces.flatMap(({ points }) => extentFrom(points, this.middle));
         this.far = Math.max(reach, exit.length(), ...all);
         this.near = Math.min(SURROUNDINGS * Math.max(reach, exit.length()), this.far);
+        // Where there is nothing below the target, the view moves up.
+        const up = vector(scene.normal);
+        const extents = scene.surfaces.map(({ points }) => projectedExtent(points, up));
+        const level = this.middle.dot(up);
+        const low = Math.max(Math.min(...extents.map(([from]) => from)) - level, -this.near);
+        const high = Math.min(Math.max(...extents.map(([, to]) => to)) - level, this.near);
+        this.middle.addScaledVector(up, (low + high) / 2);
     }
 
     /** Looks at the cut from its open side, a little from above. */
