@@ -233,6 +233,7 @@ fn a_browser_shows_the_page_and_the_view_obeys_the_keyboard() {
     assert!(colours > 30, "{colours} colours: the view is blank");
 
     browser.value("document.querySelector('#viewer canvas').focus()");
+    browser.press("r");
     let first = browser.value(PICTURE);
     let mut last = first.clone();
     let keys = [
