@@ -19,7 +19,7 @@ pub fn files(record: &Record) -> io::Result<Vec<(String, Vec<u8>)>> {
     }
     let page = page(record).map_err(io::Error::other)?;
     files.push(("report.html".to_owned(), page.into_bytes()));
-    if let Some(figure) = Figure::of_hits(record).map_err(io::Error::other)? {
+    for figure in Figure::of_record(record).map_err(io::Error::other)? {
         let png = figure.png().map_err(io::Error::other)?;
         files.push((format!("{}.png", figure.name), png));
         files.push((format!("{}.svg", figure.name), figure.svg.into_bytes()));

@@ -38,11 +38,29 @@ impl Figure {
     /// # Errors
     /// None is expected: figures are written into memory.
     pub fn of_chart(chart: &Chart) -> Result<Vec<Self>, FigureFault> {
-        let drawn = [
+        Self::present([
             ("pose", pose::svg(chart)),
             ("search", search::svg(chart)),
             ("effect", effect::svg(chart)),
-        ];
+        ])
+    }
+
+    /// The figures of a record, each if there is something to show in it.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_record(record: &Record) -> Result<Vec<Self>, FigureFault> {
+        let hits = record
+            .evidence
+            .as_ref()
+            .and_then(|evidence| hits::svg(record, evidence));
+        Self::present([("hits", hits)])
+    }
+
+    /// What was drawn, by name.
+    fn present<const N: usize>(
+        drawn: [(&'static str, Option<Result<String, sheet::Fault>>); N],
+    ) -> Result<Vec<Self>, FigureFault> {
         let present = drawn
             .into_iter()
             .filter_map(|(name, svg)| Some((name, svg?)));
@@ -52,23 +70,6 @@ impl Figure {
                     .map_err(|fault| FigureFault::new(name, &fault))
             })
             .collect()
-    }
-
-    /// The figure of the hits on the target; `None` where the record holds none.
-    ///
-    /// # Errors
-    /// None is expected: figures are written into memory.
-    pub fn of_hits(record: &Record) -> Result<Option<Self>, FigureFault> {
-        let name = "hits";
-        let svg = record
-            .evidence
-            .as_ref()
-            .and_then(|it| hits::svg(record, it));
-        svg.map(|svg| match svg {
-            Ok(svg) => Ok(Self { name, svg }),
-            Err(fault) => Err(FigureFault::new(name, &fault)),
-        })
-        .transpose()
     }
 
     /// The figure as PNG.

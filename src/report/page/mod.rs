@@ -215,7 +215,9 @@ struct Pictures {
     three: &'static str,
     viewer: [&'static str; 7],
     still: String,
-    hits: Option<Drawing>,
+    hits: Vec<Drawing>,
+    /// Where every verdict passes, over two settings.
+    maps: Vec<Drawing>,
     strips: Vec<Strip>,
 }
 
@@ -239,20 +241,28 @@ struct Strip {
 impl Pictures {
     fn new(record: &Record, evidence: &EvidenceRecord) -> Result<Self, PageFault> {
         let scene = serde_json::to_string(&Scene::new(record, evidence))?;
-        let hits = Figure::of_hits(record)?.map(|figure| Drawing {
-            svg: figure.svg,
-            words: format!(
-                "{} first hits on the target: where they lie, mean N* and f* there, and how often each \
-                 angle, N* and f* occurs",
-                count(evidence.hits.points_m.len()),
-            ),
-        });
+        let hits_in_words = format!(
+            "{} first hits on the target: where they lie, mean N* and f* there, and how often each \
+             angle, N* and f* occurs",
+            count(evidence.hits.points_m.len()),
+        );
+        let (mut hits, mut maps) = (Vec::new(), Vec::new());
+        for Figure { name, svg } in Figure::of_record(record)? {
+            if name == "hits" {
+                let words = hits_in_words.clone();
+                hits.push(Drawing { svg, words });
+            } else {
+                let words = "J over two settings, and where every verdict passes".into();
+                maps.push(Drawing { svg, words });
+            }
+        }
         Ok(Self {
             scene: for_script(&scene),
             three: THREE,
             viewer: VIEWER,
             still: Still::new(record, evidence).render()?,
             hits,
+            maps,
             strips: evidence.places.iter().enumerate().map(Strip::new).collect(),
         })
     }
