@@ -1,7 +1,7 @@
 //! Numbers as bars: windows of settings, loads of surfaces, terms of the objective.
 
-use crate::record::{AnswerRecord, Record};
-use crate::report::number::{Scale, fixed, impulse, share, significant};
+use crate::record::Record;
+use crate::report::number::{Scale, fixed, impulse, plain, share, significant};
 use crate::report::sheet::objective;
 use crate::report::sheet::received::{mainly, shown_name};
 use crate::report::sheet::setting::{SETTINGS, Setting};
@@ -97,7 +97,7 @@ impl WindowBar {
             unit: setting.unit,
             value: shown.value,
             tolerance: setting.tolerance(record).unwrap_or_default(),
-            range: [ends.0, ends.1].map(crate::report::number::plain),
+            range: [ends.0, ends.1].map(plain),
             window_in_range: Span::new(low, high, ends),
             value_in_range: fixed(percent_of(value, ends), 2),
             window: [shown.low, shown.high],
@@ -223,26 +223,26 @@ pub struct TermBar {
 impl ChoiceBar {
     /// One for each choice at which the nozzle fits, all on one scale.
     pub fn of(record: &Record) -> Vec<Self> {
-        let totals = record.choices.iter().filter_map(|choice| choice.objective);
-        let most = totals.map(|objective| objective.total).fold(0.0, f64::max);
-        record
-            .choices
-            .iter()
-            .filter_map(|choice| Self::new(choice, most))
-            .collect()
-    }
-
-    fn new(choice: &AnswerRecord, most: f64) -> Option<Self> {
-        let objective = choice.objective.as_ref()?;
-        let scale = Scale::for_error(objective.total, objective.standard_error);
-        let terms = objective::terms(objective).map(|(_, value, _)| TermBar {
-            value: scale.text(value),
-            width: fixed(percent_of(value, (0.0, most)), 2),
-        });
-        Some(Self {
-            contact: choice.contact.clone(),
+        let fitting = || {
+            let choices = record.choices.iter();
+            choices.filter_map(|choice| Some((&choice.contact, choice.objective.as_ref()?)))
+        };
+        let totals = fitting().map(|(_, objective)| objective.total);
+        let most = totals.fold(0.0, f64::max);
+        let scale = fitting()
+            .next()
+            .map(|(_, objective)| Scale::for_error(objective.total, objective.standard_error));
+        let bars = fitting().zip(scale.iter().cycle());
+        bars.map(|((contact, objective), scale)| Self {
+            contact: contact.clone(),
             total: scale.with_error(objective.total, objective.standard_error),
-            terms: terms.into(),
+            terms: objective::terms(objective)
+                .map(|(_, value, _)| TermBar {
+                    value: scale.text(value),
+                    width: fixed(percent_of(value, (0.0, most)), 2),
+                })
+                .into(),
         })
+        .collect()
     }
 }
