@@ -100,6 +100,8 @@
 //! | [`unknowns`] | which of restitution and friction, where they are not known exactly, moves the result most |
 //! | [`solve`] | the search over settings, and how far each may drift |
 //! | [`validity`] | what the model leaves out at the answer |
+//! | [`coverage`] | how densely first hits fall on the target, and how long until it is dented |
+//! | [`evidence`] | what pictures of an answer are drawn from: shapes, flights, places |
 //! | [`record`] | the complete result, JSON both ways |
 //! | [`chart`] | speed against accuracy, measured on the problem at hand |
 //! | [`report`] | sheet, tables and figures, made from a record or a chart alone |
@@ -133,6 +135,7 @@ pub mod unknowns;
 pub mod solve;
 pub mod validity;
 
+pub mod coverage;
 pub mod evidence;
 
 pub mod record;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use crate::jet::Pose;
-use crate::scene::patch::{Polygon, split};
+use crate::scene::patch::Triangle;
 use crate::setup::Setup;
 
 /// A surface, or the part of one that is the target, as triangles.
@@ -27,22 +27,7 @@ pub struct Shape {
 /// move with the nozzle as they are at a pose.
 pub(super) fn all(setup: &Setup, pose: &Pose) -> Vec<Shape> {
     let target = &setup.target;
-    let (patch, rest) = match &target.within {
-        None => (triangles_at(setup, pose, target.surface), None),
-        Some(limits) => {
-            let (mut inside, mut outside) = (Vec::new(), Vec::new());
-            for triangle in triangles_at(setup, pose, target.surface) {
-                let (within, beyond) = split(&triangle, limits);
-                if within.len() < 3 {
-                    outside.push(triangle);
-                } else {
-                    inside.extend(fan(&within));
-                    outside.extend(beyond.iter().flat_map(fan));
-                }
-            }
-            (inside, Some(outside))
-        }
-    };
+    let (patch, rest) = target.cut_out(&setup.scene);
     let shape = |surface, is_target, triangles: &[Triangle]| {
         let mut shape = Shape::of(triangles);
         (shape.surface, shape.is_target) = (surface, is_target);
@@ -52,14 +37,12 @@ pub(super) fn all(setup: &Setup, pose: &Pose) -> Vec<Shape> {
     for surface in 0..setup.surfaces.len() as u32 {
         if surface != target.surface {
             shapes.push(shape(surface, false, &triangles_at(setup, pose, surface)));
-        } else if let Some(rest) = &rest {
-            shapes.push(shape(surface, false, rest));
+        } else if target.within.is_some() {
+            shapes.push(shape(surface, false, &rest));
         }
     }
     shapes
 }
-
-type Triangle = [Point3<f64>; 3];
 
 /// The triangles of a surface as they are when the nozzle stands at a pose.
 fn triangles_at(setup: &Setup, pose: &Pose, surface: u32) -> Vec<Triangle> {
@@ -71,11 +54,6 @@ fn triangles_at(setup: &Setup, pose: &Pose, surface: u32) -> Vec<Triangle> {
     triangles
         .map(|corners| corners.map(|corner| stand.point_back(&corner)))
         .collect()
-}
-
-fn fan(polygon: &Polygon) -> impl Iterator<Item = Triangle> + '_ {
-    let sides = polygon.windows(2).skip(1);
-    sides.map(|side| [polygon[0], side[0], side[1]])
 }
 
 impl Shape {

@@ -22,6 +22,14 @@ pub struct AnswerRecord {
     pub contact_values: ContactRecord,
     /// The settings.
     pub settings: SettingsRecord,
+    /// The pressure that gives this speed, Pa; absent where the problem has no calibration, or one
+    /// that does not reach so far.
+    #[serde(
+        rename = "pressure_Pa",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub pressure: Option<f64>,
     /// The pose that they mean.
     pub pose: PoseRecord,
     /// Whether the nozzle fits.
@@ -197,6 +205,7 @@ impl AnswerRecord {
         let contact = &setup.problem.contacts[choice.contact];
         let pose = Pose::new(&setup.target.frame, choice);
         let nozzle = &setup.problem.nozzle;
+        let calibration = setup.problem.calibration.as_ref();
         let clearance = setup
             .scene
             .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY);
@@ -206,6 +215,7 @@ impl AnswerRecord {
             contact: contact.name.clone(),
             contact_values: ContactRecord::new(&contact.at(choice.static_friction)),
             settings: SettingsRecord::new(choice),
+            pressure: calibration.and_then(|known| known.pressure_at(choice.speed)),
             pose: PoseRecord::new(&pose),
             feasible: answer.violation <= 0.0,
             passes: answer.passes(),

@@ -3,6 +3,7 @@
 //! Angles are in degrees, everything else is SI, and every key ends with its unit.
 
 mod answer;
+mod coverage;
 mod evidence;
 mod json;
 mod model;
@@ -14,12 +15,13 @@ pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
     SpreadRecord, TargetRecord, VerdictRecord,
 };
+pub use coverage::{CoverageRecord, DensityRecord};
 pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
 pub use model::{ModelRecord, RungRecord};
-pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,
 };
@@ -27,6 +29,7 @@ pub use window::{DriftRecord, WindowRecord};
 
 use serde::{Deserialize, Serialize};
 
+use crate::coverage::Coverage;
 use crate::evidence::{Evidence, SHOTS};
 use crate::problem::Source;
 use crate::setup::Setup;
@@ -55,6 +58,10 @@ pub struct Record {
     /// What restitution and friction do at the ends of their ranges; absent where they are known.
     #[serde(default)]
     pub unknowns: Option<UnknownsRecord>,
+    /// How densely hits fall on the target; absent where the problem does not ask for it, or the
+    /// nozzle does not fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<CoverageRecord>,
     /// What pictures are drawn from; absent where none were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<EvidenceRecord>,
@@ -157,6 +164,9 @@ impl Record {
             .iter()
             .map(|answer| AnswerRecord::new(setup, answer))
             .collect();
+        let best = answers.first()?;
+        let fits = best.evaluation.is_some();
+        let coverage = fits.then(|| Coverage::of(setup, &best.choice)).flatten();
         Some(Self {
             status: circumstances.status,
             problem: QuestionRecord::new(&setup.problem, circumstances.source),
@@ -169,6 +179,7 @@ impl Record {
             model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
+            coverage: coverage.as_ref().map(CoverageRecord::new),
             evidence: None,
             work: circumstances.work,
             problem_sha256: circumstances.source.sha256.clone(),

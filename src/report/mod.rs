@@ -1,6 +1,7 @@
 //! Reports, made from a record or a chart alone.
 
 mod chart;
+pub mod export;
 pub mod figure;
 mod files;
 mod finding;

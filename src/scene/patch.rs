@@ -46,6 +46,26 @@ impl Patch {
         self.within.is_none_or(|limits| inside(point, &limits))
     }
 
+    /// The triangles of its surface, cut along the faces of its box: those that belong to it, and
+    /// the others.
+    pub fn cut_out(&self, scene: &Scene) -> (Vec<Triangle>, Vec<Triangle>) {
+        let triangles = scene.surface_triangles(self.surface);
+        let Some(limits) = &self.within else {
+            return (triangles.collect(), Vec::new());
+        };
+        let (mut inside, mut outside) = (Vec::new(), Vec::new());
+        for triangle in triangles {
+            let (within, beyond) = split(&triangle, limits);
+            if within.len() < 3 {
+                outside.push(triangle);
+            } else {
+                inside.extend(fan(&within));
+                outside.extend(beyond.iter().flat_map(fan));
+            }
+        }
+        (inside, outside)
+    }
+
     /// Finds the patch in a scene.
     ///
     /// # Errors
@@ -186,7 +206,7 @@ fn inside(p: &Point3<f64>, (low, high): &(Point3<f64>, Point3<f64>)) -> bool {
 
 /// A triangle cut along the faces of a box: the convex polygon inside, which may be empty, and
 /// those outside.
-pub(crate) fn split(
+fn split(
     corners: &[Point3<f64>; 3],
     (low, high): &(Point3<f64>, Point3<f64>),
 ) -> (Polygon, Vec<Polygon>) {
@@ -204,8 +224,11 @@ pub(crate) fn split(
     (inside, outside)
 }
 
+/// Three corners, m.
+pub type Triangle = [Point3<f64>; 3];
+
 /// A convex polygon.
-pub(crate) type Polygon = Vec<Point3<f64>>;
+type Polygon = Vec<Point3<f64>>;
 
 /// The part of a convex polygon where the depth is not negative.
 fn half(polygon: &Polygon, depth: impl Fn(&Point3<f64>) -> f64) -> Polygon {
@@ -221,6 +244,12 @@ fn half(polygon: &Polygon, depth: impl Fn(&Point3<f64>) -> f64) -> Polygon {
         }
     }
     kept
+}
+
+/// A convex polygon as triangles.
+fn fan(polygon: &Polygon) -> impl Iterator<Item = Triangle> + '_ {
+    let sides = polygon.windows(2).skip(1);
+    sides.map(|side| [polygon[0], side[0], side[1]])
 }
 
 fn area_and_centre(polygons: impl Iterator<Item = Polygon>) -> (f64, Point3<f64>) {

@@ -32,6 +32,8 @@ pub enum Command {
     Evaluate(EvaluateArgs),
     /// Make all reports again from the result in a folder
     Report(ReportArgs),
+    /// Write scene, nozzle, paths and hits of a result for other programs
+    Export(ExportArgs),
     /// Measure speed against accuracy on a problem file, as figures and tables
     Chart(ChartArgs),
     /// Show all faults of problem files at once
@@ -99,6 +101,17 @@ pub struct ReportArgs {
     /// The folder that `--out` has written into
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+}
+
+/// Arguments of `export`.
+#[derive(clap::Args)]
+pub struct ExportArgs {
+    /// The folder that `--out` has written into, or its result.json
+    #[arg(value_name = "DIR|result.json")]
+    pub result: PathBuf,
+    /// The file; its ending says the format: .glb (glTF), .vtk (ParaView) or .ply (MeshLab)
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
 }
 
 /// Arguments of `chart`.

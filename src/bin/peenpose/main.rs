@@ -4,6 +4,7 @@ mod args;
 mod chart;
 mod check;
 mod evaluate;
+mod export;
 mod impact;
 mod output;
 mod progress;
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Report(args) => report::run(args),
+        Command::Export(args) => export::run(args),
         Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
         Command::Impact(args) => impact::run(args)

@@ -4,6 +4,7 @@ pub(super) mod blocked;
 pub(super) mod cause;
 pub(super) mod closing;
 pub(super) mod contacts;
+pub(super) mod coverage;
 pub(super) mod headline;
 pub(super) mod model;
 pub(super) mod objective;
@@ -21,7 +22,7 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 15] = [
+    let blocks: [Option<Block>; 16] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best),
@@ -29,6 +30,7 @@ pub fn sheet(record: &Record) -> String {
         received::target(record),
         verdicts::block(best, &record.problem.goals),
         received::surfaces(record),
+        coverage::block(record),
         cause::block(record),
         unknowns::block(record),
         objective::block(best),

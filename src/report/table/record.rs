@@ -78,7 +78,7 @@ fn surfaces(best: &AnswerRecord) -> io::Result<Table> {
             &high,
             &largest,
             direct,
-            &later.iter().sum::<f64>(),
+            &later.iter().fold(0.0, |sum, share| sum + share),
         ])?;
     }
     table.finish()
@@ -136,6 +136,7 @@ fn choices(record: &Record) -> io::Result<Table> {
             "azimuth_deg",
             "standoff_m",
             "speed_m_s",
+            "pressure_Pa",
             "aim_along_m",
             "aim_across_m",
             "aim_above_m",
@@ -169,6 +170,7 @@ fn choices(record: &Record) -> io::Result<Table> {
             &settings.azimuth_deg,
             &settings.standoff_m,
             &settings.speed_m_s,
+            &or_empty(choice.pressure),
             &settings.aim_along_m,
             &settings.aim_across_m,
             &settings.aim_above_m,
@@ -249,14 +251,21 @@ fn poses(record: &Record) -> io::Result<Table> {
             matrix_4x4,
         } = &choice.pose;
         let numbers = exit_m.iter().chain(direction).chain(quaternion_xyzw);
-        let mut cells: Vec<String> = numbers.map(f64::to_string).collect();
+        let mut cells: Vec<String> = numbers.map(picometres).collect();
         let matrix = matrix_4x4.map(|rows| rows.concat());
-        cells.extend((0..MATRIX.len()).map(|i| or_empty(matrix.as_ref().map(|cells| cells[i]))));
+        cells.extend(
+            (0..MATRIX.len()).map(|i| or_empty(matrix.as_ref().map(|m| picometres(&m[i])))),
+        );
         let contact: &dyn Display = &choice.contact;
         let cells = cells.iter().map(|cell| cell as &dyn Display);
         table.row(&std::iter::once(contact).chain(cells).collect::<Vec<_>>())?;
     }
     table.finish()
+}
+
+/// A coordinate or a direction without the rounding errors at its end.
+fn picometres(value: &f64) -> String {
+    ((value * 1e12).round() / 1e12 + 0.0).to_string()
 }
 
 /// One row for each first hit on the target; `along` and `across` are measured from the aim point.
