@@ -31,13 +31,22 @@ const ROOM_FOR_NAMES: f64 = 0.2;
 /// Cells along the longer side of a map.
 const FEWEST_CELLS: f64 = 8.0;
 const MOST_CELLS: f64 = 36.0;
+/// The colours of N* reach at least so far from what is wanted, relative to it.
+const LEAST_TOLERANCE: f64 = 0.01;
 /// Bars of a histogram.
 const BARS: usize = 32;
 
-/// The figure as SVG; `None` where nothing was hit.
+/// The figure as SVG; `None` where nothing was hit, or a hit lacks some of its values.
 pub fn svg(record: &Record, evidence: &EvidenceRecord) -> Option<Result<String, Fault>> {
     let hits = &evidence.hits;
-    if hits.plane_m.is_empty() || hits.shots == 0 {
+    let number = hits.plane_m.len();
+    let columns = [
+        hits.angle_deg.len(),
+        hits.normal_impulse.len(),
+        hits.tangential_impulse.len(),
+        hits.sticks.len(),
+    ];
+    if number == 0 || hits.shots == 0 || columns.iter().any(|column| *column != number) {
         return None;
     }
     let grid = Grid::new(hits);
@@ -86,7 +95,7 @@ fn in_millimetres(hits: &HitsRecord) -> impl Iterator<Item = [f64; 2]> {
 /// The triangles of the target, mm along and across from the aim point.
 fn patch(evidence: &EvidenceRecord) -> impl Iterator<Item = [[f64; 2]; 3]> {
     let frame = &evidence.frame;
-    let flat = |at: [f32; 3]| {
+    let flat = move |at: [f32; 3]| {
         let from = [0, 1, 2].map(|axis| f64::from(at[axis]) - frame.aim_m[axis]);
         [frame.along, frame.across].map(|axis| {
             let parts = from.iter().zip(axis).map(|(part, unit)| part * unit);
@@ -98,9 +107,9 @@ fn patch(evidence: &EvidenceRecord) -> impl Iterator<Item = [[f64; 2]; 3]> {
         .iter()
         .filter(|s| s.role == RoleRecord::Target);
     targets.flat_map(move |shape| {
-        let corners = |triangle: &[u32; 3]| triangle.map(|index| shape.points_m[index as usize]);
-        let triangles = shape.triangles.iter().map(corners);
-        triangles.map(move |triangle| triangle.map(flat))
+        let corner = move |index: u32| shape.points_m.get(index as usize).copied().map(flat);
+        let triangles = shape.triangles.iter();
+        triangles.filter_map(move |&[a, b, c]| Some([corner(a)?, corner(b)?, corner(c)?]))
     })
 }
 
@@ -214,11 +223,8 @@ fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
     let tangential = grid.values(|cell| mean(&hits.tangential_impulse, cell));
     let wanted = goals.normal_impulse * 1e6;
     let off = |value: &Option<f64>| value.map_or(0.0, |value| (value - wanted).abs());
-    let half = normal
-        .iter()
-        .map(off)
-        .fold(goals.normal_impulse_tolerance * wanted, f64::max)
-        * 1.05;
+    let least = goals.normal_impulse_tolerance.max(LEAST_TOLERANCE) * wanted;
+    let half = normal.iter().map(off).fold(least, f64::max) * 1.05;
     let (limit, limit_mark) = limit(goals);
     let tangential_most = most(&tangential);
     [
@@ -377,6 +383,9 @@ impl Map {
 
 /// About five round values between two.
 fn ticks(from: f64, to: f64) -> Vec<f64> {
+    if to <= from {
+        return Vec::new();
+    }
     let power = 10_f64.powf(((to - from) / 5.0).log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|multiple| multiple * power);
     let step = steps.into_iter().find(|step| (to - from) / step <= 7.0);
@@ -522,5 +531,68 @@ impl Histogram {
         );
         let place = (left, top + HISTOGRAM_HEIGHT + 76);
         sheet::text(area, &remark, place, HPos::Left, &letters(LABEL), FAINT)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hits(places: &[[f32; 2]]) -> HitsRecord {
+        HitsRecord {
+            shots: places.len(),
+            plane_m: places.to_vec(),
+            ..HitsRecord::default()
+        }
+    }
+
+    #[test]
+    fn every_hit_lies_in_the_cell_round_it() {
+        let places = [
+            [-1e-3, 2e-3],
+            [1e-3, -2e-3],
+            [0.5e-3, 0.1e-3],
+            [0.5e-3, 0.1e-3],
+        ];
+        let grid = Grid::new(&hits(&places));
+        let mut found = 0;
+        for (index, cell) in grid.cells.iter().enumerate() {
+            let (column, row) = (index % grid.columns, index / grid.columns);
+            for &hit in cell {
+                let from_corner = |axis: usize, low: f64, number: usize| {
+                    f64::from(places[hit][axis]) * 1e3 - low - number as f64 * grid.side
+                };
+                let [x, y] = [
+                    from_corner(0, grid.x.start, column),
+                    from_corner(1, grid.y.start, row),
+                ];
+                assert!((-1e-6..=grid.side).contains(&x) && (-1e-6..=grid.side).contains(&y));
+                found += 1;
+            }
+        }
+        assert_eq!(found, places.len());
+    }
+
+    #[test]
+    fn hits_at_one_place_have_a_map_too() {
+        let grid = Grid::new(&hits(&[[1e-3, 1e-3]; 5]));
+        assert!(grid.side > 0.0);
+        assert_eq!(
+            grid.values(|cell| cell.len() as f64)
+                .iter()
+                .flatten()
+                .sum::<f64>(),
+            5.0
+        );
+    }
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        assert!(ticks(1.0, 1.0).is_empty());
+        assert_eq!(ticks(0.0, 65.0), [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0]);
+        assert_eq!(
+            ticks(33.0, 47.0),
+            [34.0, 36.0, 38.0, 40.0, 42.0, 44.0, 46.0]
+        );
     }
 }
