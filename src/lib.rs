@@ -104,7 +104,7 @@
 //! | [`evidence`] | what pictures of an answer are drawn from: shapes, flights, places |
 //! | [`record`] | the complete result, JSON both ways |
 //! | [`chart`] | speed against accuracy, measured on the problem at hand |
-//! | [`report`] | sheet, tables and figures, made from a record or a chart alone |
+//! | [`report`] | sheet, page, tables and figures, made from a record or a chart alone |
 //!
 //! Everything is in SI units and radians except where a name says otherwise. `docs/model.md` holds
 //! the model with its equations, `docs/problem-file.md` every key of a problem file.

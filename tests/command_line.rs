@@ -227,12 +227,15 @@ fn the_sheet_goes_to_stdout() {
 }
 
 /// What `--out` writes, by name.
-const RESULTS: [&str; 10] = [
+const RESULTS: [&str; 13] = [
     "choices.csv",
     "hits.csv",
+    "hits.png",
+    "hits.svg",
     "places.csv",
     "pose.csv",
     "rebounds.csv",
+    "report.html",
     "result.json",
     "sheet.txt",
     "surfaces.csv",
@@ -304,7 +307,8 @@ fn reports_of_older_results_are_fewer() {
         run.messages
     );
     assert!(folder.path().join("surfaces.csv").exists());
-    for name in ["hits.csv", "rebounds.csv", "places.csv"] {
+    assert!(folder.path().join("report.html").exists());
+    for name in ["hits.csv", "hits.svg", "rebounds.csv", "places.csv"] {
         assert!(!folder.path().join(name).exists());
     }
     let kept = std::fs::read_to_string(root().join("tests/data/sheets/keyway.txt")).unwrap();

@@ -20,9 +20,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 
 use contact::ContactsItem;
-use equipment::{
-    CoverageEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry,
-};
+use equipment::{CoverageEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
 use scene::{PartEntry, TargetEntry};
 use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 

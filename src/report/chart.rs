@@ -86,7 +86,7 @@ fn poses(chart: &Chart) -> Option<Block> {
                 .chain(errors),
         );
     }
-    block.table(&table);
+    block.table(table);
     block.paragraph(&format!(
         "Root mean square error of J, relative to J0; {}; one thread. The search ended with {} shots \
          at each pose, half of them on the rim.",
@@ -121,7 +121,7 @@ fn precisions(chart: &Chart) -> Option<Block> {
         ]);
     }
     let mut block = Block::default();
-    block.table(&table);
+    block.table(table);
     block.paragraph(&finding::of_precision(double, single, chart.accuracy));
     Some(block)
 }
@@ -150,7 +150,7 @@ fn walls(chart: &Chart) -> Option<Block> {
         ]);
     }
     let mut block = Block::default();
-    block.table(&table);
+    block.table(table);
     Some(block)
 }
 
@@ -175,7 +175,7 @@ fn searches(chart: &Chart, searches: &Searches) -> Block {
                 share(group.worst()),
             ]);
         }
-        block.table(&table);
+        block.table(table);
     }
     block.gap();
     block.paragraph(&format!(
@@ -222,7 +222,7 @@ fn effects(effects: &[Effect]) -> Option<Block> {
             share(effect.relative_cost),
         ]);
     }
-    block.table(&table);
+    block.table(table);
     block.paragraph(
         "J changes: at the recommended settings. Answer worse: J, computed with the effect, at the settings \
          that a search without it recommends. +-: standard errors. Time: for a pose, of that with the effect.",

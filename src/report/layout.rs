@@ -57,19 +57,43 @@ fn length(text: &str) -> usize {
     text.chars().count()
 }
 
-/// A heading and what stands below it.
+/// A heading and what stands below it, in this order; as plain text or for others to lay out.
 #[derive(Debug, Default)]
-pub struct Block(String);
+pub struct Block {
+    title: Option<String>,
+    parts: Vec<Part>,
+}
+
+/// A part of a block.
+#[derive(Debug)]
+pub enum Part {
+    /// Rows under a heading.
+    Table(Table),
+    /// A paragraph behind a label, which may be empty.
+    Paragraph {
+        /// What its first line starts with.
+        label: String,
+        /// The text, not yet broken into lines.
+        text: String,
+    },
+    /// An empty line.
+    Gap,
+    /// A line that must not be broken.
+    Verbatim(String),
+}
 
 impl Block {
     /// A block that starts with a heading.
     pub fn titled(title: &str) -> Self {
-        Self(format!("{title}\n"))
+        Self {
+            title: Some(title.into()),
+            parts: Vec::new(),
+        }
     }
 
     /// Adds a table; the heading of its first column is the block's.
-    pub fn table(&mut self, table: &Table) {
-        self.0 += &table.render();
+    pub fn table(&mut self, table: Table) {
+        self.parts.push(Part::Table(table));
     }
 
     /// Adds a paragraph, indented.
@@ -79,28 +103,55 @@ impl Block {
 
     /// Adds a paragraph whose first line starts with `label`, and the others below what follows it.
     pub fn hanging(&mut self, label: &str, text: &str) {
-        let start = INDENT + length(label);
-        for (index, line) in wrap(text, WIDTH.saturating_sub(start)).iter().enumerate() {
-            let label = if index == 0 { label } else { "" };
-            let before = format!("{:INDENT$}{label}", "");
-            self.0 += &format!("{before:start$}{line}\n");
-        }
+        self.parts.push(Part::Paragraph {
+            label: label.into(),
+            text: text.into(),
+        });
     }
 
     /// Adds an empty line.
     pub fn gap(&mut self) {
-        self.0.push('\n');
+        self.parts.push(Part::Gap);
     }
 
     /// Adds a line as it is, indented; for what must not be broken.
     pub fn verbatim(&mut self, line: &str) {
-        self.0 += &format!("{:INDENT$}{line}\n", "");
+        self.parts.push(Part::Verbatim(line.into()));
+    }
+
+    /// What stands below the heading.
+    pub fn into_parts(self) -> Vec<Part> {
+        self.parts
     }
 
     /// The text of the block.
     pub fn into_text(self) -> String {
-        self.0
+        let title = self.title.map(|title| title + "\n");
+        let parts = self.parts.iter().map(Part::text);
+        title.into_iter().chain(parts).collect()
     }
+}
+
+impl Part {
+    fn text(&self) -> String {
+        match self {
+            Self::Table(table) => table.render(),
+            Self::Paragraph { label, text } => hanging(label, text),
+            Self::Gap => "\n".into(),
+            Self::Verbatim(line) => format!("{:INDENT$}{line}\n", ""),
+        }
+    }
+}
+
+fn hanging(label: &str, text: &str) -> String {
+    let start = INDENT + length(label);
+    let lines = wrap(text, WIDTH.saturating_sub(start));
+    let numbered = lines.iter().enumerate().map(|(index, line)| {
+        let label = if index == 0 { label } else { "" };
+        let before = format!("{:INDENT$}{label}", "");
+        format!("{before:start$}{line}\n")
+    });
+    numbered.collect()
 }
 
 /// How a column stands.
@@ -149,6 +200,21 @@ impl Table {
             }
         }
         self
+    }
+
+    /// The headings of its columns.
+    pub fn head(&self) -> &[String] {
+        &self.head
+    }
+
+    /// How its columns stand.
+    pub fn align(&self) -> &[Align] {
+        &self.align
+    }
+
+    /// Its rows, each with a cell for every column.
+    pub fn rows(&self) -> &[Vec<String>] {
+        &self.rows
     }
 
     fn render(&self) -> String {

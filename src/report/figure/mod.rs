@@ -1,9 +1,11 @@
-//! Figures, drawn from a chart alone: SVG with texts, and PNG with the embedded font.
+//! Figures, drawn from a chart or a record alone: SVG with texts, and PNG with the embedded font.
 //!
-//! This module is the only one that knows plotters and resvg.
+//! This module is the only one that knows plotters, resvg and the ramps of colours.
 
 mod axis;
 mod effect;
+mod hits;
+mod linear;
 mod plot;
 mod png;
 mod pose;
@@ -15,6 +17,7 @@ pub(super) use axis::time;
 pub(super) use pose::curve_name;
 
 use crate::chart::Chart;
+use crate::record::Record;
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,11 +38,29 @@ impl Figure {
     /// # Errors
     /// None is expected: figures are written into memory.
     pub fn of_chart(chart: &Chart) -> Result<Vec<Self>, FigureFault> {
-        let drawn = [
+        Self::present([
             ("pose", pose::svg(chart)),
             ("search", search::svg(chart)),
             ("effect", effect::svg(chart)),
-        ];
+        ])
+    }
+
+    /// The figures of a record, each if there is something to show in it.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_record(record: &Record) -> Result<Vec<Self>, FigureFault> {
+        let hits = record
+            .evidence
+            .as_ref()
+            .and_then(|evidence| hits::svg(record, evidence));
+        Self::present([("hits", hits)])
+    }
+
+    /// What was drawn, by name.
+    fn present<const N: usize>(
+        drawn: [(&'static str, Option<Result<String, sheet::Fault>>); N],
+    ) -> Result<Vec<Self>, FigureFault> {
         let present = drawn
             .into_iter()
             .filter_map(|(name, svg)| Some((name, svg?)));

@@ -45,7 +45,7 @@ pub fn block(record: &Record) -> Option<Block> {
         table.row(cells);
     }
     let mut block = Block::default();
-    block.table(&table);
+    block.table(table);
     for sentence in sentences(record) {
         block.paragraph(&sentence);
     }

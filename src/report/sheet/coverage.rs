@@ -19,7 +19,7 @@ pub fn block(record: &Record) -> Option<Block> {
     table.row(row("mean of the target", coverage, &coverage.mean));
     table.row(row("at least, on 95 % of it", coverage, &coverage.lowest_5));
     let mut block = Block::default();
-    block.table(&table.without_empty_columns());
+    block.table(table.without_empty_columns());
     let mut spread = format!(
         "Over cells of {} mm the density of first hits varies by {} (standard deviation)",
         significant(coverage.cell_side_m * 1e3, 2),

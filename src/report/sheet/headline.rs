@@ -28,7 +28,7 @@ pub fn block(record: &Record) -> Block {
 }
 
 /// The overall verdict; what fails stands on lines of its own, worst first.
-fn verdict(record: &Record) -> Vec<String> {
+pub fn verdict(record: &Record) -> Vec<String> {
     let best = &record.best;
     if record.status == StatusRecord::NoFeasiblePose {
         return vec![format!(
@@ -99,7 +99,8 @@ fn failure(record: &Record, name: &str) -> String {
     )
 }
 
-fn status(record: &Record) -> String {
+/// How the search ended.
+pub fn status(record: &Record) -> String {
     let accuracy = share_asked(record.problem.accuracy);
     match record.status {
         StatusRecord::Converged => format!("converged (accuracy asked for: {accuracy} of J)"),

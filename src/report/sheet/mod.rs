@@ -1,21 +1,21 @@
 //! The technique sheet: what to set, whether it passes, what limits it; then the proof.
 
-mod blocked;
-mod cause;
-mod closing;
-mod contacts;
-mod coverage;
-mod headline;
-mod model;
-mod objective;
+pub(super) mod blocked;
+pub(super) mod cause;
+pub(super) mod closing;
+pub(super) mod contacts;
+pub(super) mod coverage;
+pub(super) mod headline;
+pub(super) mod model;
+pub(super) mod objective;
 mod origins;
-mod received;
+pub(super) mod received;
 mod scatter;
-mod setting;
-mod settings;
+pub(super) mod setting;
+pub(super) mod settings;
 mod subject;
-mod unknowns;
-mod verdicts;
+pub(super) mod unknowns;
+pub(super) mod verdicts;
 
 use super::layout::Block;
 use crate::record::Record;

@@ -36,7 +36,7 @@ pub fn block(record: &Record) -> Option<Block> {
         ]);
     }
     let mut block = Block::default();
-    block.table(&table.without_empty_columns());
+    block.table(table.without_empty_columns());
     block.paragraph(&sentence(model));
     Some(block)
 }

@@ -59,6 +59,6 @@ pub fn block(best: &AnswerRecord) -> Option<Block> {
         of_total(objective.total),
     ]);
     let mut block = Block::default();
-    block.table(&table);
+    block.table(table);
     Some(block)
 }

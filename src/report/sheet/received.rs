@@ -47,7 +47,7 @@ pub fn target(record: &Record) -> Option<Block> {
             limit,
         ));
     }
-    block.table(&table);
+    block.table(table);
     if hit {
         block.paragraph(&format!(
             "{} of {} hit {} first; {}.",
@@ -129,7 +129,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
         Block::titled("OTHER SURFACES")
     } else {
         let mut block = Block::default();
-        block.table(&table);
+        block.table(table);
         block
     };
     if !never.is_empty() {
@@ -147,7 +147,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
 }
 
 /// The target's own surface is secondary outside the patch.
-fn shown_name(record: &Record, name: &str) -> String {
+pub fn shown_name(record: &Record, name: &str) -> String {
     match &record.best.target {
         Some(target) if target.surface == name => format!("{name} off target"),
         _ => name.into(),
@@ -169,7 +169,7 @@ fn never_means(best: &AnswerRecord) -> String {
 }
 
 /// Which impact of a path it mainly is that hits a surface.
-fn mainly(receipt: &ReceiptRecord) -> String {
+pub fn mainly(receipt: &ReceiptRecord) -> String {
     let counts = &receipt.impacts_per_shot_by_number;
     let total: f64 = counts.iter().sum();
     let Some((index, most)) = counts

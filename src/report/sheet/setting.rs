@@ -123,10 +123,23 @@ impl Setting {
         windows.find(|window| window.setting == self.key)
     }
 
-    /// How exactly a shop sets it, half-width in the unit of the sheet; `None` for exactly.
+    /// How exactly a shop sets it, with its unit; `None` for exactly.
     pub fn tolerance(&self, record: &Record) -> Option<String> {
+        let (value, unit) = self.set_within(record);
+        (value > 0.0).then(|| format!("+-{} {unit}", plain(value)))
+    }
+
+    /// How exactly a shop sets it, half-width in the unit of the sheet.
+    pub fn half_width(&self, record: &Record) -> f64 {
+        match self.set_within(record) {
+            (percent, "%") => percent / 100.0 * self.value(&record.best.settings),
+            (value, _) => value,
+        }
+    }
+
+    fn set_within(&self, record: &Record) -> (f64, &'static str) {
         let tolerance = &record.problem.tolerance;
-        let (value, unit) = match self.key {
+        match self.key {
             "incidence_deg" => (tolerance.incidence_deg, self.unit),
             "azimuth_deg" => (tolerance.azimuth_deg, self.unit),
             "standoff_m" => (tolerance.standoff_m * self.scale, self.unit),
@@ -134,8 +147,7 @@ impl Setting {
             "aim_along_m" => (tolerance.aim_along_m * self.scale, self.unit),
             "aim_across_m" => (tolerance.aim_across_m * self.scale, self.unit),
             _ => (tolerance.aim_above_m * self.scale, self.unit),
-        };
-        (value > 0.0).then(|| format!("+-{} {unit}", plain(value)))
+        }
     }
 
     /// Whether the sheet has to mention it: aim offsets only where they are used.

@@ -27,7 +27,7 @@ pub fn settings(record: &Record) -> Block {
     for setting in SETTINGS.iter().filter(|setting| setting.is_used(record)) {
         table.row(row(record, setting));
     }
-    block.table(&table.without_empty_columns());
+    block.table(table.without_empty_columns());
     if let Some(pressure) = pressure(record) {
         block.hanging("pressure   ", &pressure);
     }

@@ -40,7 +40,7 @@ pub fn block(record: &Record) -> Option<Block> {
         }
     }
     let mut block = Block::default();
-    block.table(&table);
+    block.table(table);
     if let Some(sentence) = sentence(unknowns) {
         block.paragraph(&sentence);
     }

@@ -36,7 +36,7 @@ pub fn block(best: &AnswerRecord, goals: &GoalsRecord) -> Option<Block> {
         ]);
     }
     let mut block = Block::default();
-    block.table(&table);
+    block.table(table);
     if best.verdicts.iter().any(|verdict| !verdict.certain) {
         block
             .paragraph("near: the interval reaches over what is allowed; more shots would decide.");
