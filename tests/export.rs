@@ -70,7 +70,16 @@ fn glb_is_sound_and_holds_everything() {
     let (mut faces, mut lines, mut points) = (0, 0, 0);
     for mesh in file.meshes() {
         let primitive = mesh.primitives().next().unwrap();
-        assert!(primitive.material().double_sided());
+        let material = primitive.material();
+        assert!(material.double_sided());
+        // One sees through secondary surfaces, and through nothing else.
+        let name = mesh.name().unwrap();
+        let opacity = material.pbr_metallic_roughness().base_color_factor()[3];
+        assert_eq!(
+            opacity < 1.0,
+            ["hole.wall", "hole.far"].contains(&name),
+            "{name}"
+        );
         let reader = primitive.reader(|_| Some(blob));
         let positions: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
         let bounds = primitive.bounding_box();

@@ -34,7 +34,7 @@ fn shot(sources: &mut Sources) -> Block {
             medium.material.into(),
         ]);
     }
-    block.table(&table);
+    block.table(table);
     block.paragraph(
         "In a problem file: shot: { use: S110 }. Diameters are nominal; size_spread says how a \
          charge scatters about them. A radius or density beside use goes before the library's.",
@@ -65,7 +65,7 @@ fn contacts(sources: &mut Sources) -> Block {
         }
         table.row(cells);
     }
-    block.table(&table);
+    block.table(table);
     block.paragraph(
         "In a problem file: contacts: { use: [steel-on-steel-dry, steel-on-steel-oiled] }, or \
          contacts: { dry: { use: steel-on-steel-dry, restitution: 0.5 } }, where keys beside use go \

@@ -7,7 +7,7 @@ use std::mem::size_of;
 use gltf::binary::Header;
 use gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf::json::buffer::{Target, View};
-use gltf::json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use gltf::json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Accessor, Asset, Buffer, Index, Material, Mesh, Node, Root, Scene, Value};
@@ -175,8 +175,13 @@ fn material(piece: &Piece) -> Material {
     Material {
         name: Some(piece.name.clone()),
         double_sided: true,
+        alpha_mode: Checked::Valid(if piece.opacity < 1.0 {
+            AlphaMode::Blend
+        } else {
+            AlphaMode::Opaque
+        }),
         pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: PbrBaseColorFactor([red, green, blue, 1.0]),
+            base_color_factor: PbrBaseColorFactor([red, green, blue, piece.opacity]),
             metallic_factor: StrengthFactor(0.0),
             roughness_factor: StrengthFactor(1.0),
             ..PbrMetallicRoughness::default()

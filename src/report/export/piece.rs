@@ -12,6 +12,8 @@ pub(super) struct Piece {
     pub name: String,
     /// sRGB.
     pub color: [u8; 3],
+    /// 1, or less for what one must see through.
+    pub opacity: f32,
     /// Corners, m.
     pub points: Vec<[f32; 3]>,
     pub cells: Cells,
@@ -31,6 +33,8 @@ pub(super) enum Cells {
 const VERMILION: [u8; 3] = [0xd5, 0x5e, 0x00];
 const SKY_BLUE: [u8; 3] = [0x56, 0xb4, 0xe9];
 const WALL: [u8; 3] = [0xdd, 0xe3, 0xe8];
+/// Of secondary surfaces: the jet is inside them.
+const SEE_THROUGH: f32 = 0.35;
 const NOZZLE: [u8; 3] = [0x8a, 0x93, 0x9b];
 const HIT: [u8; 3] = [0x22, 0x22, 0x22];
 const BREAKS: [u8; 3] = [0xcc, 0x00, 0x00];
@@ -51,6 +55,7 @@ pub(super) fn all(evidence: &EvidenceRecord, exit: [f64; 3]) -> Vec<Piece> {
     pieces.push(Piece {
         name: "hits".into(),
         color: HIT,
+        opacity: 1.0,
         points: evidence.hits.points_m.clone(),
         cells: Cells::Points(evidence.hits.normal_impulse.clone()),
     });
@@ -59,14 +64,15 @@ pub(super) fn all(evidence: &EvidenceRecord, exit: [f64; 3]) -> Vec<Piece> {
 }
 
 fn surface(shape: &SurfaceShapeRecord) -> Piece {
-    let (suffix, color) = match shape.role {
-        RoleRecord::Target => (" (target)", VERMILION),
-        RoleRecord::Secondary => ("", WALL),
-        RoleRecord::Deflector => (" (deflector)", SKY_BLUE),
+    let (suffix, color, opacity) = match shape.role {
+        RoleRecord::Target => (" (target)", VERMILION, 1.0),
+        RoleRecord::Secondary => ("", WALL, SEE_THROUGH),
+        RoleRecord::Deflector => (" (deflector)", SKY_BLUE, 1.0),
     };
     Piece {
         name: format!("{}{suffix}", shape.name),
         color,
+        opacity,
         points: shape.points_m.clone(),
         cells: Cells::Triangles(shape.triangles.clone()),
     }
@@ -102,6 +108,7 @@ fn paths(evidence: &EvidenceRecord) -> Vec<Piece> {
         Piece {
             name: name.into(),
             color,
+            opacity: 1.0,
             points,
             cells: Cells::Lines((0..segments).map(|i| [2 * i, 2 * i + 1]).collect()),
         }
@@ -160,6 +167,7 @@ fn nozzle(body: &BodyRecord, number: usize, exit: &Point3<f64>) -> Piece {
     Piece {
         name: format!("nozzle, body {number}"),
         color: NOZZLE,
+        opacity: 1.0,
         points,
         cells: Cells::Triangles(triangles),
     }
