@@ -99,6 +99,7 @@
 //! | [`verdict`] | whether that passes, goal by goal |
 //! | [`unknowns`] | which of restitution and friction, where they are not known exactly, moves the result most |
 //! | [`solve`] | the search over settings, and how far each may drift |
+//! | [`map`] | the objective and the verdicts over two settings |
 //! | [`validity`] | what the model leaves out at the answer |
 //! | [`record`] | the complete result, JSON both ways |
 //! | [`chart`] | speed against accuracy, measured on the problem at hand |
@@ -131,6 +132,9 @@ pub mod verdict;
 pub mod unknowns;
 
 pub mod solve;
+
+pub mod map;
+
 pub mod validity;
 
 pub mod record;

@@ -4,6 +4,7 @@
 
 mod answer;
 mod evidence;
+mod map;
 mod model;
 mod question;
 mod unknowns;
@@ -17,6 +18,7 @@ pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
+pub use map::MapTerm;
 pub use model::{ModelRecord, RungRecord};
 pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use unknowns::{

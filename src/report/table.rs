@@ -1,8 +1,9 @@
-//! The numbers of a chart as tables: comma-separated values with a heading, SI units in it.
+//! The numbers of a chart or a map as tables: comma-separated values with a heading, SI units in it.
 
 use std::fmt::Display;
 
 use crate::chart::{Chart, Method, Precision, Sampling, Walls};
+use crate::record::{MapRecord, MapTerm};
 use crate::report::number::plain;
 
 /// A table as text.
@@ -22,6 +23,34 @@ impl Table {
             .into_iter()
             .filter(|table| table.csv.lines().count() > 1)
             .collect()
+    }
+
+    /// The table of a map: a row for each place.
+    pub fn of_map(map: &MapRecord) -> Self {
+        let columns = format!(
+            "{},{},total,normal_impulse,tangential_impulse,rebound,miss,share_sticking,passes,fails",
+            map.x.setting, map.y.setting
+        );
+        let mut table = Self::headed("map", &columns);
+        let rows = map.cells.chunks(map.x.values.len().max(1));
+        for (y, row) in map.y.values.iter().zip(rows) {
+            for (x, cell) in map.x.values.iter().zip(row) {
+                // Records keep seven digits.
+                let number = |value: Option<f64>| {
+                    value.map_or_else(String::new, |value| (value as f32).to_string())
+                };
+                let named = |index: &u32| map.subjects.get(*index as usize).cloned();
+                let fails: Vec<String> = cell.fails.iter().filter_map(named).collect();
+                let mut cells = vec![x.to_string(), y.to_string()];
+                cells.extend(MapTerm::ALL.map(|term| number(term.of(cell))));
+                cells.push(number(cell.share_sticking.map(f64::from)));
+                cells.push(fails.is_empty().to_string());
+                cells.push(fails.join(" "));
+                let cells: Vec<&dyn Display> = cells.iter().map(|it| it as &dyn Display).collect();
+                table.row(&cells);
+            }
+        }
+        table
     }
 
     fn headed(name: &'static str, columns: &str) -> Self {

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand};
+use peenpose::record::MapTerm;
 
 use crate::impact::ImpactArgs;
 
@@ -30,6 +32,8 @@ pub enum Command {
     Solve(SolveArgs),
     /// Say what given settings do
     Evaluate(EvaluateArgs),
+    /// Draw the objective, or a term of it, over two settings
+    Map(MapArgs),
     /// Measure speed against accuracy on a problem file, as figures and tables
     Chart(ChartArgs),
     /// Show all faults of problem files at once
@@ -89,6 +93,53 @@ pub struct EvaluateArgs {
     /// Write result.json and sheet.txt into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `map`.
+#[derive(clap::Args)]
+pub struct MapArgs {
+    /// The problem file
+    pub file: PathBuf,
+    /// The setting of the lower axis, such as `incidence` or `incidence=40deg:80deg`
+    #[arg(long, value_name = "NAME[=FROM:TO]")]
+    pub x: String,
+    /// The setting of the left axis
+    #[arg(long, value_name = "NAME[=FROM:TO]")]
+    pub y: String,
+    /// What is drawn
+    #[arg(long, default_value = "total", value_parser = terms())]
+    pub term: String,
+    /// Hold a setting, such as `standoff=8mm`; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Hold the settings of this result.json; --set goes on top
+    #[arg(long, value_name = "result.json")]
+    pub from: Option<PathBuf>,
+    /// The contact; the best one by default
+    #[arg(long, value_name = "NAME")]
+    pub contact: Option<String>,
+    /// Values along each axis
+    #[arg(long, value_name = "N", default_value_t = 41, value_parser = clap::value_parser!(u16).range(2..=401))]
+    pub steps: u16,
+    /// Shots at each place
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub shots: u32,
+    /// Seed of all samples; the file's by default
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; all cores by default. The map does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// No progress bar
+    #[arg(long)]
+    pub quiet: bool,
+    /// Write the map as SVG, PNG and CSV into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+fn terms() -> PossibleValuesParser {
+    MapTerm::ALL.map(MapTerm::name).into()
 }
 
 /// Arguments of `chart`.

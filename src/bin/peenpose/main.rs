@@ -5,8 +5,10 @@ mod chart;
 mod check;
 mod evaluate;
 mod impact;
+mod map;
 mod output;
 mod progress;
+mod settings;
 mod solve;
 
 use std::process::ExitCode;
@@ -21,6 +23,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Map(args) => map::run(args),
         Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
         Command::Impact(args) => impact::run(args)

@@ -37,6 +37,12 @@ impl Failure {
     }
 }
 
+/// Tells something on stderr that is neither result nor failure.
+pub fn note(message: &str) {
+    // Nothing can be done when even stderr is closed.
+    let _ = writeln!(std::io::stderr(), "note: {message}");
+}
+
 /// Prints a text to stdout. A reader that has gone away is not a failure.
 pub fn text(text: String) -> Result<ExitCode, Failure> {
     match std::io::stdout().write_all(text.as_bytes()) {

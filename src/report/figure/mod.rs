@@ -1,9 +1,13 @@
-//! Figures, drawn from a chart alone: SVG with texts, and PNG with the embedded font.
+//! Figures, drawn from a chart or a record alone: SVG with texts, and PNG with the embedded font.
 //!
-//! This module is the only one that knows plotters and resvg.
+//! This module is the only one that knows plotters, resvg, and the crates for contours and colours.
 
 mod axis;
 mod effect;
+mod field;
+mod labels;
+mod levels;
+mod map;
 mod plot;
 mod png;
 mod pose;
@@ -14,7 +18,9 @@ mod style;
 pub(super) use axis::time;
 pub(super) use pose::curve_name;
 
+use super::map::MapView;
 use crate::chart::Chart;
+use crate::record::{MapTerm, Record};
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,6 +55,44 @@ impl Figure {
                     .map_err(|fault| FigureFault::new(name, &fault))
             })
             .collect()
+    }
+
+    /// The figure of a map; `None` when it has no extent.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_map(view: &MapView, term: MapTerm) -> Result<Option<Self>, FigureFault> {
+        Self::named("map", map::svg(view, term))
+    }
+
+    /// The figures of all maps of a record.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_maps(record: &Record) -> Result<Vec<Self>, FigureFault> {
+        let maps = record.evidence.iter().flat_map(|evidence| &evidence.maps);
+        let names = ["map_1", "map_2", "map_3", "map_4"];
+        let figures = names.into_iter().zip(maps).map(|(name, map)| {
+            let view = MapView {
+                map,
+                problem: &record.problem,
+                answer: &record.best,
+                marks_settings: true,
+            };
+            Self::named(name, map::svg(&view, MapTerm::Total))
+        });
+        figures.filter_map(Result::transpose).collect()
+    }
+
+    fn named(
+        name: &'static str,
+        svg: Option<Result<String, impl std::fmt::Display>>,
+    ) -> Result<Option<Self>, FigureFault> {
+        svg.map(|svg| match svg {
+            Ok(svg) => Ok(Self { name, svg }),
+            Err(fault) => Err(FigureFault::new(name, &fault)),
+        })
+        .transpose()
     }
 
     /// The figure as PNG.

@@ -9,7 +9,7 @@ mod model;
 mod objective;
 mod received;
 mod scatter;
-mod setting;
+pub(super) mod setting;
 mod settings;
 mod subject;
 mod unknowns;
