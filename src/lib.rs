@@ -100,6 +100,7 @@
 //! | [`unknowns`] | which of restitution and friction, where they are not known exactly, moves the result most |
 //! | [`solve`] | the search over settings, and how far each may drift |
 //! | [`map`] | the objective and the verdicts over two settings |
+//! | [`warnings`] | what parses but can hardly be meant |
 //! | [`validity`] | what the model leaves out at the answer |
 //! | [`record`] | the complete result, JSON both ways |
 //! | [`chart`] | speed against accuracy, measured on the problem at hand |
@@ -134,6 +135,8 @@ pub mod unknowns;
 pub mod solve;
 
 pub mod map;
+
+pub mod warnings;
 
 pub mod validity;
 

@@ -25,6 +25,7 @@ pub mod goal;
 pub mod model;
 pub mod part;
 pub mod setting;
+pub mod warning;
 
 mod check;
 mod faults;
@@ -37,7 +38,7 @@ mod source;
 mod yaml;
 
 pub use reading::{Reading, read, read_text};
-pub use render::{one_line, render};
+pub use render::{one_line, render, render_warnings};
 pub use source::Source;
 
 use equipment::{ContactChoice, Jet, Nozzle, PathLimits, Shot, SurfaceRule};

@@ -40,6 +40,18 @@ impl Patch {
         hit.surface == self.surface && self.within.is_none_or(|limits| inside(&hit.point, &limits))
     }
 
+    /// The corners of its pieces, cut to its box.
+    pub fn outline_points<'a>(
+        &'a self,
+        scene: &'a Scene,
+    ) -> impl Iterator<Item = Point3<f64>> + 'a {
+        let pieces = scene.surface_triangles(self.surface);
+        pieces.flat_map(|corners| match self.within {
+            Some(limits) => clip(&corners, &limits),
+            None => corners.to_vec(),
+        })
+    }
+
     /// Finds the patch in a scene.
     ///
     /// # Errors

@@ -36,7 +36,7 @@ pub enum Command {
     Map(MapArgs),
     /// Measure speed against accuracy on a problem file, as figures and tables
     Chart(ChartArgs),
-    /// Show all faults of problem files at once
+    /// Show all faults of problem files at once, and what can hardly be meant
     Check(CheckArgs),
     /// Compute one impact, or print the paper's tables
     Impact(ImpactArgs),
@@ -62,7 +62,7 @@ pub struct SolveArgs {
     /// Threads; all cores by default. The answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
-    /// No progress bar
+    /// No progress bar, no warnings
     #[arg(long)]
     pub quiet: bool,
 }
@@ -90,6 +90,9 @@ pub struct EvaluateArgs {
     /// Print JSON instead of the sheet
     #[arg(long)]
     pub json: bool,
+    /// No warnings
+    #[arg(long)]
+    pub quiet: bool,
     /// Write result.json and sheet.txt into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -130,7 +133,7 @@ pub struct MapArgs {
     /// Threads; all cores by default. The map does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
-    /// No progress bar
+    /// No progress bar, no warnings
     #[arg(long)]
     pub quiet: bool,
     /// Write the map as SVG, PNG and CSV into this folder
@@ -165,7 +168,7 @@ pub struct ChartArgs {
     /// Threads; all cores by default. Only times depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
-    /// No progress bar
+    /// No progress bar, no warnings
     #[arg(long)]
     pub quiet: bool,
 }
@@ -176,4 +179,7 @@ pub struct CheckArgs {
     /// Problem files
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
+    /// Let warnings count as faults
+    #[arg(long)]
+    pub deny_warnings: bool,
 }

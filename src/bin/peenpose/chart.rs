@@ -20,6 +20,9 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
     let beside = beside(&args.beside)?;
     output::prepare(Some(&args.out))?;
     let (mut setup, source) = Setup::load(&args.file)?;
+    if !args.quiet {
+        output::warnings(&setup, &source);
+    }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
     }

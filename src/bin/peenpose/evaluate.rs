@@ -24,6 +24,9 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
     output::prepare(args.out.as_deref())?;
     let (mut setup, source) = Setup::load(&args.file)?;
+    if !args.quiet {
+        output::warnings(&setup, &source);
+    }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
     }

@@ -30,6 +30,9 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     }
     output::prepare(Some(&args.out))?;
     let (mut setup, source) = Setup::load(&args.file)?;
+    if !args.quiet {
+        output::warnings(&setup, &source);
+    }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
     }

@@ -4,14 +4,15 @@ use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+use peenpose::problem::{Source, render_warnings};
 use peenpose::record::Record;
 use peenpose::report::sheet;
-use peenpose::setup::Rejection;
+use peenpose::setup::{Rejection, Setup};
 
 /// Exit status of a full answer that fails a verdict.
 const FAILS: u8 = 1;
 /// Exit status of bad input or failure.
-const BAD_INPUT: u8 = 2;
+pub const BAD_INPUT: u8 = 2;
 
 /// Why a command gave no result.
 pub struct Failure(String);
@@ -41,6 +42,16 @@ impl Failure {
 pub fn note(message: &str) {
     // Nothing can be done when even stderr is closed.
     let _ = writeln!(std::io::stderr(), "note: {message}");
+}
+
+/// Shows on stderr what parses but can hardly be meant; tells how many warnings there are.
+pub fn warnings(setup: &Setup, source: &Source) -> usize {
+    let found = peenpose::warnings::of(setup, source);
+    let stderr = std::io::stderr();
+    let text = render_warnings(source, &found, is_colorful(&stderr));
+    // Nothing can be done when even stderr is closed.
+    let _ = stderr.lock().write_all(text.as_bytes());
+    found.len()
 }
 
 /// Prints a text to stdout. A reader that has gone away is not a failure.

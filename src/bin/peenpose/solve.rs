@@ -20,6 +20,9 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
     output::prepare(args.out.as_deref())?;
     let (mut setup, source) = Setup::load(&args.file)?;
+    if !args.quiet {
+        output::warnings(&setup, &source);
+    }
     if let Some(accuracy) = &args.accuracy {
         setup.problem.accuracy = accuracy_of(accuracy)?;
     }
