@@ -283,7 +283,7 @@ impl PoseRecord {
 }
 
 impl ObjectiveRecord {
-    fn new(evaluation: &Evaluation) -> Self {
+    pub(super) fn new(evaluation: &Evaluation) -> Self {
         let (terms, errors) = (&evaluation.terms, &evaluation.term_errors);
         Self {
             total: terms.total(),

@@ -4,6 +4,7 @@
 
 mod answer;
 mod evidence;
+mod front;
 mod map;
 mod model;
 mod question;
@@ -18,6 +19,7 @@ pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
+pub use front::FrontRecord;
 pub use map::MapTerm;
 pub use model::{ModelRecord, RungRecord};
 pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
@@ -47,6 +49,10 @@ pub struct Record {
     pub windows: Vec<WindowRecord>,
     /// The best settings of each contact, best first.
     pub choices: Vec<AnswerRecord>,
+    /// The trade-off between target error, tangential risk and rebound, from the least target error
+    /// on; empty where it was not asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub front: Vec<FrontRecord>,
     /// Which effects were searched with, and what each of them does.
     #[serde(default)]
     pub model: ModelRecord,
@@ -166,6 +172,7 @@ impl Record {
                 .map(|window| WindowRecord::new(setup, window))
                 .collect(),
             choices,
+            front: Vec::new(),
             model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),

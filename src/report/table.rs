@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use crate::chart::{Chart, Method, Precision, Sampling, Walls};
-use crate::record::{MapRecord, MapTerm};
+use crate::record::{FrontRecord, MapRecord, MapTerm};
 use crate::report::number::plain;
 
 /// A table as text.
@@ -49,6 +49,41 @@ impl Table {
                 let cells: Vec<&dyn Display> = cells.iter().map(|it| it as &dyn Display).collect();
                 table.row(&cells);
             }
+        }
+        table
+    }
+
+    /// The table of a trade-off: a row for each answer.
+    pub fn of_front(front: &[FrontRecord]) -> Self {
+        let mut table = Self::headed(
+            "trade_off",
+            "recommended,contact,mu_s,incidence_deg,azimuth_deg,standoff_m,speed_m_s,aim_along_m,\
+             aim_across_m,aim_above_m,target_error,target_error_standard_error,tangential,\
+             tangential_standard_error,rebound,rebound_standard_error,total,fails",
+        );
+        for point in front {
+            let at = &point.settings;
+            let risks = point.risks();
+            table.row(&[
+                &point.recommended,
+                &point.contact,
+                &point.mu_s,
+                &at.incidence_deg,
+                &at.azimuth_deg,
+                &at.standoff_m,
+                &at.speed_m_s,
+                &at.aim_along_m,
+                &at.aim_across_m,
+                &at.aim_above_m,
+                &risks[0].0,
+                &risks[0].1,
+                &risks[1].0,
+                &risks[1].1,
+                &risks[2].0,
+                &risks[2].1,
+                &point.objective.total,
+                &point.fails.join(" "),
+            ]);
         }
         table
     }

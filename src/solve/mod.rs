@@ -10,6 +10,7 @@
 mod accuracy;
 mod answer;
 mod control;
+mod front;
 mod judge;
 mod ladder;
 mod models;
@@ -20,6 +21,7 @@ mod window;
 
 pub use answer::Answer;
 pub use control::{Control, Progress, Status};
+pub use front::{Front, Risks, front, risks};
 pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
 pub use ladder::{Ladder, Rung};
 pub use window::{Drift, Turn, Window, passing_windows, windows};

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand};
+use clap_complete::Shell;
 use peenpose::record::MapTerm;
 
 use crate::impact::ImpactArgs;
@@ -29,17 +30,94 @@ Results go to stdout, progress and warnings to stderr.";
 #[derive(Subcommand)]
 pub enum Command {
     /// Find the best settings for a problem file
+    #[command(after_help = SOLVE_EXAMPLES)]
     Solve(SolveArgs),
     /// Say what given settings do
+    #[command(after_help = EVALUATE_EXAMPLES)]
     Evaluate(EvaluateArgs),
     /// Draw the objective, or a term of it, over two settings
+    #[command(after_help = MAP_EXAMPLES)]
     Map(MapArgs),
     /// Measure speed against accuracy on a problem file, as figures and tables
+    #[command(after_help = CHART_EXAMPLES)]
     Chart(ChartArgs),
     /// Show all faults of problem files at once, and what can hardly be meant
+    #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArgs),
     /// Compute one impact, or print the paper's tables
+    #[command(after_help = IMPACT_EXAMPLES)]
     Impact(ImpactArgs),
+    /// Print completions for a shell
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions(CompletionsArgs),
+    /// Print the manual page
+    #[command(after_help = MAN_EXAMPLES)]
+    Man(ManArgs),
+}
+
+const SOLVE_EXAMPLES: &str = "\
+Examples:
+  peenpose solve keyway.yaml                        the technique sheet
+  peenpose solve keyway.yaml --out result           sheet, result.json and figures in a folder
+  peenpose solve keyway.yaml --pareto               what can be had instead, too
+  peenpose solve keyway.yaml --json | jq .best.settings
+Ctrl-C ends the search with the best answer so far.";
+
+const EVALUATE_EXAMPLES: &str = "\
+Examples:
+  peenpose evaluate keyway.yaml --set incidence=80deg --set azimuth=0deg \\
+      --set standoff=8mm --set speed=9.4m/s --set contact=oiled
+  peenpose evaluate keyway.yaml --from result/result.json --set speed=9.8m/s";
+
+const MAP_EXAMPLES: &str = "\
+Examples:
+  peenpose map keyway.yaml --x incidence --y azimuth --out maps
+  peenpose map keyway.yaml --x incidence=55deg:75deg --y standoff --term rebound \\
+      --from result/result.json --out maps
+Without --from and --set the best settings are searched first.";
+
+const CHART_EXAMPLES: &str = "\
+Examples:
+  peenpose chart keyway.yaml --out chart
+  peenpose chart keyway.yaml --out chart --beside other-method.csv";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  peenpose check *.yaml
+  peenpose check --deny-warnings keyway.yaml";
+
+const IMPACT_EXAMPLES: &str = "\
+Examples:
+  peenpose impact --speed '10 m/s' --angle '60 deg' --mu-s 0.12
+  peenpose impact --table zohdi1";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  peenpose completions bash > ~/.local/share/bash-completion/completions/peenpose
+  peenpose completions zsh > ~/.zfunc/_peenpose
+  peenpose completions fish > ~/.config/fish/completions/peenpose.fish";
+
+const MAN_EXAMPLES: &str = "\
+Examples:
+  peenpose man | man -l -
+  peenpose man solve | man -l -
+  peenpose man --out ~/.local/share/man/man1";
+
+/// Arguments of `completions`.
+#[derive(clap::Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// Arguments of `man`.
+#[derive(clap::Args)]
+pub struct ManArgs {
+    /// The command that the page is about; the whole program by default
+    pub command: Option<String>,
+    /// Write the pages of all commands into this folder
+    #[arg(long, value_name = "DIR", conflicts_with = "command")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `solve`.
@@ -56,6 +134,9 @@ pub struct SolveArgs {
     /// Accuracy of J, such as `1 %`; the file's by default
     #[arg(long, value_name = "PERCENT")]
     pub accuracy: Option<String>,
+    /// Show the trade-off between target error, tangential risk and rebound, too
+    #[arg(long)]
+    pub pareto: bool,
     /// Seed of all samples; the file's by default
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,

@@ -49,10 +49,7 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
         output::write(&args.out, &format!("{name}.csv"), csv.as_bytes())?;
     }
     for figure in Figure::of_chart(&chart).map_err(|fault| fault.to_string())? {
-        let png = figure.png().map_err(|fault| fault.to_string())?;
-        let name = figure.name;
-        output::write(&args.out, &format!("{name}.svg"), figure.svg.as_bytes())?;
-        output::write(&args.out, &format!("{name}.png"), &png)?;
+        output::figure(&args.out, figure.name, &figure)?;
     }
     output::text(sheet)
 }

@@ -9,6 +9,7 @@ mod map;
 mod output;
 mod progress;
 mod settings;
+mod shell;
 mod solve;
 
 use std::process::ExitCode;
@@ -26,6 +27,8 @@ fn main() -> ExitCode {
         Command::Map(args) => map::run(args),
         Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
+        Command::Completions(args) => shell::completions(args),
+        Command::Man(args) => shell::man(args),
         Command::Impact(args) => impact::run(args)
             .map_err(Failure::from)
             .and_then(output::text),

@@ -77,19 +77,16 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
     }
     let figure = Figure::of_map(view, term).map_err(|fault| fault.to_string())?;
     let figure = figure.ok_or("the map has no extent".to_owned())?;
-    let png = figure.png().map_err(|fault| fault.to_string())?;
     let table = Table::of_map(view.map);
-    let mut text = report::map(view, term);
-    for (ending, contents) in [
-        ("svg", figure.svg.as_bytes()),
-        ("png", &png),
-        ("csv", table.csv.as_bytes()),
-    ] {
-        let name = format!("{stem}.{ending}");
-        output::write(&args.out, &name, contents)?;
-        text += &format!("  {:<10} {}\n", "written", args.out.join(name).display());
-    }
-    output::text(text)
+    output::figure(&args.out, &stem, &figure)?;
+    output::write(&args.out, &format!("{stem}.csv"), table.csv.as_bytes())?;
+    let written = args.out.join(stem);
+    let text = report::map(view, term);
+    output::text(format!(
+        "{text}  {:<10} {}.svg, .png, .csv\n",
+        "written",
+        written.display()
+    ))
 }
 
 /// The settings round which the map is made, and whether those on its axes are known: as given, or

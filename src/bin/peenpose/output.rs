@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use peenpose::problem::{Source, render_warnings};
 use peenpose::record::Record;
+use peenpose::report::figure::Figure;
 use peenpose::report::sheet;
 use peenpose::setup::{Rejection, Setup};
 
@@ -54,9 +55,15 @@ pub fn warnings(setup: &Setup, source: &Source) -> usize {
     found.len()
 }
 
-/// Prints a text to stdout. A reader that has gone away is not a failure.
+/// Prints a text to stdout.
 pub fn text(text: String) -> Result<ExitCode, Failure> {
-    match std::io::stdout().write_all(text.as_bytes()) {
+    bytes(text.as_bytes())
+}
+
+/// Prints bytes to stdout. A reader that has gone away is not a failure.
+pub fn bytes(bytes: &[u8]) -> Result<ExitCode, Failure> {
+    let mut stdout = std::io::stdout();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::from(format!("cannot write the result: {error}")))
         }
@@ -116,6 +123,13 @@ pub fn write(folder: &Path, name: &str, contents: &[u8]) -> Result<(), Failure> 
     written().map(drop).map_err(|error: std::io::Error| {
         Failure::from(format!("cannot write {}: {error}", path.display()))
     })
+}
+
+/// Writes a figure as SVG and PNG.
+pub fn figure(folder: &Path, stem: &str, figure: &Figure) -> Result<(), Failure> {
+    let png = figure.png().map_err(|fault| fault.to_string())?;
+    write(folder, &format!("{stem}.svg"), figure.svg.as_bytes())?;
+    write(folder, &format!("{stem}.png"), &png)
 }
 
 /// A temporary file that may be read by whom the umask lets; usually nobody else may.

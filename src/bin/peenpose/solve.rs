@@ -1,11 +1,14 @@
 //! `peenpose solve`: the main job.
 
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use peenpose::record::{Circumstances, Record, WorkRecord};
+use peenpose::record::{Circumstances, FrontRecord, Record, StatusRecord, WorkRecord};
+use peenpose::report::figure::Figure;
+use peenpose::report::table::Table;
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, passing_windows, solve};
+use peenpose::solve::{Control, front, passing_windows, solve};
 use peenpose::units::{self, Dimension};
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
@@ -38,7 +41,14 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let solution = solve(&setup, &control);
     let setup = setup.as_asked();
     let windows = passing_windows(&setup, &solution);
+    let front = args
+        .pareto
+        .then(|| front(&setup, &solution.answers, &control));
+    let is_stopped = control.is_stopped();
     watcher.finish();
+    if is_stopped {
+        output::note("stopped: this is the best answer so far");
+    }
     let best = solution
         .answers
         .first()
@@ -48,17 +58,21 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let unknowns = fits.then(|| Unknowns::of(&setup, &best.choice)).flatten();
     let circumstances = Circumstances {
         source: &source,
-        status: solution.status.into(),
+        status: if is_stopped {
+            StatusRecord::Interrupted
+        } else {
+            solution.status.into()
+        },
         command: command(args, &setup),
         ladder: &solution.ladder,
         work: WorkRecord {
-            poses: solution.poses,
+            poses: solution.poses + front.as_ref().map_or(0, |front| front.poses),
             shots_per_pose: solution.shots_per_pose,
-            rays: solution.rays,
+            rays: solution.rays + front.as_ref().map_or(0, |front| front.rays),
             seconds: started.elapsed().as_secs_f64(),
         },
     };
-    let record = Record::new(
+    let mut record = Record::new(
         &setup,
         &solution.answers,
         &windows,
@@ -67,13 +81,30 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         circumstances,
     )
     .ok_or("there is no contact to choose".to_owned())?;
+    if let Some(front) = &front {
+        record.front = FrontRecord::all(&setup, front);
+    }
+    if let (Some(folder), true) = (&args.out, args.pareto) {
+        write_front(&record, folder)?;
+    }
     output::record(&record, args.json, args.out.as_deref())
+}
+
+/// Writes the trade-off as figure and table.
+fn write_front(record: &Record, folder: &Path) -> Result<(), Failure> {
+    let Table { name, csv } = Table::of_front(&record.front);
+    output::write(folder, &format!("{name}.csv"), csv.as_bytes())?;
+    let figure = Figure::of_front(record).map_err(|fault| fault.to_string())?;
+    figure.map_or(Ok(()), |figure| {
+        output::figure(folder, figure.name, &figure)
+    })
 }
 
 /// The command that gives the same answer again.
 fn command(args: &SolveArgs, setup: &Setup) -> String {
+    let pareto = if args.pareto { " --pareto" } else { "" };
     format!(
-        "peenpose solve {} --accuracy '{} %' --seed {}",
+        "peenpose solve {} --accuracy '{} %' --seed {}{pareto}",
         quoted(&args.file.display().to_string()),
         setup.problem.accuracy * 100.0,
         setup.problem.seed

@@ -5,6 +5,7 @@
 mod axis;
 mod effect;
 mod field;
+mod front;
 mod labels;
 mod levels;
 mod map;
@@ -63,6 +64,14 @@ impl Figure {
     /// None is expected: figures are written into memory.
     pub fn of_map(view: &MapView, term: MapTerm) -> Result<Option<Self>, FigureFault> {
         Self::named("map", map::svg(view, term))
+    }
+
+    /// The figure of the trade-off of a record; `None` where there is nothing to trade.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_front(record: &Record) -> Result<Option<Self>, FigureFault> {
+        Self::named("trade_off", front::svg(record))
     }
 
     /// The figures of all maps of a record.

@@ -4,6 +4,7 @@ mod blocked;
 mod cause;
 mod closing;
 mod contacts;
+mod front;
 mod headline;
 mod model;
 mod objective;
@@ -21,7 +22,7 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 15] = [
+    let blocks: [Option<Block>; 16] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best),
@@ -33,6 +34,7 @@ pub fn sheet(record: &Record) -> String {
         unknowns::block(record),
         objective::block(best),
         contacts::block(record),
+        front::block(record),
         closing::validity(record),
         model::block(record),
         Some(closing::reproduce(record)),
