@@ -102,6 +102,8 @@
 //! | [`map`] | the objective and the verdicts over two settings |
 //! | [`warnings`] | what parses but can hardly be meant |
 //! | [`validity`] | what the model leaves out at the answer |
+//! | [`coverage`] | how densely first hits fall on the target, and how long until it is dented |
+//! | [`evidence`] | what pictures of an answer are drawn from: shapes, flights, places |
 //! | [`record`] | the complete result, JSON both ways |
 //! | [`chart`] | speed against accuracy, measured on the problem at hand |
 //! | [`report`] | sheet, tables and figures, made from a record or a chart alone |
@@ -139,6 +141,9 @@ pub mod map;
 pub mod warnings;
 
 pub mod validity;
+
+pub mod coverage;
+pub mod evidence;
 
 pub mod record;
 

@@ -48,7 +48,7 @@ struct OnlyContact {
 /// One impact of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathImpact {
-    /// 1 for the first hit; hits on deflectors are not numbered and not reported.
+    /// 1 for the first hit; 0 on a deflector, where hits are not counted.
     pub number: usize,
     /// Index of the surface.
     pub surface: u32,
@@ -62,6 +62,8 @@ pub struct PathImpact {
     pub regime: Regime,
     /// The place of contact, m.
     pub point: Point3<f64>,
+    /// Unit normal of the surface there, towards the side that the shot comes from.
+    pub normal: Vector3<f64>,
     /// Where the centre of the shot is, m.
     pub centre: Point3<f64>,
     /// Velocity of the centre afterwards, m/s.
@@ -120,18 +122,38 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Follows one shot of the jet; reports each impact. Returns why the path ended and how many
-    /// rays it took.
+    /// Follows one shot of the jet; reports each impact but those on deflectors. Returns why the
+    /// path ended and how many rays it took.
     #[inline]
     pub fn follow(&self, deviate: &Deviate, report: impl FnMut(&PathImpact)) -> (End, usize) {
-        let ray = self.aim.shot(&self.setup.target.frame, deviate);
-        self.follow_from(ray, deviate, report)
+        self.follow_from(self.launch(deviate), deviate, report)
+    }
+
+    /// The ray along which a shot of the jet leaves the nozzle.
+    #[inline]
+    pub fn launch(&self, deviate: &Deviate) -> Ray {
+        self.aim.shot(&self.setup.target.frame, deviate)
     }
 
     /// Follows a shot that starts anywhere in the scene, with the mass, speed, contact and pose of
     /// the nozzle that `deviate` gives it.
     #[inline]
     pub fn follow_from(
+        &self,
+        start: Ray,
+        deviate: &Deviate,
+        mut report: impl FnMut(&PathImpact),
+    ) -> (End, usize) {
+        self.follow_all_from(start, deviate, |impact| {
+            if impact.number > 0 {
+                report(impact);
+            }
+        })
+    }
+
+    /// The same, with the hits on deflectors.
+    #[inline]
+    pub fn follow_all_from(
         &self,
         start: Ray,
         deviate: &Deviate,
@@ -173,19 +195,20 @@ impl<'a> Tracer<'a> {
                 deflections += 1;
             } else {
                 number += 1;
-                report(&PathImpact {
-                    number,
-                    surface: hit.surface,
-                    on_target: setup.target.holds(&hit),
-                    normal_impulse: mass * after.normal,
-                    tangential_impulse: mass * after.tangential,
-                    regime: after.regime,
-                    point: hit.point,
-                    centre,
-                    velocity,
-                    rolling,
-                });
             }
+            report(&PathImpact {
+                number: if surface.deflector { 0 } else { number },
+                surface: hit.surface,
+                on_target: setup.target.holds(&hit),
+                normal_impulse: mass * after.normal,
+                tangential_impulse: mass * after.tangential,
+                regime: after.regime,
+                point: hit.point,
+                normal: hit.normal,
+                centre,
+                velocity,
+                rolling,
+            });
             if after.departure == 0.0 {
                 return (End::Stays, rays);
             }

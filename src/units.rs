@@ -31,6 +31,8 @@ pub enum Dimension {
     Density,
     /// In kg/s.
     MassFlow,
+    /// In Pa.
+    Pressure,
     /// A percentage, as a fraction of 1.
     Fraction,
 }
@@ -81,17 +83,26 @@ const MASS_FLOWS: &[Unit] = &[
     ("g/min", Factor(1e-3 / 60.0)),
     ("lb/min", Factor(0.453_592_37 / 60.0)),
 ];
+const PRESSURES: &[Unit] = &[
+    ("bar", Shift(5)),
+    ("kPa", Shift(3)),
+    ("MPa", Shift(6)),
+    ("Pa", Shift(0)),
+    // A pound-force on a square inch.
+    ("psi", Factor(0.453_592_37 * 9.806_65 / (0.0254 * 0.0254))),
+];
 const FRACTIONS: &[Unit] = &[("%", Shift(-2))];
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Length,
         Self::Angle,
         Self::Speed,
         Self::Impulse,
         Self::Density,
         Self::MassFlow,
+        Self::Pressure,
         Self::Fraction,
     ];
 
@@ -104,6 +115,7 @@ impl Dimension {
             Self::Impulse => "impulse",
             Self::Density => "density",
             Self::MassFlow => "mass flow",
+            Self::Pressure => "pressure",
             Self::Fraction => "percentage",
         }
     }
@@ -117,6 +129,7 @@ impl Dimension {
             Self::Impulse => "an impulse such as `40 uN.s`",
             Self::Density => "a density such as `7000 kg/m3`",
             Self::MassFlow => "a mass flow such as `5 kg/min`",
+            Self::Pressure => "a pressure such as `3 bar`",
             Self::Fraction => "a percentage such as `5 %`",
         }
     }
@@ -134,6 +147,7 @@ impl Dimension {
             Self::Impulse => IMPULSES,
             Self::Density => DENSITIES,
             Self::MassFlow => MASS_FLOWS,
+            Self::Pressure => PRESSURES,
             Self::Fraction => FRACTIONS,
         }
     }
@@ -162,6 +176,7 @@ impl Dimension {
             Self::Impulse => "uN.s",
             Self::Density => "kg/m3",
             Self::MassFlow => "kg/min",
+            Self::Pressure => "bar",
             Self::Fraction => "%",
         };
         match number.parse::<f64>() {

@@ -226,8 +226,22 @@ fn the_sheet_goes_to_stdout() {
     assert!(serde_json::from_str::<Value>(&run.out).is_err());
 }
 
+/// What `--out` writes, by name.
+const RESULTS: [&str; 10] = [
+    "choices.csv",
+    "hits.csv",
+    "places.csv",
+    "pose.csv",
+    "rebounds.csv",
+    "result.json",
+    "sheet.txt",
+    "surfaces.csv",
+    "verdicts.csv",
+    "windows.csv",
+];
+
 #[test]
-fn a_folder_gets_both_results_and_nothing_else() {
+fn a_folder_gets_all_results_and_nothing_else() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().join("new/folder");
     let arguments = ["solve", PLATE, "--json", "--out", out.to_str().unwrap()];
@@ -241,7 +255,7 @@ fn a_folder_gets_both_results_and_nothing_else() {
         names.sort();
         names
     };
-    assert_eq!(names(), ["result.json", "sheet.txt"]);
+    assert_eq!(names(), RESULTS);
     let written = std::fs::read_to_string(out.join("result.json")).unwrap();
     assert_eq!(written, run.out);
     let sheet = std::fs::read_to_string(out.join("sheet.txt")).unwrap();
@@ -249,11 +263,195 @@ fn a_folder_gets_both_results_and_nothing_else() {
     // Again, over the old files.
     std::fs::write(out.join("result.json"), "old").unwrap();
     assert_eq!(peenpose(&arguments).status, 0);
-    assert_eq!(names(), ["result.json", "sheet.txt"]);
+    assert_eq!(names(), RESULTS);
     assert_ne!(
         std::fs::read_to_string(out.join("result.json")).unwrap(),
         "old"
     );
+}
+
+#[test]
+fn reports_are_made_again_from_the_result_alone() {
+    let folder = TempDir::new().unwrap();
+    let (first, second) = (folder.path().join("first"), folder.path().join("second"));
+    peenpose(&["solve", PLATE, "--out", first.to_str().unwrap()]);
+    std::fs::create_dir(&second).unwrap();
+    std::fs::copy(first.join("result.json"), second.join("result.json")).unwrap();
+    let run = peenpose(&["report", second.to_str().unwrap()]);
+    assert_eq!((run.status, run.messages.as_str()), (0, ""));
+    for name in RESULTS {
+        let [made, again] =
+            [&first, &second].map(|folder| std::fs::read(folder.join(name)).unwrap());
+        assert!(made == again, "{name} differs");
+        let path = second.join(name).display().to_string();
+        assert_eq!(
+            run.out.lines().any(|line| line == path),
+            name != "result.json"
+        );
+    }
+}
+
+#[test]
+fn reports_of_older_results_are_fewer() {
+    let folder = TempDir::new().unwrap();
+    let old = root().join("tests/data/sheets/keyway.json");
+    std::fs::copy(old, folder.path().join("result.json")).unwrap();
+    let run = peenpose(&["report", folder.path().to_str().unwrap()]);
+    assert_eq!(run.status, 0);
+    assert!(
+        run.messages.contains("holds no hits, rebounds and places"),
+        "{}",
+        run.messages
+    );
+    assert!(folder.path().join("surfaces.csv").exists());
+    for name in ["hits.csv", "rebounds.csv", "places.csv"] {
+        assert!(!folder.path().join(name).exists());
+    }
+    let kept = std::fs::read_to_string(root().join("tests/data/sheets/keyway.txt")).unwrap();
+    let sheet = std::fs::read_to_string(folder.path().join("sheet.txt")).unwrap();
+    assert_eq!(sheet, kept);
+    let export = folder.path().join("scene.glb");
+    refused(
+        &[
+            "export",
+            folder.path().to_str().unwrap(),
+            "--out",
+            export.to_str().unwrap(),
+        ],
+        &["holds no surfaces, paths and hits"],
+    );
+    assert!(!export.exists());
+}
+
+#[test]
+fn reports_need_a_result() {
+    let folder = TempDir::new().unwrap();
+    let missing = folder.path().join("nowhere");
+    refused(
+        &["report", missing.to_str().unwrap()],
+        &["cannot read", "nowhere"],
+    );
+    let path = folder.path().to_str().unwrap();
+    refused(&["report", path], &["cannot read", "result.json"]);
+    std::fs::write(folder.path().join("result.json"), "{}").unwrap();
+    refused(
+        &["report", path],
+        &["result.json is not a result", "missing field"],
+    );
+}
+
+#[test]
+fn results_are_exported_for_other_programs() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().to_str().unwrap();
+    peenpose(&["solve", PLATE, "--out", path]);
+    for (name, start) in [("a.glb", "glTF"), ("b.vtk", "# vtk"), ("c.PLY", "ply")] {
+        let file = folder.path().join("new").join(name);
+        let run = peenpose(&["export", path, "--out", file.to_str().unwrap()]);
+        assert_eq!((run.status, run.messages.as_str()), (0, ""));
+        assert!(std::fs::read(&file).unwrap().starts_with(start.as_bytes()));
+    }
+    let result = folder.path().join("result.json");
+    for name in ["scene.stl", "scene", ".glb"] {
+        refused(
+            &["export", result.to_str().unwrap(), "--out", name],
+            &[name, "ends with one of .glb, .vtk, .ply"],
+        );
+    }
+}
+
+/// The rows of a table by the names of its columns.
+fn table(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    reader.deserialize().map(|row| row.unwrap()).collect()
+}
+
+#[test]
+fn tables_say_what_the_result_says() {
+    let (folder, _, record) = solved();
+    let table = |name: &str| table(&folder.path().join(name).with_extension("csv"));
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    for (row, verdict) in table("verdicts")
+        .iter()
+        .zip(record["best"]["verdicts"].as_array().unwrap())
+    {
+        assert_eq!(verdict["subject"], row["subject"].as_str());
+        assert_eq!(verdict["share"].as_f64(), Some(number(&row["share"])));
+    }
+    let choices = table("choices");
+    assert_eq!(choices.len(), 3);
+    assert_eq!(record["best"]["contact"], choices[0]["contact"].as_str());
+    assert_eq!(
+        record["best"]["settings"]["speed_m_s"].as_f64(),
+        Some(number(&choices[0]["speed_m_s"]))
+    );
+    // The matrix takes the origin to the exit and z to the axis, and is a rotation.
+    let pose = &table("pose")[0];
+    let cell = |name: &str| number(&pose[name]);
+    for (row, axis) in (1..).zip(["x", "y", "z"]) {
+        assert_eq!(cell(&format!("m{row}4_m")), cell(&format!("exit_{axis}_m")));
+        assert_eq!(cell(&format!("m{row}3")), cell(&format!("axis_{axis}")));
+    }
+    let matrix = nalgebra::Matrix3::from_fn(|i, j| cell(&format!("m{}{}", i + 1, j + 1)));
+    assert!((matrix.determinant() - 1.0).abs() < 1e-9);
+    let [x, y, z, w] = ["x", "y", "z", "w"].map(|axis| cell(&format!("quaternion_{axis}")));
+    let turned = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+    assert!((turned.to_rotation_matrix().matrix() - matrix).norm() < 1e-9);
+    assert_eq!(
+        [cell("m41"), cell("m42"), cell("m43"), cell("m44")],
+        [0.0, 0.0, 0.0, 1.0]
+    );
+    let hits = &record["evidence"]["hits"];
+    let rows = table("hits");
+    assert_eq!(rows.len(), hits["points_m"].as_array().unwrap().len());
+    assert_eq!(
+        hits["points_m"][7][2].as_f64(),
+        Some(number(&rows[7]["z_m"]))
+    );
+    let surfaces = table("surfaces");
+    assert_eq!(
+        (
+            surfaces[0]["surface"].as_str(),
+            surfaces[0]["role"].as_str()
+        ),
+        ("hub.floor", "target")
+    );
+    assert_eq!(surfaces.len(), 5);
+    assert_eq!(
+        table("windows").len(),
+        record["windows"].as_array().unwrap().len()
+    );
+    let places = table("places");
+    assert!(
+        places
+            .iter()
+            .any(|place| place["place"] == "lowest_normal_impulse" && place["unit"] == "N s")
+    );
+}
+
+#[test]
+fn results_have_lists_of_numbers_on_one_line() {
+    let (_folder, path, record) = solved();
+    let text = std::fs::read_to_string(path).unwrap();
+    assert!(text.len() < 2_500_000, "{} bytes", text.len());
+    assert!(text.contains("\n    \"pose\": {\n      \"exit_m\": ["));
+    assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), record);
+    // Neither is a line broken inside a list of numbers, nor are two keys on one line.
+    for line in text.lines() {
+        assert!(
+            !line
+                .trim_start()
+                .starts_with(|c: char| c.is_ascii_digit() || c == '-')
+        );
+        assert!(
+            line.matches("\": ").count() <= 1,
+            "{}",
+            &line[..80.min(line.len())]
+        );
+    }
+    // Without a folder to write into there are no pictures to draw, and none of it.
+    let plain = peenpose(&["solve", PLATE, "--json"]).json();
+    assert!(plain.get("evidence").is_none());
 }
 
 #[cfg(unix)]

@@ -210,7 +210,9 @@ scene:
   cover: { mesh: ./cover.stl, place: { on: nozzle, at: [0, 0, 4] } }
 target: { surface: mask.rim, facing: [0, 0, -2] }
 shot: { radius: 250 um, density: 7.8 g/cm3, size_spread: 4 % }
-jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min }
+jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min,
+  pressure: [ { pressure: 2 bar, speed: 22 m/s }, { pressure: 0.4 MPa, speed: 36 m/s } ] }
+coverage: { dent_diameter: 0.2 mm }
 nozzle:
   body:
     - { capsule: { length: 60 mm, radius: 2 mm } }
@@ -327,6 +329,16 @@ fn every_other_key_is_read() {
     );
     assert_eq!(problem.jet.spread, Spread::Gaussian);
     assert_eq!(problem.jet.mass_flow, Some(0.1));
+    let calibration = problem.calibration.unwrap();
+    assert_eq!(calibration.rows, [(2e5, 22.0), (4e5, 36.0)]);
+    // Linear between the rows, and nothing beyond them.
+    assert_eq!(calibration.pressure_at(29.0), Some(3e5));
+    assert_eq!(calibration.pressure_at(22.0), Some(2e5));
+    assert_eq!(calibration.pressure_at(36.0), Some(4e5));
+    assert_eq!(calibration.pressure_at(21.999), None);
+    assert_eq!(calibration.pressure_at(36.001), None);
+    let coverage = problem.coverage.unwrap();
+    assert_eq!((coverage.dent_diameter, coverage.wanted), (0.2e-3, 0.98));
     assert_eq!(
         (problem.jet.exit_diameter, problem.jet.divergence),
         (0.0, 0.0)

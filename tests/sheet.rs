@@ -3,7 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use peenpose::record::{AnswerRecord, Record, StatusRecord};
+use peenpose::record::{
+    AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, Record, StatusRecord,
+};
 use peenpose::report::sheet;
 
 const NAMES: [&str; 7] = [
@@ -238,4 +240,96 @@ fn windows_are_rounded_inwards_and_keep_their_setting_inside() {
     record.windows[0].up.to = 75.987;
     let text = sheet(&record);
     assert!(text.contains("67.92 to 75.98 deg"), "{text}");
+}
+
+#[test]
+fn pressure_stands_beside_the_speed_where_it_is_known() {
+    let mut record = record("keyway");
+    record.problem.calibration = [(1e5, 8.0), (1.5e5, 14.0), (3e5, 20.0)]
+        .map(|(pressure, speed_m_s)| CalibrationRecord {
+            pressure,
+            speed_m_s,
+        })
+        .to_vec();
+    record.best.pressure = Some(1.12e5);
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    let line =
+        "  pressure   1.12 bar for that speed: linear from 8 m/s at 1 bar to 14 m/s at 1.5 bar\n";
+    assert!(text.contains(line), "{text}");
+    record.best.settings.speed_m_s = 21.0;
+    record.best.pressure = None;
+    let text = sheet(&record);
+    let line =
+        "  pressure   not known: the calibration goes from 8 m/s at 1 bar to 20 m/s at 3 bar\n";
+    assert!(text.contains(line), "{text}");
+}
+
+#[test]
+fn coverage_has_a_block_of_its_own() {
+    let mut record = record("keyway");
+    let density = |hits: f64, mass_kg: Option<f64>| DensityRecord {
+        hits_per_shot_m2: hits,
+        standard_error_m2: hits / 100.0,
+        mass_kg,
+        time_s: mass_kg.map(|mass| mass / 0.01),
+    };
+    let coverage = CoverageRecord {
+        dent_diameter_m: 0.2e-3,
+        wanted: 0.98,
+        shots: 1 << 18,
+        area_m2: 60e-6,
+        cells: 64,
+        cell_side_m: 0.97e-3,
+        mean: density(1e5, Some(0.0456)),
+        lowest_5: density(0.0, None),
+        variation: 0.8,
+        share_not_hit: 0.4,
+        shots_per_kg: 272_837.0,
+        mass_flow_kg_s: Some(0.01),
+    };
+    record.coverage = Some(coverage);
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    let block = text.split("COVERAGE, nozzle at rest").nth(1).unwrap();
+    let row = |index: usize| -> Vec<&str> {
+        block
+            .lines()
+            .nth(index)
+            .unwrap()
+            .split_whitespace()
+            .collect()
+    };
+    assert_eq!(
+        row(0),
+        "hits/mm2 per s std. error 98 % after 98 % takes"
+            .split(' ')
+            .collect::<Vec<_>>()
+    );
+    assert_eq!(row(1)[4..], ["273", "2.73", "4.56", "s", "45.6", "g"]);
+    assert_eq!(row(2)[7..], ["0", "0", "never", "no", "end"]);
+    assert!(
+        block.contains("40.0 % of the target's area is not hit"),
+        "{block}"
+    );
+    // Without a mass flow there is no time, and shares that are hit are no news.
+    let unknown = |density: DensityRecord| DensityRecord {
+        time_s: None,
+        ..density
+    };
+    record.coverage = Some(CoverageRecord {
+        mean: unknown(coverage.mean),
+        lowest_5: unknown(density(0.9e5, Some(2.5))),
+        share_not_hit: 0.0,
+        mass_flow_kg_s: None,
+        ..coverage
+    });
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    assert!(text.contains("hits/mm2 per kg"), "{text}");
+    assert!(
+        !text.contains("98 % after") && text.contains("2.50 kg"),
+        "{text}"
+    );
+    assert!(!text.contains("is not hit"), "{text}");
 }

@@ -43,6 +43,33 @@ pub struct Jet {
     pub mass_flow: Option<f64>,
 }
 
+/// Which pressure gives which speed, as measured on the machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    /// Pressure, Pa, and mean speed at the exit, m/s: at least two rows, both strictly rising.
+    pub rows: Vec<(f64, f64)>,
+}
+
+impl Calibration {
+    /// The pressure that gives a speed, Pa: linear between two rows; `None` outside all of them.
+    pub fn pressure_at(&self, speed: f64) -> Option<f64> {
+        self.rows.windows(2).find_map(|pair| {
+            let [(low, slow), (high, fast)] = [pair[0], pair[1]];
+            let is_between = slow <= speed && speed <= fast;
+            is_between.then(|| low + (high - low) * (speed - slow) / (fast - slow))
+        })
+    }
+}
+
+/// What is to be said about coverage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoverageWish {
+    /// Diameter of the dent that one hit leaves, m.
+    pub dent_diameter: f64,
+    /// Share of the target's area that is to be dented; below 1.
+    pub wanted: f64,
+}
+
 /// How directions fill the cone of the jet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spread {

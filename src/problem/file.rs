@@ -12,7 +12,9 @@ use std::marker::PhantomData;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 
-use equipment::{ContactEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
+use equipment::{
+    ContactEntry, CoverageEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry,
+};
 use scene::{PartEntry, TargetEntry};
 use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 
@@ -48,6 +50,8 @@ pub(super) struct ProblemFile {
     pub surfaces: Field<Named<SurfaceEntry>>,
     /// When a path ends.
     pub paths: Field<PathsEntry>,
+    /// What is to be said about coverage; nothing where absent.
+    pub coverage: Field<CoverageEntry>,
     /// How exactly a shop sets the settings: half-widths.
     pub tolerance: Field<ToleranceEntry>,
     /// Which effects are modelled: `auto`, `full` or a list; `auto` where absent.
@@ -92,6 +96,11 @@ pub(super) struct Density(pub f64);
 #[serde(rename = "mass flow")]
 pub(super) struct MassFlow(pub f64);
 
+/// A pressure with its unit, such as `3 bar`; here in Pa.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename = "pressure")]
+pub(super) struct Pressure(pub f64);
+
 /// A percentage, such as `5 %`; here as a fraction of 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename = "percentage")]
@@ -113,7 +122,7 @@ macro_rules! quantities {
     )*};
 }
 
-quantities! { Length Angle Speed Impulse Density MassFlow Percentage }
+quantities! { Length Angle Speed Impulse Density MassFlow Pressure Percentage }
 
 impl Quantity for f64 {
     fn si(self) -> f64 {

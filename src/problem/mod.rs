@@ -41,7 +41,9 @@ pub use reading::{Reading, read, read_text};
 pub use render::{one_line, render, render_warnings};
 pub use source::Source;
 
-use equipment::{ContactChoice, Jet, Nozzle, PathLimits, Shot, SurfaceRule};
+use equipment::{
+    Calibration, ContactChoice, CoverageWish, Jet, Nozzle, PathLimits, Shot, SurfaceRule,
+};
 use goal::Goals;
 use model::Model;
 use part::{Part, Target};
@@ -60,6 +62,8 @@ pub struct Problem {
     pub shot: Shot,
     /// The jet.
     pub jet: Jet,
+    /// Which pressure gives which speed, where that is known.
+    pub calibration: Option<Calibration>,
     /// The body that carries the jet.
     pub nozzle: Nozzle,
     /// Every contact of the file, in its order.
@@ -72,6 +76,8 @@ pub struct Problem {
     pub surfaces: Vec<SurfaceRule>,
     /// When a path ends.
     pub paths: PathLimits,
+    /// What is to be said about coverage, if anything.
+    pub coverage: Option<CoverageWish>,
     /// How exactly a shop can set it.
     pub tolerance: Tolerance,
     /// Which effects are modelled.

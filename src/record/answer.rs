@@ -22,6 +22,14 @@ pub struct AnswerRecord {
     pub contact_values: ContactRecord,
     /// The settings.
     pub settings: SettingsRecord,
+    /// The pressure that gives this speed, Pa; absent where the problem has no calibration, or one
+    /// that does not reach so far.
+    #[serde(
+        rename = "pressure_Pa",
+        default,
+        skip_serializing_if = "Option::is_none"
+    )]
+    pub pressure: Option<f64>,
     /// The pose that they mean.
     pub pose: PoseRecord,
     /// Whether the nozzle fits.
@@ -97,6 +105,10 @@ pub struct PoseRecord {
     pub direction: [f64; 3],
     /// Rotation that takes the z axis to the jet's direction.
     pub quaternion_xyzw: [f64; 4],
+    /// The same with the exit as the origin, row by row: takes points of the nozzle's frame, m, to
+    /// the scene's; absent in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub matrix_4x4: Option<[[f64; 4]; 4]>,
 }
 
 /// The terms of the objective with their weights.
@@ -193,6 +205,7 @@ impl AnswerRecord {
         let contact = &setup.problem.contacts[choice.contact];
         let pose = Pose::new(&setup.target.frame, choice);
         let nozzle = &setup.problem.nozzle;
+        let calibration = setup.problem.calibration.as_ref();
         let clearance = setup
             .scene
             .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY);
@@ -202,6 +215,7 @@ impl AnswerRecord {
             contact: contact.name.clone(),
             contact_values: ContactRecord::new(&contact.at(choice.static_friction)),
             settings: SettingsRecord::new(choice),
+            pressure: calibration.and_then(|known| known.pressure_at(choice.speed)),
             pose: PoseRecord::new(&pose),
             feasible: answer.violation <= 0.0,
             passes: answer.passes(),
@@ -278,8 +292,16 @@ impl PoseRecord {
             exit_m: pose.exit.coords.into(),
             direction: pose.direction.into(),
             quaternion_xyzw: pose.rotation().coords.into(),
+            matrix_4x4: Some(matrix(pose)),
         }
     }
+}
+
+/// The frame of the nozzle in the scene, row by row.
+fn matrix(pose: &Pose) -> [[f64; 4]; 4] {
+    let columns = [pose.up, pose.side, pose.direction, pose.exit.coords];
+    let row = |axis: usize| columns.map(|column| column[axis]);
+    [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]
 }
 
 impl ObjectiveRecord {

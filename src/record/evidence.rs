@@ -1,7 +1,9 @@
 //! What the pictures of a report are drawn from: scene, paths, hits, maps and places to look at.
 //!
-//! Coordinates are the scene's, m. They are kept to seven digits: enough for a picture, and half
-//! the size.
+//! Coordinates are the scene's, m. They and impulses are kept to five or six digits: enough for a
+//! picture, and half the size.
+
+mod drawn;
 
 use serde::{Deserialize, Serialize};
 
@@ -89,7 +91,8 @@ pub enum BodyRecord {
 /// One shot on its way.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathRecord {
-    /// Where its centre is: at the exit, at every impact, and where it is last seen, m.
+    /// Where its centre is: at the exit, at every impact, and if it leaves where it is last seen,
+    /// a little outside the scene, m.
     pub points_m: Vec<[f32; 3]>,
     /// Its impacts, deflectors included.
     pub impacts: Vec<PathImpactRecord>,
@@ -97,6 +100,9 @@ pub struct PathRecord {
     pub end: String,
     /// Whether one of its impacts breaks a limit or it misses the target.
     pub breaks: bool,
+    /// Whether it was picked among all shots because of that; the others are shown as they come.
+    #[serde(default)]
+    pub picked: bool,
 }
 
 /// One impact of a path.
@@ -140,7 +146,7 @@ pub struct HitsRecord {
 pub struct ReboundsRecord {
     /// The place of contact, m.
     pub points_m: Vec<[f32; 3]>,
-    /// Index into the list of surfaces.
+    /// Index into the list of surfaces; the target's own one is its part beside the patch.
     pub surface: Vec<u32>,
     /// 1 for a direct hit, 2 after the first bounce.
     pub number: Vec<u32>,

@@ -3,8 +3,10 @@
 //! Angles are in degrees, everything else is SI, and every key ends with its unit.
 
 mod answer;
+mod coverage;
 mod evidence;
 mod front;
+mod json;
 mod map;
 mod model;
 mod question;
@@ -15,6 +17,7 @@ pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
     SpreadRecord, TargetRecord, VerdictRecord,
 };
+pub use coverage::{CoverageRecord, DensityRecord};
 pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
@@ -22,7 +25,7 @@ pub use evidence::{
 pub use front::FrontRecord;
 pub use map::MapTerm;
 pub use model::{ModelRecord, RungRecord};
-pub use question::{GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,
 };
@@ -30,6 +33,9 @@ pub use window::{DriftRecord, WindowRecord};
 
 use serde::{Deserialize, Serialize};
 
+use crate::coverage::Coverage;
+use crate::evidence::{Evidence, SHOTS};
+use crate::map::standard_maps;
 use crate::problem::Source;
 use crate::setup::Setup;
 use crate::solve::{Answer, Ladder, Status, Window};
@@ -61,6 +67,10 @@ pub struct Record {
     /// What restitution and friction do at the ends of their ranges; absent where they are known.
     #[serde(default)]
     pub unknowns: Option<UnknownsRecord>,
+    /// How densely hits fall on the target; absent where the problem does not ask for it, or the
+    /// nozzle does not fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<CoverageRecord>,
     /// What pictures are drawn from; absent where none were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<EvidenceRecord>,
@@ -163,6 +173,9 @@ impl Record {
             .iter()
             .map(|answer| AnswerRecord::new(setup, answer))
             .collect();
+        let best = answers.first()?;
+        let fits = best.evaluation.is_some();
+        let coverage = fits.then(|| Coverage::of(setup, &best.choice)).flatten();
         Some(Self {
             status: circumstances.status,
             problem: QuestionRecord::new(&setup.problem, circumstances.source),
@@ -176,6 +189,7 @@ impl Record {
             model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
+            coverage: coverage.as_ref().map(CoverageRecord::new),
             evidence: None,
             work: circumstances.work,
             problem_sha256: circumstances.source.sha256.clone(),
@@ -184,12 +198,12 @@ impl Record {
         })
     }
 
-    /// The record as JSON text.
+    /// The record as JSON text: a line for each key, lists of numbers on one line.
     ///
     /// # Errors
     /// None is expected: every number in a record is finite.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string_pretty(self).map(|text| text + "\n")
+        json::text(self)
     }
 
     /// Reads a record back.
@@ -198,6 +212,22 @@ impl Record {
     /// When the text is not a record.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(text)
+    }
+
+    /// The same with what the pictures of the best settings are drawn from; `best` is the first
+    /// of the answers behind it.
+    #[must_use]
+    pub fn with_evidence(self, setup: &Setup, best: &Answer) -> Self {
+        let fits = best.evaluation.is_some();
+        let shots = if fits { SHOTS } else { 0 };
+        let shown = Evidence::of(setup, &best.choice, shots);
+        let mut evidence = EvidenceRecord::new(setup, &best.choice, &shown);
+        let maps = standard_maps(setup, &best.choice);
+        evidence.maps = maps.iter().map(|map| MapRecord::new(setup, map)).collect();
+        Self {
+            evidence: Some(evidence),
+            ..self
+        }
     }
 
     /// Whether every verdict on the best settings passes.

@@ -31,6 +31,9 @@ pub struct QuestionRecord {
     pub spread: String,
     /// Standard deviation of the speed relative to it.
     pub speed_spread: f64,
+    /// The rows of the calibration, rising; none where the problem has no calibration.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub calibration: Vec<CalibrationRecord>,
     /// The ranges of the settings.
     pub ranges: Vec<RangeRecord>,
     /// The goals.
@@ -45,6 +48,16 @@ pub struct QuestionRecord {
     pub accuracy: f64,
     /// Seed of all samples.
     pub seed: u64,
+}
+
+/// A row of the calibration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CalibrationRecord {
+    /// Pressure, Pa.
+    #[serde(rename = "pressure_Pa")]
+    pub pressure: f64,
+    /// Mean speed at the exit, m/s.
+    pub speed_m_s: f64,
 }
 
 /// The range of a setting; deg for angles, else SI.
@@ -116,6 +129,7 @@ impl QuestionRecord {
                 Spread::Gaussian => "gaussian".into(),
             },
             speed_spread: problem.jet.speed_spread,
+            calibration: calibration(problem),
             ranges: ranges(problem),
             goals: GoalsRecord {
                 normal_impulse: goals.normal_impulse.target,
@@ -140,6 +154,16 @@ impl QuestionRecord {
             seed: problem.seed,
         }
     }
+}
+
+fn calibration(problem: &Problem) -> Vec<CalibrationRecord> {
+    let known = problem.calibration.iter();
+    let rows = known.flat_map(|calibration| &calibration.rows);
+    rows.map(|&(pressure, speed_m_s)| CalibrationRecord {
+        pressure,
+        speed_m_s,
+    })
+    .collect()
 }
 
 fn ranges(problem: &Problem) -> Vec<RangeRecord> {

@@ -36,7 +36,7 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 
 /// What must not be parted: words, and numbers with their units.
 fn words(text: &str) -> Vec<String> {
-    const UNITS: [&str; 8] = ["%", "deg", "mm", "um", "m/s", "uN.s", "s", "kg/m3"];
+    const UNITS: [&str; 9] = ["%", "deg", "mm", "um", "m/s", "uN.s", "s", "kg/m3", "bar"];
     let mut words: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         let unit = word.trim_end_matches(['.', ',', ';', ':', ')']);

@@ -5,6 +5,9 @@ use super::number::{count, fixed, plain, significant};
 use super::sheet::setting::SETTINGS;
 use crate::record::{AnswerRecord, AxisRecord, MapRecord, MapTerm, QuestionRecord};
 
+/// Names of the files of a record's maps, without ending.
+pub(super) const MAPS: [&str; 2] = ["map_1", "map_2"];
+
 /// A map, the problem that it belongs to, and the settings round which it was made.
 #[derive(Clone, Copy, Debug)]
 pub struct MapView<'a> {

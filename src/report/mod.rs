@@ -1,7 +1,9 @@
 //! Reports, made from a record or a chart alone.
 
 mod chart;
+pub mod export;
 pub mod figure;
+mod files;
 mod finding;
 mod layout;
 mod map;
@@ -11,5 +13,6 @@ mod sheet;
 pub mod table;
 
 pub use chart::chart;
+pub use files::files;
 pub use map::{MapView, map};
 pub use sheet::sheet;

@@ -37,19 +37,33 @@ impl Patch {
     /// Whether a hit is on the target.
     #[inline]
     pub fn holds(&self, hit: &Hit) -> bool {
-        hit.surface == self.surface && self.within.is_none_or(|limits| inside(&hit.point, &limits))
+        hit.surface == self.surface && self.covers(&hit.point)
     }
 
-    /// The corners of its pieces, cut to its box.
-    pub fn outline_points<'a>(
-        &'a self,
-        scene: &'a Scene,
-    ) -> impl Iterator<Item = Point3<f64>> + 'a {
-        let pieces = scene.surface_triangles(self.surface);
-        pieces.flat_map(|corners| match self.within {
-            Some(limits) => clip(&corners, &limits),
-            None => corners.to_vec(),
-        })
+    /// Whether a place on its surface belongs to it.
+    #[inline]
+    pub fn covers(&self, point: &Point3<f64>) -> bool {
+        self.within.is_none_or(|limits| inside(point, &limits))
+    }
+
+    /// The triangles of its surface, cut along the faces of its box: those that belong to it, and
+    /// the others.
+    pub fn cut_out(&self, scene: &Scene) -> (Vec<Triangle>, Vec<Triangle>) {
+        let triangles = scene.surface_triangles(self.surface);
+        let Some(limits) = &self.within else {
+            return (triangles.collect(), Vec::new());
+        };
+        let (mut inside, mut outside) = (Vec::new(), Vec::new());
+        for triangle in triangles {
+            let (within, beyond) = split(&triangle, limits);
+            if within.len() < 3 {
+                outside.push(triangle);
+            } else {
+                inside.extend(fan(&within));
+                outside.extend(beyond.iter().flat_map(fan));
+            }
+        }
+        (inside, outside)
     }
 
     /// Finds the patch in a scene.
@@ -72,7 +86,7 @@ impl Patch {
         }
         let pieces = scene.surface_triangles(surface);
         let clipped = pieces.map(|corners| match target.within {
-            Some(limits) => clip(&corners, &limits),
+            Some(limits) => split(&corners, &limits).0,
             None => corners.to_vec(),
         });
         let (area, centre) = area_and_centre(clipped);
@@ -190,30 +204,55 @@ fn inside(p: &Point3<f64>, (low, high): &(Point3<f64>, Point3<f64>)) -> bool {
     (0..3).all(|i| low[i] <= p[i] && p[i] <= high[i])
 }
 
-/// A triangle cut to a box, as a convex polygon.
-fn clip(corners: &[Point3<f64>; 3], (low, high): &(Point3<f64>, Point3<f64>)) -> Vec<Point3<f64>> {
-    let mut polygon = corners.to_vec();
+/// A triangle cut along the faces of a box: the convex polygon inside, which may be empty, and
+/// those outside.
+fn split(
+    corners: &[Point3<f64>; 3],
+    (low, high): &(Point3<f64>, Point3<f64>),
+) -> (Polygon, Vec<Polygon>) {
+    let mut inside = corners.to_vec();
+    let mut outside = Vec::new();
     for axis in 0..3 {
         for (limit, sign) in [(low[axis], 1.0), (high[axis], -1.0)] {
             let depth = |p: &Point3<f64>| (p[axis] - limit) * sign;
-            let mut kept = Vec::with_capacity(polygon.len() + 1);
-            for (i, p) in polygon.iter().enumerate() {
-                let q = &polygon[(i + 1) % polygon.len()];
-                let (here, there) = (depth(p), depth(q));
-                if here >= 0.0 {
-                    kept.push(*p);
-                }
-                if (here < 0.0) != (there < 0.0) {
-                    kept.push(p + (q - p) * (here / (here - there)));
-                }
+            if inside.iter().any(|p| depth(p) < 0.0) {
+                outside.push(half(&inside, |p| -depth(p)));
             }
-            polygon = kept;
+            inside = half(&inside, depth);
         }
     }
-    polygon
+    (inside, outside)
 }
 
-fn area_and_centre(polygons: impl Iterator<Item = Vec<Point3<f64>>>) -> (f64, Point3<f64>) {
+/// Three corners, m.
+pub type Triangle = [Point3<f64>; 3];
+
+/// A convex polygon.
+type Polygon = Vec<Point3<f64>>;
+
+/// The part of a convex polygon where the depth is not negative.
+fn half(polygon: &Polygon, depth: impl Fn(&Point3<f64>) -> f64) -> Polygon {
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (i, p) in polygon.iter().enumerate() {
+        let q = &polygon[(i + 1) % polygon.len()];
+        let (here, there) = (depth(p), depth(q));
+        if here >= 0.0 {
+            kept.push(*p);
+        }
+        if (here < 0.0) != (there < 0.0) {
+            kept.push(p + (q - p) * (here / (here - there)));
+        }
+    }
+    kept
+}
+
+/// A convex polygon as triangles.
+fn fan(polygon: &Polygon) -> impl Iterator<Item = Triangle> + '_ {
+    let sides = polygon.windows(2).skip(1);
+    sides.map(|side| [polygon[0], side[0], side[1]])
+}
+
+fn area_and_centre(polygons: impl Iterator<Item = Polygon>) -> (f64, Point3<f64>) {
     let (mut area, mut moment) = (0.0, Vector3::zeros());
     for polygon in polygons {
         for pair in polygon.windows(2).skip(1) {

@@ -44,6 +44,7 @@ fn impact_of(volley: &Volley<f64>, i: usize) -> PathImpact {
             Regime::Slip
         },
         point: vector(&volley.hits.point).into(),
+        normal: vector(&volley.hits.normal),
         centre: vector(&volley.hits.point).into(),
         velocity: vector(&volley.velocity),
         rolling: vector(&volley.rolling),

@@ -39,6 +39,10 @@ fn every_unit_leads_to_si() {
         (Dimension::MassFlow, "100 g/s", 0.1),
         (Dimension::MassFlow, "6000 g/min", 0.1),
         (Dimension::MassFlow, "60 lb/min", 0.453_592_37),
+        (Dimension::Pressure, "2.5 bar", 250e3),
+        (Dimension::Pressure, "250 kPa", 250e3),
+        (Dimension::Pressure, "0.25 MPa", 250e3),
+        (Dimension::Pressure, "3 Pa", 3.0),
         (Dimension::Fraction, "5 %", 0.05),
         (Dimension::Fraction, "0.1%", 0.001),
     ];

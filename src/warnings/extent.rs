@@ -183,7 +183,8 @@ fn aims(setup: &Setup) -> Vec<Warning> {
     axes.into_iter()
         .filter_map(|(setting, axis)| {
             let Range { min, max } = setup.problem.settings.range(setting)?;
-            let points = setup.target.outline_points(&setup.scene);
+            let (pieces, _) = setup.target.cut_out(&setup.scene);
+            let points = pieces.into_iter().flatten();
             let places = points.map(|point| axis.dot(&(point - frame.aim)));
             let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| {
                 (ends.0.min(place), ends.1.max(place))

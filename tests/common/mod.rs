@@ -55,6 +55,7 @@ pub fn keyway(length: f64) -> Problem {
             speed_spread: 0.05,
             mass_flow: None,
         },
+        calibration: None,
         nozzle: Nozzle {
             body: vec![Body::Ball { radius: 3e-3 }],
             clearance: 0.0,
@@ -115,6 +116,7 @@ pub fn keyway(length: f64) -> Problem {
             shot_size: false,
             spin: true,
         },
+        coverage: None,
         tolerance: Tolerance::default(),
         model: Model::Full,
         accuracy: 0.01,

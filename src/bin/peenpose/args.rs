@@ -38,6 +38,12 @@ pub enum Command {
     /// Draw the objective, or a term of it, over two settings
     #[command(after_help = MAP_EXAMPLES)]
     Map(MapArgs),
+    /// Make all reports again from the result in a folder
+    #[command(after_help = REPORT_EXAMPLES)]
+    Report(ReportArgs),
+    /// Write scene, nozzle, paths and hits of a result for other programs
+    #[command(after_help = EXPORT_EXAMPLES)]
+    Export(ExportArgs),
     /// Measure speed against accuracy on a problem file, as figures and tables
     #[command(after_help = CHART_EXAMPLES)]
     Chart(ChartArgs),
@@ -75,6 +81,15 @@ Examples:
   peenpose map keyway.yaml --x incidence=55deg:75deg --y standoff --term rebound \\
       --from result/result.json --out maps
 Without --from and --set the best settings are searched first.";
+
+const REPORT_EXAMPLES: &str = "\
+Examples:
+  peenpose report result";
+
+const EXPORT_EXAMPLES: &str = "\
+Examples:
+  peenpose export result --out scene.glb
+  peenpose export result --out paths.vtk";
 
 const CHART_EXAMPLES: &str = "\
 Examples:
@@ -125,7 +140,7 @@ pub struct ManArgs {
 pub struct SolveArgs {
     /// The problem file
     pub file: PathBuf,
-    /// Write result.json and sheet.txt into this folder
+    /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print result.json instead of the technique sheet
@@ -174,7 +189,7 @@ pub struct EvaluateArgs {
     /// No warnings
     #[arg(long)]
     pub quiet: bool,
-    /// Write result.json and sheet.txt into this folder
+    /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -224,6 +239,25 @@ pub struct MapArgs {
 
 fn terms() -> PossibleValuesParser {
     MapTerm::ALL.map(MapTerm::name).into()
+}
+
+/// Arguments of `report`.
+#[derive(clap::Args)]
+pub struct ReportArgs {
+    /// The folder that `--out` has written into
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
+/// Arguments of `export`.
+#[derive(clap::Args)]
+pub struct ExportArgs {
+    /// The folder that `--out` has written into, or its result.json
+    #[arg(value_name = "DIR|result.json")]
+    pub result: PathBuf,
+    /// The file; its ending says the format: .glb (glTF), .vtk (ParaView) or .ply (MeshLab)
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
 }
 
 /// Arguments of `chart`.

@@ -45,7 +45,9 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
     let sheet = report::chart(&chart);
     output::write(&args.out, "chart.json", json.as_bytes())?;
     output::write(&args.out, "chart.txt", sheet.as_bytes())?;
-    for Table { name, csv } in Table::of_chart(&chart) {
+    let tables =
+        Table::of_chart(&chart).map_err(|error| format!("cannot write tables: {error}"))?;
+    for Table { name, csv } in tables {
         output::write(&args.out, &format!("{name}.csv"), csv.as_bytes())?;
     }
     for figure in Figure::of_chart(&chart).map_err(|fault| fault.to_string())? {

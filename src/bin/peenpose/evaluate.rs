@@ -55,8 +55,12 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     };
     let notes = validity::notes(&setup, &choice, answer.evaluation.as_ref());
     let unknowns = Unknowns::of(&setup, &choice);
-    let record = Record::new(&setup, &[answer], &[], notes, unknowns, circumstances)
+    let answers = [answer];
+    let mut record = Record::new(&setup, &answers, &[], notes, unknowns, circumstances)
         .ok_or("there is nothing to report".to_owned())?;
+    if args.out.is_some() {
+        record = record.with_evidence(&setup, &answers[0]);
+    }
     output::record(&record, args.json, args.out.as_deref())
 }
 

@@ -4,10 +4,12 @@ mod args;
 mod chart;
 mod check;
 mod evaluate;
+mod export;
 mod impact;
 mod map;
 mod output;
 mod progress;
+mod report;
 mod settings;
 mod shell;
 mod solve;
@@ -25,6 +27,8 @@ fn main() -> ExitCode {
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Map(args) => map::run(args),
+        Command::Report(args) => report::run(args),
+        Command::Export(args) => export::run(args),
         Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
         Command::Completions(args) => shell::completions(args),

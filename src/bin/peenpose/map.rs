@@ -77,7 +77,8 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
     }
     let figure = Figure::of_map(view, term).map_err(|fault| fault.to_string())?;
     let figure = figure.ok_or("the map has no extent".to_owned())?;
-    let table = Table::of_map(view.map);
+    let table =
+        Table::of_map(view.map).map_err(|error| format!("cannot write the table: {error}"))?;
     output::figure(&args.out, &stem, &figure)?;
     output::write(&args.out, &format!("{stem}.csv"), table.csv.as_bytes())?;
     let written = args.out.join(stem);
@@ -97,8 +98,7 @@ fn choice(args: &MapArgs, setup: &Setup, varied: [Setting; 2]) -> Result<(Choice
     }
     let mut set = args.set.clone();
     set.extend(args.contact.iter().map(|name| format!("contact={name}")));
-    let found = settings::choice_round(varied, &set, args.from.as_deref(), &setup.problem)?;
-    Ok(found)
+    settings::choice_round(varied, &set, args.from.as_deref(), &setup.problem)
 }
 
 /// The best settings.

@@ -7,11 +7,13 @@ use std::process::ExitCode;
 use peenpose::problem::{Source, render_warnings};
 use peenpose::record::Record;
 use peenpose::report::figure::Figure;
-use peenpose::report::sheet;
+use peenpose::report::{files, sheet};
 use peenpose::setup::{Rejection, Setup};
 
 /// Exit status of a full answer that fails a verdict.
 const FAILS: u8 = 1;
+/// The file of a result in its folder.
+pub const RESULT: &str = "result.json";
 /// Exit status of bad input or failure.
 pub const BAD_INPUT: u8 = 2;
 
@@ -55,6 +57,11 @@ pub fn warnings(setup: &Setup, source: &Source) -> usize {
     found.len()
 }
 
+/// Shows a warning on stderr.
+pub fn warn(message: &str) {
+    let _ = writeln!(std::io::stderr(), "warning: {message}");
+}
+
 /// Prints a text to stdout.
 pub fn text(text: String) -> Result<ExitCode, Failure> {
     bytes(text.as_bytes())
@@ -71,22 +78,42 @@ pub fn bytes(bytes: &[u8]) -> Result<ExitCode, Failure> {
     }
 }
 
-/// Prints a record as a sheet or as JSON, and writes both into a folder if there is one.
+/// Prints a record as a sheet or as JSON, and writes it with all reports into a folder if there is
+/// one.
 pub fn record(record: &Record, json: bool, out: Option<&Path>) -> Result<ExitCode, Failure> {
     let as_json = record
         .to_json()
         .map_err(|error| format!("cannot write the result as JSON: {error}"))?;
-    let as_sheet = sheet(record);
     if let Some(folder) = out {
-        write(folder, "result.json", as_json.as_bytes())?;
-        write(folder, "sheet.txt", as_sheet.as_bytes())?;
+        write(folder, RESULT, as_json.as_bytes())?;
+        reports(record, folder)?;
     }
-    text(if json { as_json } else { as_sheet })?;
+    text(if json { as_json } else { sheet(record) })?;
     Ok(if record.passes() {
         ExitCode::SUCCESS
     } else {
         ExitCode::from(FAILS)
     })
+}
+
+/// Writes all reports on a record into a folder; gives the names of their files.
+pub fn reports(record: &Record, folder: &Path) -> Result<Vec<String>, Failure> {
+    let files = files(record).map_err(|error| format!("cannot make the reports: {error}"))?;
+    let written = files.into_iter().map(|(name, contents)| {
+        write(folder, &name, &contents)?;
+        Ok(name)
+    });
+    written.collect()
+}
+
+/// Reads a result back.
+pub fn read_record(path: &Path) -> Result<Record, Failure> {
+    let shown = path.display();
+    let text =
+        std::fs::read_to_string(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
+    let record =
+        Record::from_json(&text).map_err(|error| format!("{shown} is not a result: {error}"))?;
+    Ok(record)
 }
 
 /// Finds out before the work whether results can be written into a folder.

@@ -5,12 +5,13 @@ use std::path::Path;
 use peenpose::problem::Problem;
 use peenpose::problem::fault::nearest_name;
 use peenpose::problem::setting::{Choice, Setting};
-use peenpose::record::Record;
 use peenpose::units::{self, Dimension};
 
+use crate::output::{self, Failure};
+
 /// The settings asked for: from a result, from `--set`, or held in the file.
-pub fn choice(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Choice, String> {
-    Known::of(set, from, problem)?.complete(problem)
+pub fn choice(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Choice, Failure> {
+    Ok(Known::of(set, from, problem)?.complete(problem)?)
 }
 
 /// The same where two settings vary: these need not be known. Also tells whether they are.
@@ -19,7 +20,7 @@ pub fn choice_round(
     set: &[String],
     from: Option<&Path>,
     problem: &Problem,
-) -> Result<(Choice, bool), String> {
+) -> Result<(Choice, bool), Failure> {
     let mut known = Known::of(set, from, problem)?;
     let middle = problem.settings.middle();
     let mut all_known = true;
@@ -53,13 +54,8 @@ fn unknown(what: &str, name: &str, known: &[&str]) -> String {
 }
 
 /// The best settings of a result.
-fn from_result(path: &Path, problem: &Problem) -> Result<Choice, String> {
-    let shown = path.display();
-    let text =
-        std::fs::read_to_string(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
-    let record =
-        Record::from_json(&text).map_err(|error| format!("{shown} is not a result: {error}"))?;
-    let best = record.best;
+fn from_result(path: &Path, problem: &Problem) -> Result<Choice, Failure> {
+    let best = output::read_record(path)?.best;
     Ok(Choice {
         incidence: best.settings.incidence_deg.to_radians(),
         azimuth: best.settings.azimuth_deg.to_radians(),
@@ -108,7 +104,7 @@ const SETTINGS: [Setting; 8] = [
 
 impl Known {
     /// What the file holds, a result says, and `--set` says, the later ones on top.
-    fn of(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Self, String> {
+    fn of(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Self, Failure> {
         let mut known = Self::held(problem);
         if let Some(path) = from {
             known.take(&from_result(path, problem)?);

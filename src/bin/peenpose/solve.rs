@@ -1,12 +1,9 @@
 //! `peenpose solve`: the main job.
 
-use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use peenpose::record::{Circumstances, FrontRecord, Record, StatusRecord, WorkRecord};
-use peenpose::report::figure::Figure;
-use peenpose::report::table::Table;
 use peenpose::setup::Setup;
 use peenpose::solve::{Control, front, passing_windows, solve};
 use peenpose::units::{self, Dimension};
@@ -84,20 +81,10 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     if let Some(front) = &front {
         record.front = FrontRecord::all(&setup, front);
     }
-    if let (Some(folder), true) = (&args.out, args.pareto) {
-        write_front(&record, folder)?;
+    if args.out.is_some() {
+        record = record.with_evidence(&setup, best);
     }
     output::record(&record, args.json, args.out.as_deref())
-}
-
-/// Writes the trade-off as figure and table.
-fn write_front(record: &Record, folder: &Path) -> Result<(), Failure> {
-    let Table { name, csv } = Table::of_front(&record.front);
-    output::write(folder, &format!("{name}.csv"), csv.as_bytes())?;
-    let figure = Figure::of_front(record).map_err(|fault| fault.to_string())?;
-    figure.map_or(Ok(()), |figure| {
-        output::figure(folder, figure.name, &figure)
-    })
 }
 
 /// The command that gives the same answer again.

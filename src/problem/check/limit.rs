@@ -44,6 +44,8 @@ impl Limit {
     pub const SPEED: Self = to(1e-6, 1e4, "a speed from 1 um/s to 10000 m/s");
     pub const IMPULSE: Self = to(1e-18, 1e6, "an impulse above 0 N.s");
     pub const MASS_FLOW: Self = to(1e-12, 1e6, "a mass flow above 0 kg/min");
+    pub const PRESSURE: Self = to(1e-3, 1e10, "a pressure above 0 bar, up to 100000 bar");
+    pub const WANTED: Self = below(1e-9, 1.0, "a percentage above 0 %, below 100 %");
     pub const INCIDENCE: Self = to(
         1e-6,
         FRAC_PI_2 + ROUNDING,

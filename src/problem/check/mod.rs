@@ -3,6 +3,7 @@
 //! Each function takes one group of keys and gives `None` where something in it is faulty; every
 //! fault is on record then. All groups are looked at, so that all faults show up in one go.
 
+mod calibration;
 mod contacts;
 mod coordinates;
 mod goals;
@@ -22,10 +23,11 @@ mod tolerance;
 use std::path::Path;
 
 use super::Problem;
-use super::equipment::{Jet, PathLimits, Shot, Spread};
+use super::equipment::{CoverageWish, Jet, PathLimits, Shot, Spread};
 use super::faults::Faults;
+use super::field::Field;
 use super::file::ProblemFile;
-use super::file::equipment::{JetEntry, PathsEntry, ShotEntry, SpreadEntry};
+use super::file::equipment::{CoverageEntry, JetEntry, PathsEntry, ShotEntry, SpreadEntry};
 use super::file::settings::SolveEntry;
 use super::part::{Part, Target};
 use coordinates::Coordinates;
@@ -65,6 +67,10 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
     let jet = root
         .required("jet", &file.jet, "`{ exit_diameter: .., divergence: .. }`")
         .and_then(|entry| jet(&root.of("jet"), entry));
+    let calibration = match file.jet.value() {
+        Some(entry) => calibration::check(&root.of("jet").of("pressure"), &entry.pressure),
+        None => Some(None),
+    };
     let nozzle = file
         .nozzle
         .or(Default::default())
@@ -85,6 +91,11 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         .paths
         .or(Default::default())
         .and_then(|entry| paths(&root.of("paths"), &entry));
+    let coverage = match &file.coverage {
+        Field::Missing => Some(None),
+        Field::Faulty => None,
+        Field::Present(entry) => coverage(&root.of("coverage"), entry).map(Some),
+    };
     let tolerance = file
         .tolerance
         .or(Default::default())
@@ -109,12 +120,14 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
             target: target.clone()?,
             shot: shot?,
             jet: jet?,
+            calibration: calibration?,
             nozzle: nozzle?,
             contacts: contacts.sound()?,
             settings: settings?,
             goals: goals?,
             surfaces: surfaces?,
             paths: paths?,
+            coverage: coverage?,
             model: model?,
             tolerance: tolerance?,
             accuracy,
@@ -158,6 +171,15 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
         spread: spread?,
         speed_spread: speed_spread?,
         mass_flow: mass_flow?,
+    })
+}
+
+fn coverage(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<CoverageWish> {
+    let dent_diameter = scope.needed("dent_diameter", &entry.dent_diameter, Limit::LENGTH);
+    let wanted = scope.optional("wanted", &entry.wanted, Limit::WANTED, 0.98);
+    Some(CoverageWish {
+        dent_diameter: dent_diameter?,
+        wanted: wanted?,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Speed, Triple};
+use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Pressure, Speed, Triple};
 use crate::problem::field::Field;
 
 use super::settings::OneOrRange;
@@ -33,6 +33,21 @@ pub(in crate::problem) struct JetEntry {
     pub speed_spread: Field<Percentage>,
     /// Mass of shot per time; unknown where absent.
     pub mass_flow: Field<MassFlow>,
+    /// The machine's calibration, measured with this shot and nozzle: at least two pressures, each
+    /// with the mean speed of the shot at the exit, both strictly rising. With it the sheet says
+    /// the pressure that belongs to the speed, linear between the two rows beside it and never
+    /// beyond the first or the last one. No figure depends on it.
+    pub pressure: Field<Vec<Field<CalibrationEntry>>>,
+}
+
+/// One row of the calibration.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::problem) struct CalibrationEntry {
+    /// The pressure that is set.
+    pub pressure: Field<Pressure>,
+    /// The mean speed of the shot at the exit.
+    pub speed: Field<Speed>,
 }
 
 /// How directions fill the cone.
@@ -167,6 +182,21 @@ pub(in crate::problem) enum RoleEntry {
     Part,
     /// Part of the flight.
     Deflector,
+}
+
+/// What is to be said about coverage: how densely first hits fall on the target, and how much shot
+/// and time it takes until the share `wanted` of it is dented, on the mean and where hits are few.
+///
+/// Dents are taken to fall at random with the density of the place: coverage is then
+/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). The nozzle is taken to stand still, and only
+/// first hits count. Times need `jet.mass_flow`. No other figure depends on it.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(in crate::problem) struct CoverageEntry {
+    /// Diameter d of the dent that one hit leaves, as measured on a strip.
+    pub dent_diameter: Field<Length>,
+    /// Share of the area that is to be dented, below 100 %; 98 % where absent.
+    pub wanted: Field<Percentage>,
 }
 
 /// When a path ends.

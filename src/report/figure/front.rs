@@ -4,11 +4,10 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::axis::LogAxis;
+use super::levels::Levels;
 use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline, styled};
 use super::style::{FAINT, GHOST, GRID, HEADING, INK, LABEL, Look, bold, letters, look_of};
 use crate::record::{FrontRecord, Record};
-use crate::report::number::plain;
 
 const SIZE: (u32, u32) = (1800, 1250);
 const TOP: i32 = 300;
@@ -17,8 +16,34 @@ const BOTTOM: i32 = 1010;
 const NOTHING: i32 = 1080;
 const AXES: [i32; 3] = [420, 960, 1500];
 const NAMES: [&str; 3] = ["target error", "tangential risk", "rebound"];
-/// Decades below the largest value of an axis that are told apart.
-const DECADES: f64 = 6.0;
+/// Room between the outermost values and the ends of an axis, as a share of it.
+const MARGIN: f64 = 0.08;
+
+/// An axis whose scale suits its values.
+struct Axis {
+    levels: Levels,
+    /// On the scale of the levels.
+    from: f64,
+    to: f64,
+}
+
+impl Axis {
+    /// `None` where all values are the same.
+    fn over(values: &[f64]) -> Option<Self> {
+        let levels = Levels::of(values.iter().copied())?;
+        let shown = values.iter().filter(|value| **value > 0.0);
+        let scaled = shown.map(|value| levels.scaled(*value));
+        let (low, high) = scaled.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        let margin = MARGIN * (high - low);
+        Some(Self {
+            levels,
+            from: low - margin,
+            to: high + margin,
+        })
+    }
+}
 
 /// The figure as SVG; `None` where there is nothing to trade.
 pub fn svg(record: &Record) -> Option<Result<String, Fault>> {
@@ -26,10 +51,9 @@ pub fn svg(record: &Record) -> Option<Result<String, Fault>> {
     if front.len() < 2 {
         return None;
     }
-    let axes: [Option<LogAxis>; 3] = [0, 1, 2].map(|risk| {
-        let values = || front.iter().map(|point| point.risks()[risk].0);
-        let largest = values().fold(0.0, f64::max);
-        LogAxis::over(values().filter(|value| *value > largest * 0.1_f64.powf(DECADES)))
+    let axes = [0, 1, 2].map(|risk| {
+        let values: Vec<f64> = front.iter().map(|point| point.risks()[risk].0).collect();
+        Axis::over(&values)
     });
     Some(drawn(SIZE, |area| {
         let sentences = [
@@ -55,35 +79,42 @@ pub fn svg(record: &Record) -> Option<Result<String, Fault>> {
     }))
 }
 
-fn height(axis: Option<&LogAxis>, value: f64) -> i32 {
-    match axis {
-        Some(axis) if value >= axis.from => {
-            BOTTOM - (axis.fraction(value) * f64::from(BOTTOM - TOP)).round() as i32
-        }
-        _ => NOTHING,
-    }
+/// Values that are all the same stand in the middle, those that are nothing below the axis.
+fn height(axis: Option<&Axis>, value: f64) -> i32 {
+    let share = match axis {
+        _ if value <= 0.0 => return NOTHING,
+        Some(axis) => (axis.levels.scaled(value) - axis.from) / (axis.to - axis.from),
+        None => 0.5,
+    };
+    BOTTOM - (share.clamp(0.0, 1.0) * f64::from(BOTTOM - TOP)).round() as i32
 }
 
-fn draw_axis(area: &Area, x: i32, name: &str, axis: Option<&LogAxis>) -> Drawn {
+fn draw_axis(area: &Area, x: i32, name: &str, axis: Option<&Axis>) -> Drawn {
     sheet::text(area, name, (x, TOP - 74), HPos::Center, &bold(HEADING), INK)?;
     area.draw(&PathElement::new(
         vec![(x, TOP), (x, BOTTOM)],
         GHOST.stroke_width(3),
     ))?;
-    let label = styled(&letters(LABEL), FAINT, Pos::new(HPos::Right, VPos::Center));
-    for value in axis.map_or_else(Vec::new, |axis| axis.labelled(8)) {
-        let y = height(axis, value);
-        area.draw(&PathElement::new(
-            vec![(x - 8, y), (x + 8, y)],
-            GHOST.stroke_width(2),
-        ))?;
-        area.draw_text(&plain(value), &label, (x - 16, y))?;
+    // Lines come from the left to the last axis.
+    let (side, aside) = if x == AXES[2] {
+        (HPos::Left, 20)
+    } else {
+        (HPos::Right, -16)
+    };
+    let label = styled(&letters(LABEL), FAINT, Pos::new(side, VPos::Center));
+    if let Some(axis) = axis {
+        for (index, &value) in axis.levels.values.iter().enumerate() {
+            let y = height(Some(axis), value);
+            let tick = vec![(x - 8, y), (x + 8, y)];
+            area.draw(&PathElement::new(tick, GHOST.stroke_width(2)))?;
+            area.draw_text(&axis.levels.text(index), &label, (x + aside, y))?;
+        }
     }
     area.draw(&PathElement::new(
         vec![(x - 8, NOTHING), (x + 8, NOTHING)],
         GRID.stroke_width(3),
     ))?;
-    area.draw_text("nothing", &label, (x - 16, NOTHING))
+    area.draw_text("nothing", &label, (x + aside, NOTHING))
 }
 
 fn look(point: &FrontRecord) -> Look {
@@ -103,7 +134,7 @@ fn draw_answer(
     area: &Area,
     point: &FrontRecord,
     index: usize,
-    axes: &[Option<LogAxis>; 3],
+    axes: &[Option<Axis>; 3],
     name_at: i32,
 ) -> Drawn {
     let look = look(point);
@@ -135,7 +166,7 @@ fn draw_answer(
 }
 
 /// Heights of the names at the left, moved apart so that each can be read.
-fn spread(front: &[FrontRecord], axis: Option<&LogAxis>) -> Vec<i32> {
+fn spread(front: &[FrontRecord], axis: Option<&Axis>) -> Vec<i32> {
     const LINE: i32 = 32;
     let mut order: Vec<(usize, i32)> = front
         .iter()

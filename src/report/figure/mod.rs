@@ -19,7 +19,7 @@ mod style;
 pub(super) use axis::time;
 pub(super) use pose::curve_name;
 
-use super::map::MapView;
+use super::map::{MAPS, MapView};
 use crate::chart::Chart;
 use crate::record::{MapTerm, Record};
 
@@ -66,22 +66,13 @@ impl Figure {
         Self::named("map", map::svg(view, term))
     }
 
-    /// The figure of the trade-off of a record; `None` where there is nothing to trade.
+    /// The figures of a record, each if there is something to show in it.
     ///
     /// # Errors
     /// None is expected: figures are written into memory.
-    pub fn of_front(record: &Record) -> Result<Option<Self>, FigureFault> {
-        Self::named("trade_off", front::svg(record))
-    }
-
-    /// The figures of all maps of a record.
-    ///
-    /// # Errors
-    /// None is expected: figures are written into memory.
-    pub fn of_maps(record: &Record) -> Result<Vec<Self>, FigureFault> {
+    pub fn of_record(record: &Record) -> Result<Vec<Self>, FigureFault> {
         let maps = record.evidence.iter().flat_map(|evidence| &evidence.maps);
-        let names = ["map_1", "map_2", "map_3", "map_4"];
-        let figures = names.into_iter().zip(maps).map(|(name, map)| {
+        let maps = MAPS.into_iter().zip(maps).map(|(name, map)| {
             let view = MapView {
                 map,
                 problem: &record.problem,
@@ -90,7 +81,8 @@ impl Figure {
             };
             Self::named(name, map::svg(&view, MapTerm::Total))
         });
-        figures.filter_map(Result::transpose).collect()
+        let front = Self::named("trade_off", front::svg(record));
+        maps.chain([front]).filter_map(Result::transpose).collect()
     }
 
     fn named(

@@ -43,13 +43,12 @@ pub fn block(record: &Record) -> Option<Block> {
     Some(block)
 }
 
-/// A value whose last digit is uncertain by what stands in brackets: `0.004646(4)`.
+/// A value whose last digit is uncertain by what stands in brackets: `0.004646(4)`; four digits where
+/// all of them are certain.
 fn with_error((value, error): (f64, f64)) -> String {
     let decimals = decimals_for(error, 1);
-    let is_exact = error <= 1e-7 * value.abs();
-    if is_exact || decimals > 8 {
-        let scale = Scale::for_error(value, error);
-        return scale.text(value);
+    if error <= 0.5e-3 * value.abs() || decimals > 8 {
+        return Scale::for_error(value, 0.0).text(value);
     }
     let digits = (error * 10_f64.powi(decimals as i32)).round();
     format!("{}({})", fixed(value, decimals), fixed(digits, 0))
@@ -57,7 +56,7 @@ fn with_error((value, error): (f64, f64)) -> String {
 
 fn sentences(front: &[FrontRecord]) -> Vec<String> {
     let explanation = "Parts of J with their weights; target is normal_impulse and miss \
-                       together. In brackets: standard error of the last digit. * the recommended \
+                       together. In brackets: standard error of the last digit, where that is uncertain. * the recommended \
                        settings.";
     let finding = if front.len() == 1 {
         "There is nothing to trade: no other settings are better in any of the three by more than \
@@ -79,6 +78,7 @@ mod tests {
     #[test]
     fn errors_stand_behind_the_digits_that_they_touch() {
         assert_eq!(with_error((0.004_645_5, 0.000_004_2)), "0.004646(4)");
+        assert_eq!(with_error((0.491_004, 0.000_02)), "0.4910");
         assert_eq!(with_error((0.31, 0.012)), "0.31(1)");
         assert_eq!(with_error((0.0, 0.0)), "0");
         assert_eq!(with_error((0.25, 0.0)), "0.2500");

@@ -4,6 +4,7 @@ mod blocked;
 mod cause;
 mod closing;
 mod contacts;
+mod coverage;
 mod front;
 mod headline;
 mod model;
@@ -22,7 +23,7 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 16] = [
+    let blocks: [Option<Block>; 17] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best),
@@ -30,6 +31,7 @@ pub fn sheet(record: &Record) -> String {
         received::target(record),
         verdicts::block(best, &record.problem.goals),
         received::surfaces(record),
+        coverage::block(record),
         cause::block(record),
         unknowns::block(record),
         objective::block(best),

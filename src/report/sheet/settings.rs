@@ -1,7 +1,7 @@
 //! What to set: each setting with its window, the medium, and the pose for a robot.
 
 use super::setting::{SETTINGS, Setting};
-use crate::record::{AnswerRecord, ContactRecord, Record, StatusRecord};
+use crate::record::{AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{fixed, plain, share_asked, significant};
 
@@ -27,6 +27,9 @@ pub fn settings(record: &Record) -> Block {
         table.row(row(record, setting));
     }
     block.table(&table.without_empty_columns());
+    if let Some(pressure) = pressure(record) {
+        block.hanging("pressure   ", &pressure);
+    }
     for (label, text) in equipment(record) {
         block.hanging(&format!("{label:<10} "), &text);
     }
@@ -67,6 +70,36 @@ fn row(record: &Record, setting: &Setting) -> [String; 6] {
         window,
         until,
     ]
+}
+
+/// The pressure that gives the speed; absent without a calibration.
+fn pressure(record: &Record) -> Option<String> {
+    let rows = &record.problem.calibration;
+    let (first, last) = (rows.first()?, rows.last()?);
+    let bar = |pascals: f64| format!("{} bar", plain(pascals * 1e-5));
+    let speed = |row: &CalibrationRecord| format!("{} m/s", plain(row.speed_m_s));
+    let set = record.best.settings.speed_m_s;
+    let beside = rows
+        .windows(2)
+        .find(|pair| pair[0].speed_m_s <= set && set <= pair[1].speed_m_s);
+    let text = match (record.best.pressure, beside) {
+        (Some(pressure), Some([low, high])) => format!(
+            "{} bar for that speed: linear from {} at {} to {} at {}",
+            significant(pressure * 1e-5, 3),
+            speed(low),
+            bar(low.pressure),
+            speed(high),
+            bar(high.pressure),
+        ),
+        _ => format!(
+            "not known: the calibration goes from {} at {} to {} at {}",
+            speed(first),
+            bar(first.pressure),
+            speed(last),
+            bar(last.pressure),
+        ),
+    };
+    Some(text)
 }
 
 /// What is loaded into the machine.

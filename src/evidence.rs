@@ -1,0 +1,60 @@
+//! What pictures of an answer are drawn from: the surfaces as triangles, shots on their way, and
+//! the places that are worth a test strip.
+
+mod flights;
+mod places;
+mod shapes;
+mod shown;
+mod thinning;
+
+pub use flights::{Flight, broken_by};
+pub use places::Place;
+pub use shapes::Shape;
+pub use shown::Shown;
+
+use crate::jet::{Pose, Replicates, Samples, Stream};
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+
+/// Shots that a picture needs to show where they go.
+pub const SHOTS: usize = 16_384;
+
+/// Fresh shots with this purpose are independent of those that figures and searches are made of.
+const PURPOSE: u32 = 4;
+
+/// What a choice of settings looks like.
+#[derive(Clone, Debug)]
+pub struct Evidence {
+    /// Every surface as triangles, the target patch first.
+    pub shapes: Vec<Shape>,
+    /// The shots of the jet, in their order; what the setup tolerance and the scatter do to each
+    /// is in them.
+    pub flights: Vec<Flight>,
+    /// The shots that are worth drawing.
+    pub shown: Vec<Shown>,
+    /// Where to put test strips.
+    pub places: Vec<Place>,
+}
+
+impl Evidence {
+    /// Fires so many fresh shots; none where the nozzle does not fit. One is enough where all shots
+    /// of a problem are the same.
+    pub fn of(setup: &Setup, choice: &Choice, shots: usize) -> Self {
+        let shots = if setup.problem.has_one_ray() {
+            shots.min(1)
+        } else {
+            shots
+        };
+        let stream = Stream::Fresh(PURPOSE * Replicates::COUNT as u32);
+        let jet = Samples::new(&setup.problem, stream, shots);
+        let pose = Pose::new(&setup.target.frame, choice);
+        let shapes = shapes::all(setup, &pose);
+        let flights = flights::fire(setup, choice, &jet, &shapes);
+        Self {
+            shown: shown::pick(setup, &flights),
+            places: places::find(setup, &pose, &flights),
+            shapes: thinning::thinned(shapes, &setup.target),
+            flights,
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! What is shown, piece by piece, whatever the format.
+
+use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use nalgebra::{Point3, Vector3};
+
+use crate::record::{BodyRecord, EvidenceRecord, PathRecord, RoleRecord, SurfaceShapeRecord};
+
+/// Something with a name and a colour of its own.
+pub(super) struct Piece {
+    pub name: String,
+    /// sRGB.
+    pub color: [u8; 3],
+    /// Corners, m.
+    pub points: Vec<[f32; 3]>,
+    pub cells: Cells,
+}
+
+/// What the points of a piece make.
+pub(super) enum Cells {
+    /// Three corners each.
+    Triangles(Vec<[u32; 3]>),
+    /// Both ends.
+    Lines(Vec<[u32; 2]>),
+    /// The points themselves, with N*, N s.
+    Points(Vec<f32>),
+}
+
+// Colours of Okabe and Ito, which colour-blind people can tell apart, and greys.
+const VERMILION: [u8; 3] = [0xd5, 0x5e, 0x00];
+const SKY_BLUE: [u8; 3] = [0x56, 0xb4, 0xe9];
+const WALL: [u8; 3] = [0xdd, 0xe3, 0xe8];
+const NOZZLE: [u8; 3] = [0x8a, 0x93, 0x9b];
+const HIT: [u8; 3] = [0x22, 0x22, 0x22];
+const BREAKS: [u8; 3] = [0xcc, 0x00, 0x00];
+const FLIGHTS: [(&str, [u8; 3]); 4] = [
+    ("paths to the first hit", [0x00, 0x72, 0xb2]),
+    ("paths after the first hit", [0xe6, 0x9f, 0x00]),
+    ("paths after the second hit", [0x00, 0x9e, 0x73]),
+    ("paths later", [0xcc, 0x79, 0xa7]),
+];
+
+/// Surfaces, nozzle, paths by bounce with those that break a limit apart, hits; none that is empty.
+pub(super) fn all(evidence: &EvidenceRecord, exit: [f64; 3]) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = evidence.surfaces.iter().map(surface).collect();
+    for (body, number) in evidence.nozzle.iter().zip(1..) {
+        pieces.push(nozzle(body, number, &Point3::from(exit)));
+    }
+    pieces.extend(paths(evidence));
+    pieces.push(Piece {
+        name: "hits".into(),
+        color: HIT,
+        points: evidence.hits.points_m.clone(),
+        cells: Cells::Points(evidence.hits.normal_impulse.clone()),
+    });
+    pieces.retain(|piece| !piece.points.is_empty());
+    pieces
+}
+
+fn surface(shape: &SurfaceShapeRecord) -> Piece {
+    let (suffix, color) = match shape.role {
+        RoleRecord::Target => (" (target)", VERMILION),
+        RoleRecord::Secondary => ("", WALL),
+        RoleRecord::Deflector => (" (deflector)", SKY_BLUE),
+    };
+    Piece {
+        name: format!("{}{suffix}", shape.name),
+        color,
+        points: shape.points_m.clone(),
+        cells: Cells::Triangles(shape.triangles.clone()),
+    }
+}
+
+/// Line segments by how often their shot has bounced, deflectors not counted.
+fn paths(evidence: &EvidenceRecord) -> Vec<Piece> {
+    let deflectors: Vec<&str> = evidence
+        .surfaces
+        .iter()
+        .filter(|shape| shape.role == RoleRecord::Deflector)
+        .map(|shape| shape.name.as_str())
+        .collect();
+    let mut segments: BTreeMap<usize, Vec<[f32; 3]>> = BTreeMap::new();
+    for path in &evidence.paths {
+        let mut flight = 0;
+        for (index, ends) in path.points_m.windows(2).enumerate() {
+            let group = if path.breaks {
+                FLIGHTS.len()
+            } else {
+                flight.min(FLIGHTS.len() - 1)
+            };
+            segments.entry(group).or_default().extend(ends);
+            flight += usize::from(counts(path, index, &deflectors));
+        }
+    }
+    let piece = |(group, points): (usize, Vec<[f32; 3]>)| {
+        let (name, color) = FLIGHTS
+            .get(group)
+            .copied()
+            .unwrap_or(("paths that break a limit", BREAKS));
+        let segments = points.len() as u32 / 2;
+        Piece {
+            name: name.into(),
+            color,
+            points,
+            cells: Cells::Lines((0..segments).map(|i| [2 * i, 2 * i + 1]).collect()),
+        }
+    };
+    segments.into_iter().map(piece).collect()
+}
+
+/// Whether the impact at the end of a segment is one that is counted.
+fn counts(path: &PathRecord, segment: usize, deflectors: &[&str]) -> bool {
+    let impact = path.impacts.get(segment);
+    impact.is_some_and(|impact| !deflectors.contains(&impact.surface.as_str()))
+}
+
+/// Corners round a body, and from its pole to its equator.
+const ROUND: u32 = 32;
+const RINGS: u32 = 8;
+
+/// A body as a rod with round ends; a ball is one without length.
+fn nozzle(body: &BodyRecord, number: usize, exit: &Point3<f64>) -> Piece {
+    let (length, radius, axis) = match *body {
+        BodyRecord::Ball { radius_m } => (0.0, radius_m, Vector3::z()),
+        BodyRecord::Capsule {
+            length_m,
+            radius_m,
+            direction,
+        } => (length_m, radius_m, Vector3::from(direction)),
+    };
+    let least = axis.map(f64::abs).imin();
+    let side = axis.cross(&Vector3::ith(least, 1.0)).normalize();
+    let other = axis.cross(&side);
+    let mut points = Vec::new();
+    // Rings from pole to pole; the equator comes twice, once at each end of the rod.
+    for (end, from) in [(0.0, 0), (length, RINGS)] {
+        for ring in from..=from + RINGS {
+            let latitude = (f64::from(ring) / f64::from(RINGS) - 1.0) * FRAC_PI_2;
+            for step in 0..ROUND {
+                let (sin, cos) = (TAU * f64::from(step) / f64::from(ROUND)).sin_cos();
+                let outwards = (side * cos + other * sin) * latitude.cos();
+                let point = exit + axis * end + (outwards + axis * latitude.sin()) * radius;
+                points.push([point.x as f32, point.y as f32, point.z as f32]);
+            }
+        }
+    }
+    let corner = |ring: u32, step: u32| ring * ROUND + step % ROUND;
+    let quads = (0..2 * RINGS + 1).flat_map(|ring| (0..ROUND).map(move |step| (ring, step)));
+    let triangles = quads.flat_map(|(ring, step)| {
+        let [a, b] = [corner(ring, step), corner(ring, step + 1)];
+        let [c, d] = [corner(ring + 1, step + 1), corner(ring + 1, step)];
+        [[a, b, c], [a, c, d]]
+    });
+    let has_area = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| points[corner as usize]);
+        a != b && b != c && c != a
+    };
+    let triangles = triangles.filter(has_area).collect();
+    Piece {
+        name: format!("nozzle, body {number}"),
+        color: NOZZLE,
+        points,
+        cells: Cells::Triangles(triangles),
+    }
+}

@@ -1,0 +1,26 @@
+//! All reports on a result, as files.
+
+use std::io;
+
+use super::figure::Figure;
+use super::sheet;
+use super::table::Table;
+use crate::record::Record;
+
+/// Every report that can be made from a record, by the name of its file; `result.json` itself is not
+/// among them. The same record gives the same bytes.
+///
+/// # Errors
+/// None is expected: reports are written to memory.
+pub fn files(record: &Record) -> io::Result<Vec<(String, Vec<u8>)>> {
+    let mut files = vec![("sheet.txt".to_owned(), sheet(record).into_bytes())];
+    for Table { name, csv } in Table::of_record(record)? {
+        files.push((format!("{name}.csv"), csv.into_bytes()));
+    }
+    for figure in Figure::of_record(record).map_err(io::Error::other)? {
+        let png = figure.png().map_err(io::Error::other)?;
+        files.push((format!("{}.png", figure.name), png));
+        files.push((format!("{}.svg", figure.name), figure.svg.into_bytes()));
+    }
+    Ok(files)
+}

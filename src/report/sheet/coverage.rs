@@ -1,0 +1,81 @@
+//! How densely first hits fall on the target, and how long it takes until it is dented.
+
+use crate::record::{CoverageRecord, DensityRecord, Record};
+use crate::report::layout::{Align, Block, Table};
+use crate::report::number::{plain, share, significant};
+
+/// Densities with what it takes to the wanted coverage, and what that assumes.
+pub fn block(record: &Record) -> Option<Block> {
+    let coverage = record.coverage.as_ref()?;
+    let wanted = plain(coverage.wanted * 100.0);
+    let (time, shot) = (format!("{wanted} % after"), format!("{wanted} % takes"));
+    let mut table = Table::new(&[
+        ("COVERAGE, nozzle at rest", Align::Left),
+        (hits_unit(coverage), Align::Right),
+        ("std. error", Align::Right),
+        (&time, Align::Right),
+        (&shot, Align::Right),
+    ]);
+    table.row(row("mean of the target", coverage, &coverage.mean));
+    table.row(row("at least, on 95 % of it", coverage, &coverage.lowest_5));
+    let mut block = Block::default();
+    block.table(&table.without_empty_columns());
+    let mut spread = format!(
+        "Over cells of {} mm the density of first hits varies by {} (standard deviation)",
+        significant(coverage.cell_side_m * 1e3, 2),
+        share(coverage.variation),
+    );
+    if coverage.share_not_hit > 0.0 {
+        spread += &format!(
+            "; {} of the target's area is not hit: only a nozzle that moves gets there",
+            share(coverage.share_not_hit)
+        );
+    }
+    block.paragraph(&format!("{spread}."));
+    block.paragraph(&format!(
+        "Dents of {} mm that fall at random (Avrami): n hits per area cover 1 - exp(-n pi d2 / 4).",
+        plain(coverage.dent_diameter_m * 1e3),
+    ));
+    Some(block)
+}
+
+fn hits_unit(coverage: &CoverageRecord) -> &'static str {
+    match coverage.mass_flow_kg_s {
+        Some(_) => "hits/mm2 per s",
+        None => "hits/mm2 per kg",
+    }
+}
+
+fn row(name: &str, coverage: &CoverageRecord, density: &DensityRecord) -> [String; 5] {
+    let shots = coverage.shots_per_kg * coverage.mass_flow_kg_s.unwrap_or(1.0);
+    let per_square_millimetre =
+        |per_shot_and_square_metre: f64| significant(per_shot_and_square_metre * shots * 1e-6, 3);
+    let after = match (density.time_s, coverage.mass_flow_kg_s) {
+        (Some(time), _) => duration(time),
+        (None, Some(_)) => "never".into(),
+        (None, None) => String::new(),
+    };
+    [
+        name.into(),
+        per_square_millimetre(density.hits_per_shot_m2),
+        per_square_millimetre(density.standard_error_m2),
+        after,
+        density.mass_kg.map_or_else(|| "no end".into(), mass),
+    ]
+}
+
+fn duration(seconds: f64) -> String {
+    if seconds < 100.0 {
+        format!("{} s", significant(seconds, 3))
+    } else {
+        format!("{} min", significant(seconds / 60.0, 3))
+    }
+}
+
+fn mass(kilograms: f64) -> String {
+    if kilograms < 1.0 {
+        format!("{} g", significant(kilograms * 1e3, 3))
+    } else {
+        format!("{} kg", significant(kilograms, 3))
+    }
+}

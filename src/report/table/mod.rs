@@ -1,0 +1,85 @@
+//! Numbers as tables: comma-separated values with a heading, units in it.
+
+mod chart;
+mod front;
+mod map;
+mod record;
+
+use std::fmt::Display;
+use std::io;
+
+use crate::chart::Chart;
+use crate::record::{MapRecord, Record};
+
+/// A table as text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table {
+    /// Name of its file, without ending.
+    pub name: &'static str,
+    /// Its text.
+    pub csv: String,
+}
+
+impl Table {
+    /// The tables of a chart, each if there is something in it; they have the names of the figures
+    /// that they belong to.
+    ///
+    /// # Errors
+    /// None is expected: tables are written to memory.
+    pub fn of_chart(chart: &Chart) -> io::Result<Vec<Self>> {
+        let mut tables = chart::all(chart)?;
+        tables.retain(|table| table.csv.lines().count() > 1);
+        Ok(tables)
+    }
+
+    /// The tables of a record. Where it has no evidence there are none of hits, rebounds and places.
+    ///
+    /// # Errors
+    /// None is expected: tables are written to memory.
+    pub fn of_record(record: &Record) -> io::Result<Vec<Self>> {
+        record::all(record)
+    }
+
+    /// The table of a map: a row for each place.
+    ///
+    /// # Errors
+    /// None is expected: tables are written to memory.
+    pub fn of_map(map: &MapRecord) -> io::Result<Self> {
+        map::table("map", map)
+    }
+}
+
+/// A table that is being written.
+struct Rows {
+    name: &'static str,
+    writer: csv::Writer<Vec<u8>>,
+}
+
+impl Rows {
+    fn headed(name: &'static str, columns: &[&str]) -> io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(columns)?;
+        Ok(Self { name, writer })
+    }
+
+    fn row(&mut self, cells: &[&dyn Display]) -> io::Result<()> {
+        let cells = cells.iter().map(|cell| cell.to_string());
+        Ok(self.writer.write_record(cells.map(String::into_bytes))?)
+    }
+
+    fn finish(self) -> io::Result<Table> {
+        let bytes = self
+            .writer
+            .into_inner()
+            .map_err(|error| error.into_error())?;
+        Ok(Table {
+            name: self.name,
+            csv: String::from_utf8(bytes).map_err(io::Error::other)?,
+        })
+    }
+}
+
+/// A cell that is empty where there is no value.
+fn or_empty(value: Option<impl Display>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
+}

@@ -1,0 +1,369 @@
+//! The tables of a record; SI units, angles in degrees.
+
+use std::fmt::Display;
+use std::io;
+
+use super::{Rows, Table, front, map, or_empty};
+use crate::record::{
+    AnswerRecord, EvidenceRecord, HitsRecord, PlaceRecord, PoseRecord, ReboundsRecord,
+    ReceiptRecord, Record, SpreadRecord, TargetRecord,
+};
+use crate::report::map::MAPS;
+
+pub(super) fn all(record: &Record) -> io::Result<Vec<Table>> {
+    let mut tables = vec![
+        surfaces(&record.best)?,
+        verdicts(&record.best)?,
+        choices(record)?,
+        windows(record)?,
+        poses(record)?,
+    ];
+    if let Some(evidence) = &record.evidence {
+        tables.push(hits(&evidence.hits)?);
+        tables.push(rebounds(evidence)?);
+        tables.push(places(&evidence.places)?);
+        for (name, map) in MAPS.into_iter().zip(&evidence.maps) {
+            tables.push(map::table(name, map)?);
+        }
+    }
+    if !record.front.is_empty() {
+        tables.push(front::table(&record.front)?);
+    }
+    Ok(tables)
+}
+
+/// What the target receives by first hits, then what the other surfaces receive by all impacts.
+fn surfaces(best: &AnswerRecord) -> io::Result<Table> {
+    let mut table = Rows::headed(
+        "surfaces",
+        &[
+            "surface",
+            "role",
+            "share_of_shots",
+            "share_over",
+            "allow_N_s",
+            "normal_impulse_mean_N_s",
+            "normal_impulse_5_percent_N_s",
+            "normal_impulse_95_percent_N_s",
+            "normal_impulse_largest_N_s",
+            "direct_hits_per_shot",
+            "rebounds_per_shot",
+        ],
+    )?;
+    if let Some(target) = &best.target {
+        let TargetRecord {
+            surface,
+            share_on_target: share,
+            normal_impulse: spread,
+            ..
+        } = target;
+        let [mean, low, high, largest] = spread_cells(Some(spread));
+        table.row(&[
+            surface, &"target", share, &"", &"", &mean, &low, &high, &largest, share, &0,
+        ])?;
+    }
+    for (surface, receipt) in &best.surfaces {
+        let ReceiptRecord {
+            share_of_shots,
+            share_over,
+            allow,
+            normal_impulse,
+            impacts_per_shot_by_number,
+            ..
+        } = receipt;
+        let [mean, low, high, largest] = spread_cells(normal_impulse.as_ref());
+        let numbers = impacts_per_shot_by_number.split_first();
+        let (direct, later) = numbers.unwrap_or((&0.0, &[]));
+        table.row(&[
+            surface,
+            &"secondary",
+            share_of_shots,
+            share_over,
+            &or_empty(*allow),
+            &mean,
+            &low,
+            &high,
+            &largest,
+            direct,
+            &later.iter().fold(0.0, |sum, share| sum + share),
+        ])?;
+    }
+    table.finish()
+}
+
+fn spread_cells(spread: Option<&SpreadRecord>) -> [String; 4] {
+    let parts: [fn(&SpreadRecord) -> f64; 4] = [
+        |spread| spread.mean,
+        |spread| spread.low_5,
+        |spread| spread.high_95,
+        |spread| spread.largest,
+    ];
+    parts.map(|part| or_empty(spread.map(part)))
+}
+
+fn verdicts(best: &AnswerRecord) -> io::Result<Table> {
+    let mut table = Rows::headed(
+        "verdicts",
+        &[
+            "subject",
+            "passes",
+            "share",
+            "share_95_percent_low",
+            "share_95_percent_high",
+            "share_allowed",
+            "shots_counted",
+            "certain",
+        ],
+    )?;
+    for verdict in &best.verdicts {
+        let [low, high] = verdict.interval_95;
+        table.row(&[
+            &verdict.subject,
+            &verdict.passes,
+            &verdict.share,
+            &low,
+            &high,
+            &verdict.allowed,
+            &verdict.counted,
+            &verdict.certain,
+        ])?;
+    }
+    table.finish()
+}
+
+/// The best settings of each contact, best first.
+fn choices(record: &Record) -> io::Result<Table> {
+    let mut table = Rows::headed(
+        "choices",
+        &[
+            "contact",
+            "passes",
+            "feasible",
+            "incidence_deg",
+            "azimuth_deg",
+            "standoff_m",
+            "speed_m_s",
+            "pressure_Pa",
+            "aim_along_m",
+            "aim_across_m",
+            "aim_above_m",
+            "mu_s",
+            "mu_d",
+            "restitution",
+            "clearance_m",
+            "objective",
+            "objective_standard_error",
+            "normal_impulse_term",
+            "tangential_impulse_term",
+            "rebound_term",
+            "miss_term",
+            "share_on_target",
+            "share_sticking",
+            "normal_impulse_mean_N_s",
+            "tangential_impulse_mean_N_s",
+        ],
+    )?;
+    for choice in &record.choices {
+        let (settings, contact) = (&choice.settings, &choice.contact_values);
+        let objective = |part: fn(&crate::record::ObjectiveRecord) -> f64| {
+            or_empty(choice.objective.as_ref().map(part))
+        };
+        let target = |part: fn(&TargetRecord) -> f64| or_empty(choice.target.as_ref().map(part));
+        table.row(&[
+            &choice.contact,
+            &choice.passes,
+            &choice.feasible,
+            &settings.incidence_deg,
+            &settings.azimuth_deg,
+            &settings.standoff_m,
+            &settings.speed_m_s,
+            &or_empty(choice.pressure),
+            &settings.aim_along_m,
+            &settings.aim_across_m,
+            &settings.aim_above_m,
+            &contact.mu_s,
+            &contact.mu_d,
+            &contact.restitution,
+            &or_empty(choice.clearance_m),
+            &objective(|terms| terms.total),
+            &objective(|terms| terms.standard_error),
+            &objective(|terms| terms.normal_impulse),
+            &objective(|terms| terms.tangential_impulse),
+            &objective(|terms| terms.rebound),
+            &objective(|terms| terms.miss),
+            &target(|target| target.share_on_target),
+            &target(|target| target.share_sticking),
+            &target(|target| target.normal_impulse.mean),
+            &target(|target| target.tangential_impulse.mean),
+        ])?;
+    }
+    table.finish()
+}
+
+/// The names of settings have their units in them.
+fn windows(record: &Record) -> io::Result<Table> {
+    let mut table = Rows::headed(
+        "windows",
+        &[
+            "setting",
+            "down_to",
+            "down_turn_within",
+            "down_turns",
+            "up_to",
+            "up_turn_within",
+            "up_turns",
+        ],
+    )?;
+    for window in &record.windows {
+        table.row(&[
+            &window.setting,
+            &window.down.to,
+            &window.down.within,
+            &or_empty(window.down.turns.as_ref()),
+            &window.up.to,
+            &window.up.within,
+            &or_empty(window.up.turns.as_ref()),
+        ])?;
+    }
+    table.finish()
+}
+
+/// One row for each contact, for a robot; the matrix takes the nozzle's frame, whose z axis is that
+/// of the jet, to the coordinates of the file.
+fn poses(record: &Record) -> io::Result<Table> {
+    const FIRST: [&str; 11] = [
+        "contact",
+        "exit_x_m",
+        "exit_y_m",
+        "exit_z_m",
+        "axis_x",
+        "axis_y",
+        "axis_z",
+        "quaternion_x",
+        "quaternion_y",
+        "quaternion_z",
+        "quaternion_w",
+    ];
+    // Lengths in the last column of the matrix, without unit elsewhere.
+    const MATRIX: [&str; 16] = [
+        "m11", "m12", "m13", "m14_m", "m21", "m22", "m23", "m24_m", "m31", "m32", "m33", "m34_m",
+        "m41", "m42", "m43", "m44",
+    ];
+    let mut table = Rows::headed("pose", &[&FIRST[..], &MATRIX[..]].concat())?;
+    for choice in &record.choices {
+        let PoseRecord {
+            exit_m,
+            direction,
+            quaternion_xyzw,
+            matrix_4x4,
+        } = &choice.pose;
+        let numbers = exit_m.iter().chain(direction).chain(quaternion_xyzw);
+        let mut cells: Vec<String> = numbers.map(picometres).collect();
+        let matrix = matrix_4x4.map(|rows| rows.concat());
+        cells.extend(
+            (0..MATRIX.len()).map(|i| or_empty(matrix.as_ref().map(|m| picometres(&m[i])))),
+        );
+        let contact: &dyn Display = &choice.contact;
+        let cells = cells.iter().map(|cell| cell as &dyn Display);
+        table.row(&std::iter::once(contact).chain(cells).collect::<Vec<_>>())?;
+    }
+    table.finish()
+}
+
+/// A coordinate or a direction without the rounding errors at its end.
+fn picometres(value: &f64) -> String {
+    ((value * 1e12).round() / 1e12 + 0.0).to_string()
+}
+
+/// One row for each first hit on the target; `along` and `across` are measured from the aim point.
+fn hits(hits: &HitsRecord) -> io::Result<Table> {
+    let mut table = Rows::headed(
+        "hits",
+        &[
+            "x_m",
+            "y_m",
+            "z_m",
+            "along_m",
+            "across_m",
+            "angle_deg",
+            "normal_impulse_N_s",
+            "tangential_impulse_N_s",
+            "sticks",
+        ],
+    )?;
+    let columns = hits
+        .points_m
+        .iter()
+        .zip(&hits.plane_m)
+        .zip(&hits.angle_deg)
+        .zip(&hits.normal_impulse)
+        .zip(&hits.tangential_impulse)
+        .zip(&hits.sticks);
+    for (((((point, plane), angle), normal), tangential), sticks) in columns {
+        let ([x, y, z], [along, across]) = (point, plane);
+        table.row(&[x, y, z, along, across, angle, normal, tangential, sticks])?;
+    }
+    table.finish()
+}
+
+/// One row for each impact on a secondary surface; the number is 1 for a direct hit.
+fn rebounds(evidence: &EvidenceRecord) -> io::Result<Table> {
+    let mut table = Rows::headed(
+        "rebounds",
+        &[
+            "x_m",
+            "y_m",
+            "z_m",
+            "surface",
+            "number",
+            "normal_impulse_N_s",
+        ],
+    )?;
+    let ReboundsRecord {
+        points_m,
+        surface,
+        number,
+        normal_impulse,
+    } = &evidence.rebounds;
+    let columns = points_m.iter().zip(surface).zip(number).zip(normal_impulse);
+    for (((point, surface), number), normal) in columns {
+        let shape = evidence.surfaces.get(*surface as usize);
+        let [x, y, z] = point;
+        let name = or_empty(shape.map(|shape| &shape.name));
+        table.row(&[x, y, z, &name, number, normal])?;
+    }
+    table.finish()
+}
+
+/// Where to put test strips.
+fn places(places: &[PlaceRecord]) -> io::Result<Table> {
+    let mut table = Rows::headed(
+        "places",
+        &[
+            "place", "surface", "x_m", "y_m", "z_m", "normal_x", "normal_y", "normal_z", "value",
+            "unit", "text",
+        ],
+    )?;
+    for place in places {
+        let unit = match place.name.as_str() {
+            "most_grazing" => "deg",
+            "shadow_edge" => "m",
+            _ => "N s",
+        };
+        let ([x, y, z], [a, b, c]) = (place.point_m, place.normal);
+        table.row(&[
+            &place.name,
+            &place.surface,
+            &x,
+            &y,
+            &z,
+            &a,
+            &b,
+            &c,
+            &place.value,
+            &unit,
+            &place.text,
+        ])?;
+    }
+    table.finish()
+}
