@@ -94,11 +94,10 @@ fn contacts_on_target(problem: &Problem) -> impl Iterator<Item = Contact> + '_ {
     let mut rules = problem.surfaces.iter();
     let rule = rules.find(|rule| rule.surface == problem.target.surface);
     let own = rule.and_then(|rule| rule.contact);
-    let chosen = problem.settings.contact.iter().map(move |&index| {
+    problem.settings.contact.iter().map(move |&index| {
         let choice = &problem.contacts[index];
         own.unwrap_or_else(|| choice.at(choice.static_friction.max))
-    });
-    chosen
+    })
 }
 
 fn reachable_impulse(problem: &Problem) -> Option<Warning> {

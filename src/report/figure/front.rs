@@ -36,6 +36,17 @@ impl Axis {
         let (low, high) = scaled.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
             (low.min(value), high.max(value))
         });
+        if low == high {
+            let values = values.iter().copied().filter(|value| *value > 0.0);
+            return Some(Self {
+                levels: Levels {
+                    values: values.take(1).collect(),
+                    is_logarithmic: true,
+                },
+                from: low - 1.0,
+                to: high + 1.0,
+            });
+        }
         let margin = MARGIN * (high - low);
         Some(Self {
             levels,
@@ -114,7 +125,8 @@ fn draw_axis(area: &Area, x: i32, name: &str, axis: Option<&Axis>) -> Drawn {
         vec![(x - 8, NOTHING), (x + 8, NOTHING)],
         GRID.stroke_width(3),
     ))?;
-    area.draw_text("nothing", &label, (x + aside, NOTHING))
+    let below = (x, NOTHING + 14);
+    sheet::text(area, "nothing", below, HPos::Center, &letters(LABEL), FAINT)
 }
 
 fn look(point: &FrontRecord) -> Look {
