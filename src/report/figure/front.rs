@@ -41,7 +41,7 @@ impl Axis {
             return Some(Self {
                 levels: Levels {
                     values: values.take(1).collect(),
-                    is_logarithmic: true,
+                    ..levels
                 },
                 from: low - 1.0,
                 to: high + 1.0,
