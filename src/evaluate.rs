@@ -195,17 +195,15 @@ fn target_receipt(goals: &Goals, speed: f64, replicates: &[Ledger]) -> TargetRec
     };
     let normal = at_speed(|hits| &hits.normal);
     let tangential = at_speed(|hits| &hits.tangential);
-    let goal = goals.normal_impulse;
-    let off = |n: &&f64| (**n / goal.target - 1.0).abs() > goal.tolerance;
-    let over = |f: &&f64| {
-        goals
-            .tangential_impulse
-            .is_some_and(|goal| **f > goal.limit)
+    let count = |of: fn(&Hits, &Goals, f64) -> usize| {
+        let each = replicates.iter();
+        each.map(|ledger| of(&ledger.tally.hits, goals, speed))
+            .sum()
     };
     TargetReceipt {
         hits: normal.len(),
-        off_target: normal.iter().filter(off).count(),
-        over_limit: tangential.iter().filter(over).count(),
+        off_target: count(Hits::off_target),
+        over_limit: count(Hits::over_limit),
         sticking: replicates.iter().map(|r| r.sticking).sum(),
         normal_impulse: Spread::of(normal),
         tangential_impulse: Spread::of(tangential),

@@ -99,6 +99,8 @@
 //! | [`verdict`] | whether that passes, goal by goal |
 //! | [`unknowns`] | which of restitution and friction, where they are not known exactly, moves the result most |
 //! | [`solve`] | the search over settings, and how far each may drift |
+//! | [`map`] | the objective and the verdicts over two settings |
+//! | [`warnings`] | what parses but can hardly be meant |
 //! | [`validity`] | what the model leaves out at the answer |
 //! | [`coverage`] | how densely first hits fall on the target, and how long until it is dented |
 //! | [`evidence`] | what pictures of an answer are drawn from: shapes, flights, places |
@@ -133,6 +135,11 @@ pub mod verdict;
 pub mod unknowns;
 
 pub mod solve;
+
+pub mod map;
+
+pub mod warnings;
+
 pub mod validity;
 
 pub mod coverage;

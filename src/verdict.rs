@@ -31,24 +31,61 @@ pub struct Verdict {
     pub is_exact: bool,
 }
 
+/// How many shots break what: all that verdicts are given on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// Shots of the jet.
+    pub shots: usize,
+    /// Whether all of them are the same.
+    pub is_exact: bool,
+    /// First hits on target.
+    pub hits: usize,
+    /// Those off the wanted normal impulse by more than the tolerance.
+    pub off_target: usize,
+    /// Those over the tangential limit.
+    pub over_limit: usize,
+    /// For each surface of the scene, shots with an impact over what it may take.
+    pub over: Vec<usize>,
+}
+
+impl Counts {
+    /// What was counted in an evaluation.
+    pub fn of(evaluation: &Evaluation) -> Self {
+        let target = &evaluation.target;
+        let receipts = evaluation.surfaces.iter();
+        Self {
+            shots: evaluation.shots,
+            is_exact: evaluation.is_exact,
+            hits: target.hits,
+            off_target: target.off_target,
+            over_limit: target.over_limit,
+            over: receipts.map(|receipt| receipt.over).collect(),
+        }
+    }
+}
+
 impl Verdict {
     /// All verdicts on an evaluation: the goals, then every surface that has a limit.
     pub fn all(setup: &Setup, evaluation: &Evaluation) -> Vec<Self> {
+        Self::on(setup, &Counts::of(evaluation))
+    }
+
+    /// The same on what was counted.
+    pub fn on(setup: &Setup, counts: &Counts) -> Vec<Self> {
         let goals = &setup.problem.goals;
-        let target = &evaluation.target;
-        let is_exact = evaluation.is_exact;
+        let is_exact = counts.is_exact;
         let mut verdicts = vec![
             Self {
                 subject: Subject::Miss,
-                broken: evaluation.shots - target.hits,
-                counted: evaluation.shots,
+                broken: counts.shots - counts.hits,
+                counted: counts.shots,
                 allowed: goals.miss.share,
                 is_exact,
             },
             Self {
                 subject: Subject::NormalImpulse,
-                broken: target.off_target,
-                counted: target.hits,
+                broken: counts.off_target,
+                counted: counts.hits,
                 allowed: goals.normal_impulse.share,
                 is_exact,
             },
@@ -56,20 +93,18 @@ impl Verdict {
         if let Some(goal) = goals.tangential_impulse {
             verdicts.push(Self {
                 subject: Subject::TangentialImpulse,
-                broken: target.over_limit,
-                counted: target.hits,
+                broken: counts.over_limit,
+                counted: counts.hits,
                 allowed: goal.share,
                 is_exact,
             });
         }
-        for (index, (limits, receipt)) in
-            setup.surfaces.iter().zip(&evaluation.surfaces).enumerate()
-        {
+        for (index, (limits, &over)) in setup.surfaces.iter().zip(&counts.over).enumerate() {
             if limits.allow.is_some() && !limits.deflector {
                 verdicts.push(Self {
                     subject: Subject::Surface(index as u32),
-                    broken: receipt.over,
-                    counted: evaluation.shots,
+                    broken: over,
+                    counted: counts.shots,
                     allowed: limits.share,
                     is_exact,
                 });

@@ -1,5 +1,7 @@
 //! Problem files: good ones give SI values, bad ones say what is wrong and where.
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,6 +14,8 @@ use peenpose::problem::part::{Ends, Keyway, Part, Place, Shape, Target};
 use peenpose::problem::setting::{Range, Tolerance};
 use peenpose::problem::{self, Problem, Reading};
 use proptest::prelude::*;
+
+use common::announced;
 
 const KEYWAY: &str = include_str!("../problems/keyway.yaml");
 
@@ -575,27 +579,6 @@ fn hostile_files_are_refused() {
         assert!(!reading.faults.is_empty());
         problem::render(&reading.source, &reading.faults, false);
     }
-}
-
-/// What the comments of a bad file announce: line, column and message.
-///
-/// `#   ^ message` points at the character above its caret in the last line that is not such a
-/// comment; `#< message` at the first character of that line.
-fn announced(text: &str) -> Vec<(usize, usize, String)> {
-    let mut announced = Vec::new();
-    let mut line = 1;
-    for (index, content) in text.lines().enumerate() {
-        let rest = content.strip_prefix('#').unwrap_or_default();
-        if let Some(message) = rest.strip_prefix("< ") {
-            announced.push((line, 1, message.to_owned()));
-        } else if let Some(message) = rest.trim_start().strip_prefix("^ ") {
-            let column = rest.chars().take_while(|c| *c == ' ').count() + 2;
-            announced.push((line, column, message.to_owned()));
-        } else {
-            line = index + 1;
-        }
-    }
-    announced
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use multiversion::multiversion;
 
+use crate::problem::goal::Goals;
+
 /// Impulses of one hit per unit of launch speed, N s per m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impulses {
@@ -59,6 +61,22 @@ impl Hits {
     /// The largest tangential impulse, N s per m/s; 0 without hits.
     pub fn most_tangential(&self) -> f64 {
         self.tangential.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// How many are off the wanted normal impulse by more than the tolerance at a launch speed,
+    /// m/s.
+    pub fn off_target(&self, goals: &Goals, speed: f64) -> usize {
+        let goal = goals.normal_impulse;
+        let is_off = |gain: &&f64| (**gain * speed / goal.target - 1.0).abs() > goal.tolerance;
+        self.normal.iter().filter(is_off).count()
+    }
+
+    /// How many are over the tangential limit at a launch speed, m/s; none where there is no limit.
+    pub fn over_limit(&self, goals: &Goals, speed: f64) -> usize {
+        goals.tangential_impulse.map_or(0, |goal| {
+            let is_over = |gain: &&f64| **gain * speed > goal.limit;
+            self.tangential.iter().filter(is_over).count()
+        })
     }
 
     /// Whether there are none.

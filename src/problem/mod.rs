@@ -26,6 +26,7 @@ pub mod media;
 pub mod model;
 pub mod part;
 pub mod setting;
+pub mod warning;
 
 mod check;
 mod faults;
@@ -40,7 +41,7 @@ mod source;
 mod yaml;
 
 pub use reading::{Reading, read, read_text};
-pub use render::{one_line, render};
+pub use render::{one_line, render, render_warnings};
 pub use schema::schema;
 pub use source::Source;
 

@@ -3,10 +3,11 @@
 use std::fmt::Write as _;
 
 use annotate_snippets::renderer::DecorStyle;
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
-use super::fault::Fault;
+use super::fault::{Fault, Span};
 use super::source::Source;
+use super::warning::Warning;
 
 /// More faults than this are only counted: nobody reads them before mending the first ones.
 const MOST_SHOWN: usize = 100;
@@ -22,23 +23,57 @@ const MOST_SHOWN: usize = 100;
 /// # Ok::<(), Box<peenpose::problem::fault::Fault>>(())
 /// ```
 pub fn render(source: &Source, faults: &[Fault], color: bool) -> String {
+    let path = source.path.display().to_string();
+    let reports = faults.iter().map(|fault| report(source, &path, fault));
+    let mut text = rendered(reports.take(MOST_SHOWN), color);
+    if faults.len() > MOST_SHOWN {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "... and {} more faults", faults.len() - MOST_SHOWN);
+    }
+    text
+}
+
+/// Shows every warning with the line that it is about.
+pub fn render_warnings(source: &Source, warnings: &[Warning], color: bool) -> String {
+    let path = source.path.display().to_string();
+    let report = |warning: &'_ Warning| {
+        let title = format!("{}: {}", warning.key, warning.message);
+        let group = Group::with_title(Level::WARNING.primary_title(title));
+        let group = match warning.at {
+            Some(at) => group.element(snippet(source, &path, at, None)),
+            None => group.element(Origin::path(path.clone())),
+        };
+        group.element(Level::HELP.message(warning.help.clone()))
+    };
+    rendered(warnings.iter().map(report), color)
+}
+
+fn rendered<'a>(reports: impl Iterator<Item = Group<'a>>, color: bool) -> String {
     let renderer = if color {
         Renderer::styled()
     } else {
         Renderer::plain()
     };
     let renderer = renderer.decor_style(DecorStyle::Ascii);
-    let path = source.path.display().to_string();
-    let mut text = String::new();
-    for fault in faults.iter().take(MOST_SHOWN) {
-        let report = [report(source, &path, fault)];
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}\n", renderer.render(&report));
+    let texts = reports.map(|report| format!("{}\n\n", renderer.render(&[report])));
+    texts.collect()
+}
+
+/// A place in the text, with what is said there.
+fn snippet<'a>(
+    source: &'a Source,
+    path: &'a str,
+    at: Span,
+    label: Option<String>,
+) -> Snippet<'a, Annotation<'a>> {
+    let end = at.end.min(source.text.len());
+    let mut mark = AnnotationKind::Primary.span(at.start.min(end)..end);
+    if let Some(label) = label {
+        mark = mark.label(label);
     }
-    if faults.len() > MOST_SHOWN {
-        let _ = writeln!(text, "... and {} more faults", faults.len() - MOST_SHOWN);
-    }
-    text
+    Snippet::source(source.text.as_str())
+        .path(path)
+        .annotation(mark)
 }
 
 fn report<'a>(source: &'a Source, path: &'a str, fault: &'a Fault) -> Group<'a> {
@@ -53,16 +88,7 @@ fn report<'a>(source: &'a Source, path: &'a str, fault: &'a Fault) -> Group<'a> 
     let mut group = Group::with_title(Level::ERROR.primary_title(title));
     match fault.at {
         Some(at) => {
-            let end = at.end.min(source.text.len());
-            let mut mark = AnnotationKind::Primary.span(at.start.min(end)..end);
-            if let Some(expected) = expected {
-                mark = mark.label(expected);
-            }
-            group = group.element(
-                Snippet::source(source.text.as_str())
-                    .path(path)
-                    .annotation(mark),
-            );
+            group = group.element(snippet(source, path, at, expected));
         }
         None => {
             group = group.element(Origin::path(path));

@@ -305,7 +305,7 @@ fn matrix(pose: &Pose) -> [[f64; 4]; 4] {
 }
 
 impl ObjectiveRecord {
-    fn new(evaluation: &Evaluation) -> Self {
+    pub(super) fn new(evaluation: &Evaluation) -> Self {
         let (terms, errors) = (&evaluation.terms, &evaluation.term_errors);
         Self {
             total: terms.total(),

@@ -201,9 +201,9 @@ pub struct AxisRecord {
 pub struct CellRecord {
     /// Terms of the objective with their weights: normal_impulse, tangential_impulse, rebound,
     /// miss; absent where the nozzle does not fit.
-    pub terms: Option<[f64; 4]>,
+    pub terms: Option<[f32; 4]>,
     /// The subjects that fail there.
     pub fails: Vec<u32>,
     /// Share of the hits on target that stick; absent where there is none.
-    pub share_sticking: Option<f64>,
+    pub share_sticking: Option<f32>,
 }

@@ -5,8 +5,10 @@
 mod answer;
 mod coverage;
 mod evidence;
+mod front;
 mod json;
 mod library;
+mod map;
 mod model;
 mod question;
 mod unknowns;
@@ -21,7 +23,9 @@ pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
+pub use front::FrontRecord;
 pub use library::{LibraryContactRecord, MediumRecord, OriginRecord};
+pub use map::MapTerm;
 pub use model::{ModelRecord, RungRecord};
 pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use unknowns::{
@@ -33,6 +37,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::coverage::Coverage;
 use crate::evidence::{Evidence, SHOTS};
+use crate::map::standard_maps;
 use crate::problem::Source;
 use crate::setup::Setup;
 use crate::solve::{Answer, Ladder, Status, Window};
@@ -52,6 +57,10 @@ pub struct Record {
     pub windows: Vec<WindowRecord>,
     /// The best settings of each contact, best first.
     pub choices: Vec<AnswerRecord>,
+    /// The trade-off between target error, tangential risk and rebound, from the least target error
+    /// on; empty where it was not asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub front: Vec<FrontRecord>,
     /// Which effects were searched with, and what each of them does.
     #[serde(default)]
     pub model: ModelRecord,
@@ -178,6 +187,7 @@ impl Record {
                 .map(|window| WindowRecord::new(setup, window))
                 .collect(),
             choices,
+            front: Vec::new(),
             model: ModelRecord::new(setup, circumstances.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
@@ -213,8 +223,11 @@ impl Record {
         let fits = best.evaluation.is_some();
         let shots = if fits { SHOTS } else { 0 };
         let shown = Evidence::of(setup, &best.choice, shots);
+        let mut evidence = EvidenceRecord::new(setup, &best.choice, &shown);
+        let maps = standard_maps(setup, &best.choice);
+        evidence.maps = maps.iter().map(|map| MapRecord::new(setup, map)).collect();
         Self {
-            evidence: Some(EvidenceRecord::new(setup, &best.choice, &shown)),
+            evidence: Some(evidence),
             ..self
         }
     }

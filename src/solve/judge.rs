@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::front::{Archive, Risks};
 use crate::jet::{Deviate, Pose};
 use crate::objective::{Tally, Terms};
 use crate::problem::setting::Choice;
@@ -77,6 +78,8 @@ pub struct Judge<'a> {
     shots: &'a [Deviate],
     effort: &'a Effort,
     stop: &'a AtomicBool,
+    /// Where to keep what was judged, and the factors that are on the weights.
+    archive: Option<(&'a Archive, Risks)>,
 }
 
 impl<'a> Judge<'a> {
@@ -92,6 +95,16 @@ impl<'a> Judge<'a> {
             shots,
             effort,
             stop,
+            archive: None,
+        }
+    }
+
+    /// The same that keeps what it judges with factors on the weights.
+    #[must_use]
+    pub(super) fn keeping(self, archive: &'a Archive, factors: Risks) -> Self {
+        Self {
+            archive: Some((archive, factors)),
+            ..self
         }
     }
 
@@ -117,7 +130,11 @@ impl<'a> Judge<'a> {
             self.trace(&choice, choice.speed)
         };
         self.effort.add(1, tally.rays);
-        (choice, Standing::Feasible(tally.terms(goals, choice.speed)))
+        let terms = tally.terms(goals, choice.speed);
+        if let Some((archive, factors)) = &self.archive {
+            archive.add(choice, &terms, factors);
+        }
+        (choice, Standing::Feasible(terms))
     }
 
     /// Traces the shots, many of them on all threads.

@@ -10,6 +10,7 @@
 mod accuracy;
 mod answer;
 mod control;
+mod front;
 mod judge;
 mod ladder;
 mod models;
@@ -20,6 +21,7 @@ mod window;
 
 pub use answer::Answer;
 pub use control::{Control, Progress, Status};
+pub use front::{Front, Risks, front, risks};
 pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
 pub use ladder::{Ladder, Rung};
 pub use window::{Drift, Turn, Window, passing_windows, windows};
@@ -27,11 +29,13 @@ pub use window::{Drift, Turn, Window, passing_windows, windows};
 use rayon::prelude::*;
 
 use crate::jet::{Replicates, Samples, Stream};
+use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use accuracy::{is_in_reach, least_objective, unsettled};
 use judge::Judge;
 use models::{Claim, Models};
 use search::{STAGES, Search, Stage};
+use space::Space;
 
 /// What a search found.
 #[derive(Clone, Debug)]
@@ -59,6 +63,16 @@ const SCREENING_SHOTS: usize = 64;
 const CHEAP_SHOTS: usize = 1024;
 /// By how much the shots rise when the last stage was not accurate enough.
 const RISE: usize = 4;
+
+/// Choices for a contact, spread evenly over all settings: one where every setting is held.
+pub fn spread_choices(setup: &Setup, contact: usize, count: usize) -> Vec<Choice> {
+    let space = Space::new(&setup.problem, contact, true);
+    let count = if space.dimensions() == 0 { 1 } else { count };
+    let seed = setup.problem.seed as u32;
+    (0..count as u32)
+        .map(|index| space.choice(&space.spread(index, seed)))
+        .collect()
+}
 
 /// Finds the best settings of a problem.
 pub fn solve(setup: &Setup, control: &Control) -> Solution {

@@ -75,11 +75,7 @@ impl Search {
         let seed = setup.problem.seed as u32;
         let candidates = (0..points as u32)
             .into_par_iter()
-            .map(|index| {
-                let coordinate = |axis| f64::from(sobol_burley::sample(index, axis as u32, seed));
-                let point: Vec<f64> = (0..dimensions).map(coordinate).collect();
-                Candidate::at(&space, judge, &point)
-            })
+            .map(|index| Candidate::at(&space, judge, &space.spread(index, seed)))
             .collect();
         let mut search = Self { space, candidates };
         search.sort();

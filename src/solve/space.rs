@@ -51,6 +51,12 @@ impl Space {
         Self { axes, base }
     }
 
+    /// One of many points that are spread evenly all over the space.
+    pub fn spread(&self, index: u32, seed: u32) -> Vec<f64> {
+        let coordinate = |axis| f64::from(sobol_burley::sample(index, axis as u32, seed));
+        (0..self.dimensions()).map(coordinate).collect()
+    }
+
     /// Number of searched settings.
     pub fn dimensions(&self) -> usize {
         self.axes.len()

@@ -125,3 +125,24 @@ pub fn keyway(length: f64) -> Problem {
         seed: 1,
     }
 }
+
+/// What the comments of a bad file announce: line, column and message.
+///
+/// `#   ^ message` points at the character above its caret in the last line that is not such a
+/// comment; `#< message` at the first character of that line.
+pub fn announced(text: &str) -> Vec<(usize, usize, String)> {
+    let mut announced = Vec::new();
+    let mut line = 1;
+    for (index, content) in text.lines().enumerate() {
+        let rest = content.strip_prefix('#').unwrap_or_default();
+        if let Some(message) = rest.strip_prefix("< ") {
+            announced.push((line, 1, message.to_owned()));
+        } else if let Some(message) = rest.trim_start().strip_prefix("^ ") {
+            let column = rest.chars().take_while(|c| *c == ' ').count() + 2;
+            announced.push((line, column, message.to_owned()));
+        } else {
+            line = index + 1;
+        }
+    }
+    announced
+}

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Parser, Subcommand};
+use clap_complete::Shell;
+use peenpose::record::MapTerm;
 
 use crate::impact::ImpactArgs;
 use crate::init::Template;
@@ -28,25 +31,133 @@ Results go to stdout, progress and warnings to stderr.";
 #[derive(Subcommand)]
 pub enum Command {
     /// Find the best settings for a problem file
+    #[command(after_help = SOLVE_EXAMPLES)]
     Solve(SolveArgs),
     /// Say what given settings do
+    #[command(after_help = EVALUATE_EXAMPLES)]
     Evaluate(EvaluateArgs),
+    /// Draw the objective, or a term of it, over two settings
+    #[command(after_help = MAP_EXAMPLES)]
+    Map(MapArgs),
     /// Make all reports again from the result in a folder
+    #[command(after_help = REPORT_EXAMPLES)]
     Report(ReportArgs),
     /// Write scene, nozzle, paths and hits of a result for other programs
+    #[command(after_help = EXPORT_EXAMPLES)]
     Export(ExportArgs),
     /// Measure speed against accuracy on a problem file, as figures and tables
+    #[command(after_help = CHART_EXAMPLES)]
     Chart(ChartArgs),
-    /// Show all faults of problem files at once
+    /// Show all faults of problem files at once, and what can hardly be meant
+    #[command(after_help = CHECK_EXAMPLES)]
     Check(CheckArgs),
     /// Compute one impact, or print the paper's tables
+    #[command(after_help = IMPACT_EXAMPLES)]
     Impact(ImpactArgs),
     /// Write a commented problem file to start from
+    #[command(after_help = INIT_EXAMPLES)]
     Init(InitArgs),
     /// List shot and contacts that a problem file may use, with the source of every number
+    #[command(after_help = MEDIA_EXAMPLES)]
     Media(MediaArgs),
     /// Print the JSON Schema of problem files, for editors
+    #[command(after_help = SCHEMA_EXAMPLES)]
     Schema,
+    /// Print completions for a shell
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions(CompletionsArgs),
+    /// Print the manual page
+    #[command(after_help = MAN_EXAMPLES)]
+    Man(ManArgs),
+}
+
+const SOLVE_EXAMPLES: &str = "\
+Examples:
+  peenpose solve keyway.yaml                        the technique sheet
+  peenpose solve keyway.yaml --out result           sheet, result.json and figures in a folder
+  peenpose solve keyway.yaml --pareto               what can be had instead, too
+  peenpose solve keyway.yaml --json | jq .best.settings
+Ctrl-C ends the search with the best answer so far.";
+
+const EVALUATE_EXAMPLES: &str = "\
+Examples:
+  peenpose evaluate keyway.yaml --set incidence=80deg --set azimuth=0deg \\
+      --set standoff=8mm --set speed=9.4m/s --set contact=oiled
+  peenpose evaluate keyway.yaml --from result/result.json --set speed=9.8m/s";
+
+const MAP_EXAMPLES: &str = "\
+Examples:
+  peenpose map keyway.yaml --x incidence --y azimuth --out maps
+  peenpose map keyway.yaml --x incidence=55deg:75deg --y standoff --term rebound \\
+      --from result/result.json --out maps
+Without --from and --set the best settings are searched first.";
+
+const REPORT_EXAMPLES: &str = "\
+Examples:
+  peenpose report result";
+
+const EXPORT_EXAMPLES: &str = "\
+Examples:
+  peenpose export result --out scene.glb
+  peenpose export result --out paths.vtk";
+
+const CHART_EXAMPLES: &str = "\
+Examples:
+  peenpose chart keyway.yaml --out chart
+  peenpose chart keyway.yaml --out chart --beside other-method.csv";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  peenpose check *.yaml
+  peenpose check --deny-warnings keyway.yaml";
+
+const IMPACT_EXAMPLES: &str = "\
+Examples:
+  peenpose impact --speed '10 m/s' --angle '60 deg' --mu-s 0.12
+  peenpose impact --table zohdi1";
+
+const INIT_EXAMPLES: &str = "\
+Examples:
+  peenpose init --out part.yaml                     a keyway, with the schema beside it
+  peenpose init mesh --out part.yaml                a part from CAD, with a small mesh to try
+  peenpose init plate | less";
+
+const MEDIA_EXAMPLES: &str = "\
+Examples:
+  peenpose media
+  peenpose media --json | jq .shot";
+
+const SCHEMA_EXAMPLES: &str = "\
+Examples:
+  peenpose schema > peenpose.schema.json";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  peenpose completions bash > ~/.local/share/bash-completion/completions/peenpose
+  peenpose completions zsh > ~/.zfunc/_peenpose
+  peenpose completions fish > ~/.config/fish/completions/peenpose.fish";
+
+const MAN_EXAMPLES: &str = "\
+Examples:
+  peenpose man | man -l -
+  peenpose man solve | man -l -
+  peenpose man --out ~/.local/share/man/man1";
+
+/// Arguments of `completions`.
+#[derive(clap::Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// Arguments of `man`.
+#[derive(clap::Args)]
+pub struct ManArgs {
+    /// The command that the page is about; the whole program by default
+    pub command: Option<String>,
+    /// Write the pages of all commands into this folder
+    #[arg(long, value_name = "DIR", conflicts_with = "command")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `solve`.
@@ -63,13 +174,16 @@ pub struct SolveArgs {
     /// Accuracy of J, such as `1 %`; the file's by default
     #[arg(long, value_name = "PERCENT")]
     pub accuracy: Option<String>,
+    /// Show the trade-off between target error, tangential risk and rebound, too
+    #[arg(long)]
+    pub pareto: bool,
     /// Seed of all samples; the file's by default
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
     /// Threads; all cores by default. The answer does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
-    /// No progress bar
+    /// No progress bar, no warnings
     #[arg(long)]
     pub quiet: bool,
 }
@@ -97,9 +211,59 @@ pub struct EvaluateArgs {
     /// Print JSON instead of the sheet
     #[arg(long)]
     pub json: bool,
+    /// No warnings
+    #[arg(long)]
+    pub quiet: bool,
     /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `map`.
+#[derive(clap::Args)]
+pub struct MapArgs {
+    /// The problem file
+    pub file: PathBuf,
+    /// The setting of the lower axis, such as `incidence` or `incidence=40deg:80deg`
+    #[arg(long, value_name = "NAME[=FROM:TO]")]
+    pub x: String,
+    /// The setting of the left axis
+    #[arg(long, value_name = "NAME[=FROM:TO]")]
+    pub y: String,
+    /// What is drawn
+    #[arg(long, default_value = "total", value_parser = terms())]
+    pub term: String,
+    /// Hold a setting, such as `standoff=8mm`; may be given several times
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Hold the settings of this result.json; --set goes on top
+    #[arg(long, value_name = "result.json")]
+    pub from: Option<PathBuf>,
+    /// The contact; the best one by default
+    #[arg(long, value_name = "NAME")]
+    pub contact: Option<String>,
+    /// Values along each axis
+    #[arg(long, value_name = "N", default_value_t = 41, value_parser = clap::value_parser!(u16).range(2..=401))]
+    pub steps: u16,
+    /// Shots at each place
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    pub shots: u32,
+    /// Seed of all samples; the file's by default
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; all cores by default. The map does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// No progress bar, no warnings
+    #[arg(long)]
+    pub quiet: bool,
+    /// Write the map as SVG, PNG and CSV into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+fn terms() -> PossibleValuesParser {
+    MapTerm::ALL.map(MapTerm::name).into()
 }
 
 /// Arguments of `report`.
@@ -144,7 +308,7 @@ pub struct ChartArgs {
     /// Threads; all cores by default. Only times depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
-    /// No progress bar
+    /// No progress bar, no warnings
     #[arg(long)]
     pub quiet: bool,
 }
@@ -155,6 +319,9 @@ pub struct CheckArgs {
     /// Problem files
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
+    /// Let warnings count as faults
+    #[arg(long)]
+    pub deny_warnings: bool,
 }
 
 /// Arguments of `init`.

@@ -20,6 +20,9 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
     let beside = beside(&args.beside)?;
     output::prepare(Some(&args.out))?;
     let (mut setup, source) = Setup::load(&args.file)?;
+    if !args.quiet {
+        output::warnings(&setup, &source);
+    }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
     }
@@ -48,10 +51,7 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
         output::write(&args.out, &format!("{name}.csv"), csv.as_bytes())?;
     }
     for figure in Figure::of_chart(&chart).map_err(|fault| fault.to_string())? {
-        let png = figure.png().map_err(|fault| fault.to_string())?;
-        let name = figure.name;
-        output::write(&args.out, &format!("{name}.svg"), figure.svg.as_bytes())?;
-        output::write(&args.out, &format!("{name}.png"), &png)?;
+        output::figure(&args.out, figure.name, &figure)?;
     }
     output::text(sheet)
 }

@@ -1,11 +1,11 @@
-//! `peenpose check`: all faults of files at once.
+//! `peenpose check`: all faults of files at once, and what can hardly be meant.
 
 use std::process::ExitCode;
 
 use peenpose::setup::Setup;
 
 use crate::args::CheckArgs;
-use crate::output::{Failure, text};
+use crate::output::{BAD_INPUT, Failure, text, warnings};
 
 /// Checks files; the faults of all of them are the failure.
 pub fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
@@ -13,7 +13,12 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let mut good = String::new();
     for path in &args.files {
         match Setup::load(path) {
-            Ok((setup, _)) => {
+            Ok((setup, source)) => {
+                let found = warnings(&setup, &source);
+                if args.deny_warnings && found > 0 {
+                    failed = ExitCode::from(BAD_INPUT);
+                    continue;
+                }
                 let problem = &setup.problem;
                 good += &format!(
                     "{}: ok, {}: {} surfaces, {} triangles, {} contacts\n",

@@ -7,11 +7,14 @@ mod evaluate;
 mod export;
 mod impact;
 mod init;
+mod map;
 mod media;
 mod output;
 mod progress;
 mod report;
 mod schema;
+mod settings;
+mod shell;
 mod solve;
 
 use std::process::ExitCode;
@@ -26,10 +29,13 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Map(args) => map::run(args),
         Command::Report(args) => report::run(args),
         Command::Export(args) => export::run(args),
         Command::Chart(args) => chart::run(args),
         Command::Check(args) => check::run(args),
+        Command::Completions(args) => shell::completions(args),
+        Command::Man(args) => shell::man(args),
         Command::Impact(args) => impact::run(args)
             .map_err(Failure::from)
             .and_then(output::text),

@@ -4,16 +4,18 @@ use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+use peenpose::problem::{Source, render_warnings};
 use peenpose::record::Record;
+use peenpose::report::figure::Figure;
 use peenpose::report::{files, sheet};
-use peenpose::setup::Rejection;
+use peenpose::setup::{Rejection, Setup};
 
 /// Exit status of a full answer that fails a verdict.
 const FAILS: u8 = 1;
 /// The file of a result in its folder.
 pub const RESULT: &str = "result.json";
 /// Exit status of bad input or failure.
-const BAD_INPUT: u8 = 2;
+pub const BAD_INPUT: u8 = 2;
 
 /// Why a command gave no result.
 pub struct Failure(String);
@@ -39,14 +41,36 @@ impl Failure {
     }
 }
 
+/// Tells something on stderr that is neither result nor failure.
+pub fn note(message: &str) {
+    // Nothing can be done when even stderr is closed.
+    let _ = writeln!(std::io::stderr(), "note: {message}");
+}
+
+/// Shows on stderr what parses but can hardly be meant; tells how many warnings there are.
+pub fn warnings(setup: &Setup, source: &Source) -> usize {
+    let found = peenpose::warnings::of(setup, source);
+    let stderr = std::io::stderr();
+    let text = render_warnings(source, &found, is_colorful(&stderr));
+    // Nothing can be done when even stderr is closed.
+    let _ = stderr.lock().write_all(text.as_bytes());
+    found.len()
+}
+
 /// Shows a warning on stderr.
 pub fn warn(message: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {message}");
 }
 
-/// Prints a text to stdout. A reader that has gone away is not a failure.
+/// Prints a text to stdout.
 pub fn text(text: String) -> Result<ExitCode, Failure> {
-    match std::io::stdout().write_all(text.as_bytes()) {
+    bytes(text.as_bytes())
+}
+
+/// Prints bytes to stdout. A reader that has gone away is not a failure.
+pub fn bytes(bytes: &[u8]) -> Result<ExitCode, Failure> {
+    let mut stdout = std::io::stdout();
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::from(format!("cannot write the result: {error}")))
         }
@@ -126,6 +150,13 @@ pub fn write(folder: &Path, name: &str, contents: &[u8]) -> Result<(), Failure> 
     written().map(drop).map_err(|error: std::io::Error| {
         Failure::from(format!("cannot write {}: {error}", path.display()))
     })
+}
+
+/// Writes a figure as SVG and PNG.
+pub fn figure(folder: &Path, stem: &str, figure: &Figure) -> Result<(), Failure> {
+    let png = figure.png().map_err(|fault| fault.to_string())?;
+    write(folder, &format!("{stem}.svg"), figure.svg.as_bytes())?;
+    write(folder, &format!("{stem}.png"), &png)
 }
 
 /// A temporary file that may be read by whom the umask lets; usually nobody else may.

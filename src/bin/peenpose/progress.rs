@@ -62,8 +62,9 @@ impl Watcher {
         });
     }
 
-    /// Takes the bar away.
+    /// Takes the bar away. From here on Ctrl-C ends the program at once.
     pub fn finish(&self) {
+        self.stop.store(true, Ordering::Relaxed);
         self.bar.finish_and_clear();
     }
 }

@@ -3,9 +3,9 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use peenpose::record::{Circumstances, Record, WorkRecord};
+use peenpose::record::{Circumstances, FrontRecord, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, passing_windows, solve};
+use peenpose::solve::{Control, front, passing_windows, solve};
 use peenpose::units::{self, Dimension};
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
@@ -20,6 +20,9 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     use_threads(args.threads)?;
     output::prepare(args.out.as_deref())?;
     let (mut setup, source) = Setup::load(&args.file)?;
+    if !args.quiet {
+        output::warnings(&setup, &source);
+    }
     if let Some(accuracy) = &args.accuracy {
         setup.problem.accuracy = accuracy_of(accuracy)?;
     }
@@ -35,7 +38,14 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let solution = solve(&setup, &control);
     let setup = setup.as_asked();
     let windows = passing_windows(&setup, &solution);
+    let front = args
+        .pareto
+        .then(|| front(&setup, &solution.answers, &control));
+    let is_stopped = control.is_stopped();
     watcher.finish();
+    if is_stopped {
+        output::note("stopped: this is the best answer so far");
+    }
     let best = solution
         .answers
         .first()
@@ -45,13 +55,17 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let unknowns = fits.then(|| Unknowns::of(&setup, &best.choice)).flatten();
     let circumstances = Circumstances {
         source: &source,
-        status: solution.status.into(),
+        status: if is_stopped {
+            StatusRecord::Interrupted
+        } else {
+            solution.status.into()
+        },
         command: command(args, &setup),
         ladder: &solution.ladder,
         work: WorkRecord {
-            poses: solution.poses,
+            poses: solution.poses + front.as_ref().map_or(0, |front| front.poses),
             shots_per_pose: solution.shots_per_pose,
-            rays: solution.rays,
+            rays: solution.rays + front.as_ref().map_or(0, |front| front.rays),
             seconds: started.elapsed().as_secs_f64(),
         },
     };
@@ -64,6 +78,9 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         circumstances,
     )
     .ok_or("there is no contact to choose".to_owned())?;
+    if let Some(front) = &front {
+        record.front = FrontRecord::all(&setup, front);
+    }
     if args.out.is_some() {
         record = record.with_evidence(&setup, best);
     }
@@ -72,8 +89,9 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
 
 /// The command that gives the same answer again.
 fn command(args: &SolveArgs, setup: &Setup) -> String {
+    let pareto = if args.pareto { " --pareto" } else { "" };
     format!(
-        "peenpose solve {} --accuracy '{} %' --seed {}",
+        "peenpose solve {} --accuracy '{} %' --seed {}{pareto}",
         quoted(&args.file.display().to_string()),
         setup.problem.accuracy * 100.0,
         setup.problem.seed

@@ -1,11 +1,16 @@
 //! Figures, drawn from a chart or a record alone: SVG with texts, and PNG with the embedded font.
 //!
-//! This module is the only one that knows plotters, resvg and the ramps of colours.
+//! This module is the only one that knows plotters, resvg, and the crates for contours and colours.
 
 mod axis;
 mod effect;
+mod field;
+mod front;
 mod hits;
+mod labels;
+mod levels;
 mod linear;
+mod map;
 mod plot;
 mod png;
 mod pose;
@@ -16,8 +21,9 @@ mod style;
 pub(super) use axis::time;
 pub(super) use pose::curve_name;
 
+use super::map::{MAPS, MapView};
 use crate::chart::Chart;
-use crate::record::Record;
+use crate::record::{MapTerm, Record};
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,11 +44,20 @@ impl Figure {
     /// # Errors
     /// None is expected: figures are written into memory.
     pub fn of_chart(chart: &Chart) -> Result<Vec<Self>, FigureFault> {
-        Self::present([
-            ("pose", pose::svg(chart)),
-            ("search", search::svg(chart)),
-            ("effect", effect::svg(chart)),
-        ])
+        let drawn = [
+            Self::named("pose", pose::svg(chart)),
+            Self::named("search", search::svg(chart)),
+            Self::named("effect", effect::svg(chart)),
+        ];
+        drawn.into_iter().filter_map(Result::transpose).collect()
+    }
+
+    /// The figure of a map; `None` when it has no extent.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_map(view: &MapView, term: MapTerm) -> Result<Option<Self>, FigureFault> {
+        Self::named("map", map::svg(view, term))
     }
 
     /// The figures of a record, each if there is something to show in it.
@@ -50,26 +65,35 @@ impl Figure {
     /// # Errors
     /// None is expected: figures are written into memory.
     pub fn of_record(record: &Record) -> Result<Vec<Self>, FigureFault> {
-        let hits = record
-            .evidence
-            .as_ref()
-            .and_then(|evidence| hits::svg(record, evidence));
-        Self::present([("hits", hits)])
+        let evidence = record.evidence.as_ref();
+        let hits = Self::named(
+            "hits",
+            evidence.and_then(|evidence| hits::svg(record, evidence)),
+        );
+        let maps = evidence.into_iter().flat_map(|evidence| &evidence.maps);
+        let maps = MAPS.into_iter().zip(maps).map(|(name, map)| {
+            let view = MapView {
+                map,
+                problem: &record.problem,
+                answer: &record.best,
+                marks_settings: true,
+            };
+            Self::named(name, map::svg(&view, MapTerm::Total))
+        });
+        let front = Self::named("trade_off", front::svg(record));
+        let all = [hits].into_iter().chain(maps).chain([front]);
+        all.filter_map(Result::transpose).collect()
     }
 
-    /// What was drawn, by name.
-    fn present<const N: usize>(
-        drawn: [(&'static str, Option<Result<String, sheet::Fault>>); N],
-    ) -> Result<Vec<Self>, FigureFault> {
-        let present = drawn
-            .into_iter()
-            .filter_map(|(name, svg)| Some((name, svg?)));
-        present
-            .map(|(name, svg)| {
-                svg.map(|svg| Self { name, svg })
-                    .map_err(|fault| FigureFault::new(name, &fault))
-            })
-            .collect()
+    fn named(
+        name: &'static str,
+        svg: Option<Result<String, impl std::fmt::Display>>,
+    ) -> Result<Option<Self>, FigureFault> {
+        svg.map(|svg| match svg {
+            Ok(svg) => Ok(Self { name, svg }),
+            Err(fault) => Err(FigureFault::new(name, &fault)),
+        })
+        .transpose()
     }
 
     /// The figure as PNG.

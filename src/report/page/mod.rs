@@ -181,6 +181,7 @@ struct Parts {
     unknowns: Vec<Element>,
     objective: Vec<Element>,
     contacts: Vec<Element>,
+    trade_off: Vec<Element>,
     validity: Vec<Element>,
     model: Vec<Element>,
     reproduce: Vec<Element>,
@@ -202,6 +203,7 @@ impl Parts {
             unknowns: Element::of(sheet::unknowns::block(record)),
             objective: Element::of(sheet::objective::block(best)),
             contacts: Element::of(sheet::contacts::block(record)),
+            trade_off: Element::of(sheet::front::block(record)),
             validity: Element::of(sheet::closing::validity(record)),
             model: Element::of(sheet::model::block(record)),
             reproduce: Element::of_block(sheet::closing::reproduce(record)),
@@ -220,8 +222,14 @@ struct Pictures {
     hits: Vec<Drawing>,
     /// Where every verdict passes, over two settings.
     maps: Vec<Drawing>,
+    /// What can be had instead of the recommended settings.
+    trade_off: Vec<Drawing>,
     strips: Vec<Strip>,
 }
+
+const MAP_IN_WORDS: &str = "J over two settings, and where every verdict passes";
+const TRADE_OFF_IN_WORDS: &str =
+    "target error, tangential risk and rebound of settings of which none is better in all three";
 
 /// A figure in the page.
 struct Drawing {
@@ -248,15 +256,15 @@ impl Pictures {
              angle, N* and f* occurs",
             count(evidence.hits.points_m.len()),
         );
-        let (mut hits, mut maps) = (Vec::new(), Vec::new());
+        let (mut hits, mut maps, mut trade_off) = (Vec::new(), Vec::new(), Vec::new());
         for Figure { name, svg } in Figure::of_record(record)? {
-            if name == "hits" {
-                let words = hits_in_words.clone();
-                hits.push(Drawing { svg, words });
-            } else {
-                let words = "J over two settings, and where every verdict passes".into();
-                maps.push(Drawing { svg, words });
-            }
+            let (group, words) = match name {
+                "hits" => (&mut hits, hits_in_words.as_str()),
+                "trade_off" => (&mut trade_off, TRADE_OFF_IN_WORDS),
+                _ => (&mut maps, MAP_IN_WORDS),
+            };
+            let words = words.to_owned();
+            group.push(Drawing { svg, words });
         }
         Ok(Self {
             scene: for_script(&scene),
@@ -265,6 +273,7 @@ impl Pictures {
             still: Still::new(record, evidence).render()?,
             hits,
             maps,
+            trade_off,
             strips: evidence.places.iter().enumerate().map(Strip::new).collect(),
         })
     }

@@ -5,6 +5,7 @@ pub(super) mod cause;
 pub(super) mod closing;
 pub(super) mod contacts;
 pub(super) mod coverage;
+pub(super) mod front;
 pub(super) mod headline;
 pub(super) mod model;
 pub(super) mod objective;
@@ -23,7 +24,7 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 16] = [
+    let blocks: [Option<Block>; 17] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best),
@@ -36,6 +37,7 @@ pub fn sheet(record: &Record) -> String {
         unknowns::block(record),
         objective::block(best),
         contacts::block(record),
+        front::block(record),
         closing::validity(record),
         model::block(record),
         Some(closing::reproduce(record)),

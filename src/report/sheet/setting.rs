@@ -15,7 +15,7 @@ pub struct Setting {
     /// Units on the sheet for one in the record.
     scale: f64,
     /// Fewest decimals shown.
-    pub(super) decimals: usize,
+    pub decimals: usize,
     /// Its value in a record.
     of: fn(&SettingsRecord) -> f64,
 }

@@ -1,13 +1,15 @@
 //! Numbers as tables: comma-separated values with a heading, units in it.
 
 mod chart;
+mod front;
+mod map;
 mod record;
 
 use std::fmt::Display;
 use std::io;
 
 use crate::chart::Chart;
-use crate::record::Record;
+use crate::record::{MapRecord, Record};
 
 /// A table as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,6 +38,14 @@ impl Table {
     /// None is expected: tables are written to memory.
     pub fn of_record(record: &Record) -> io::Result<Vec<Self>> {
         record::all(record)
+    }
+
+    /// The table of a map: a row for each place.
+    ///
+    /// # Errors
+    /// None is expected: tables are written to memory.
+    pub fn of_map(map: &MapRecord) -> io::Result<Self> {
+        map::table("map", map)
     }
 }
 

@@ -3,11 +3,12 @@
 use std::fmt::Display;
 use std::io;
 
-use super::{Rows, Table, or_empty};
+use super::{Rows, Table, front, map, or_empty};
 use crate::record::{
     AnswerRecord, EvidenceRecord, HitsRecord, PlaceRecord, PoseRecord, ReboundsRecord,
     ReceiptRecord, Record, SpreadRecord, TargetRecord,
 };
+use crate::report::map::MAPS;
 
 pub(super) fn all(record: &Record) -> io::Result<Vec<Table>> {
     let mut tables = vec![
@@ -21,6 +22,12 @@ pub(super) fn all(record: &Record) -> io::Result<Vec<Table>> {
         tables.push(hits(&evidence.hits)?);
         tables.push(rebounds(evidence)?);
         tables.push(places(&evidence.places)?);
+        for (name, map) in MAPS.into_iter().zip(&evidence.maps) {
+            tables.push(map::table(name, map)?);
+        }
+    }
+    if !record.front.is_empty() {
+        tables.push(front::table(&record.front)?);
     }
     Ok(tables)
 }

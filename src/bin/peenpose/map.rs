@@ -1,0 +1,210 @@
+//! `peenpose map`: the objective or a term of it over two settings.
+
+use std::process::ExitCode;
+
+use peenpose::map::{Axis, Map};
+use peenpose::problem::Problem;
+use peenpose::problem::setting::{Choice, Range, Setting};
+use peenpose::record::{AnswerRecord, MapRecord, MapTerm, QuestionRecord};
+use peenpose::report::figure::Figure;
+use peenpose::report::table::Table;
+use peenpose::report::{self, MapView};
+use peenpose::setup::Setup;
+use peenpose::solve::{Answer, Control, solve};
+
+use crate::args::MapArgs;
+use crate::output::{self, Failure};
+use crate::progress::Watcher;
+use crate::settings::{self, contact_named, setting_named};
+use crate::solve::use_threads;
+
+/// Draws a map and writes it as SVG, PNG and CSV.
+pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
+    use_threads(args.threads)?;
+    let axes = [("--x", &args.x), ("--y", &args.y)];
+    let [x, y] = axes.map(|(option, text)| Asked::new(option, text));
+    let (x, y) = (x?, y?);
+    if x.setting == y.setting {
+        let name = x.setting.name();
+        return Err(format!("--y {name}: both axes are the same setting").into());
+    }
+    output::prepare(Some(&args.out))?;
+    let (mut setup, source) = Setup::load(&args.file)?;
+    if !args.quiet {
+        output::warnings(&setup, &source);
+    }
+    if let Some(seed) = args.seed {
+        setup.problem.seed = seed;
+    }
+    if let Some(name) = &args.contact {
+        let contact = contact_named(name, &setup.problem)
+            .map_err(|message| format!("--contact: {message}"))?;
+        setup.problem.settings.contact = vec![contact];
+    }
+    x.check(&setup.problem)?;
+    y.check(&setup.problem)?;
+    let varied = [x.setting, y.setting];
+    let (choice, is_known) = choice(args, &setup, varied)?;
+    let setup = setup.as_asked();
+    let axis = |asked: &Asked| -> Result<Axis, String> {
+        let range = asked.range(&setup.problem, &choice)?;
+        Ok(Axis::over(asked.setting, range, args.steps.into()))
+    };
+    let map = Map::of(&setup, &choice, axis(&x)?, axis(&y)?, args.shots as usize);
+    let answer = Answer {
+        choice,
+        evaluation: None,
+        verdicts: Vec::new(),
+        violation: 0.0,
+    };
+    let view = MapView {
+        map: &MapRecord::new(&setup, &map),
+        problem: &QuestionRecord::new(&setup.problem, &source),
+        answer: &AnswerRecord::new(&setup, &answer),
+        marks_settings: is_known,
+    };
+    write(args, &view, varied)
+}
+
+/// Writes the files and says what they show.
+fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCode, Failure> {
+    let mut terms = MapTerm::ALL.into_iter();
+    let term = terms.find(|term| term.name() == args.term);
+    let term = term.unwrap_or(MapTerm::Total);
+    let mut stem = format!("map-{}-{}", varied[0].name(), varied[1].name());
+    if term != MapTerm::Total {
+        stem += &format!("-{}", term.name());
+    }
+    let figure = Figure::of_map(view, term).map_err(|fault| fault.to_string())?;
+    let figure = figure.ok_or("the map has no extent".to_owned())?;
+    let table =
+        Table::of_map(view.map).map_err(|error| format!("cannot write the table: {error}"))?;
+    output::figure(&args.out, &stem, &figure)?;
+    output::write(&args.out, &format!("{stem}.csv"), table.csv.as_bytes())?;
+    let written = args.out.join(stem);
+    let text = report::map(view, term);
+    output::text(format!(
+        "{text}  {:<10} {}.svg, .png, .csv\n",
+        "written",
+        written.display()
+    ))
+}
+
+/// The settings round which the map is made, and whether those on its axes are known: as given, or
+/// found by a search where nothing is.
+fn choice(args: &MapArgs, setup: &Setup, varied: [Setting; 2]) -> Result<(Choice, bool), Failure> {
+    if args.set.is_empty() && args.from.is_none() {
+        return Ok((searched(args, setup)?, true));
+    }
+    let mut set = args.set.clone();
+    set.extend(args.contact.iter().map(|name| format!("contact={name}")));
+    settings::choice_round(varied, &set, args.from.as_deref(), &setup.problem)
+}
+
+/// The best settings.
+fn searched(args: &MapArgs, setup: &Setup) -> Result<Choice, Failure> {
+    let watcher = Watcher::new(args.quiet);
+    if !args.quiet {
+        output::note("no --from and no --set: searching for the best settings first");
+    }
+    let control = Control {
+        stop: &watcher.stop,
+        watch: &|progress| watcher.show(progress),
+        ..Control::default()
+    };
+    let solution = solve(setup, &control);
+    let is_stopped = control.is_stopped();
+    watcher.finish();
+    if is_stopped {
+        return Err("stopped while searching: there is no map".to_owned().into());
+    }
+    let best = solution.answers.first();
+    let best = best.ok_or("there is no contact to choose".to_owned())?;
+    Ok(best.choice)
+}
+
+/// An axis as it was asked for.
+struct Asked {
+    option: &'static str,
+    setting: Setting,
+    range: Option<Range>,
+}
+
+impl Asked {
+    /// Reads `NAME` or `NAME=FROM:TO`.
+    fn new(option: &'static str, text: &str) -> Result<Self, String> {
+        let wrong = |message: String| format!("{option} {text}: {message}");
+        let (name, range) = match text.split_once('=') {
+            Some((name, range)) => (name.trim(), Some(range)),
+            None => (text.trim(), None),
+        };
+        let setting = setting_named(name).map_err(wrong)?;
+        let range = range.map(|range| {
+            let example = example(setting);
+            let (from, to) = range
+                .split_once(':')
+                .ok_or_else(|| format!("expected NAME=FROM:TO, such as `{example}`"))?;
+            let value = |text: &str| settings::parse(setting, text.trim());
+            let (min, max) = (value(from)?, value(to)?);
+            if min < max {
+                Ok(Range { min, max })
+            } else {
+                Err(format!("`{from}` is not below `{to}`"))
+            }
+        });
+        Ok(Self {
+            option,
+            setting,
+            range: range.transpose().map_err(wrong)?,
+        })
+    }
+
+    /// What is wrong with it before the contact is known.
+    fn check(&self, problem: &Problem) -> Result<(), String> {
+        let own = problem.settings.range(self.setting);
+        if self.range.is_none() && own.is_some_and(Range::is_held) {
+            return Err(format!(
+                "{} {}: the file holds it at one value; say how far to draw, such as `{}`",
+                self.option,
+                self.setting.name(),
+                example(self.setting)
+            ));
+        }
+        Ok(())
+    }
+
+    /// The range that was asked for, or else the file's.
+    fn range(&self, problem: &Problem, choice: &Choice) -> Result<Range, String> {
+        let wrong = |message: &str| format!("{} {}: {message}", self.option, self.setting.name());
+        let contact = &problem.contacts[choice.contact];
+        let friction = contact.static_friction;
+        if self.setting == Setting::StaticFriction && friction.is_held() {
+            let message = format!(
+                "the friction of contact `{}` is fixed in the file, not a range",
+                contact.name
+            );
+            return Err(wrong(&message));
+        }
+        let own = problem.settings.range(self.setting).unwrap_or(friction);
+        let range = self.range.unwrap_or(own);
+        if self.setting == Setting::Incidence && range.min <= 0.0 && choice.aim_above <= 0.0 {
+            let message = "must be above 0 deg where aim_above is not above 0 mm";
+            return Err(wrong(message));
+        }
+        Ok(range)
+    }
+}
+
+/// How a range of a setting is written.
+fn example(setting: Setting) -> String {
+    let range = match setting {
+        Setting::Incidence => "40deg:80deg",
+        Setting::Azimuth => "-10deg:10deg",
+        Setting::Standoff => "6mm:20mm",
+        Setting::Speed => "5m/s:15m/s",
+        Setting::AimAlong | Setting::AimAcross => "-2mm:2mm",
+        Setting::AimAbove => "0mm:2mm",
+        Setting::StaticFriction => "0.05:0.3",
+    };
+    format!("{}={range}", setting.name())
+}

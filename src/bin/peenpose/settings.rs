@@ -1,0 +1,249 @@
+//! Settings on the command line: `--set`, `--from`, and names of settings.
+
+use std::path::Path;
+
+use peenpose::problem::Problem;
+use peenpose::problem::fault::nearest_name;
+use peenpose::problem::setting::{Choice, Setting};
+use peenpose::units::{self, Dimension};
+
+use crate::output::{self, Failure};
+
+/// The settings asked for: from a result, from `--set`, or held in the file.
+pub fn choice(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Choice, Failure> {
+    Ok(Known::of(set, from, problem)?.complete(problem)?)
+}
+
+/// The same where two settings vary: these need not be known. Also tells whether they are.
+pub fn choice_round(
+    varied: [Setting; 2],
+    set: &[String],
+    from: Option<&Path>,
+    problem: &Problem,
+) -> Result<(Choice, bool), Failure> {
+    let mut known = Known::of(set, from, problem)?;
+    let middle = problem.settings.middle();
+    let mut all_known = true;
+    for (value, setting) in known.values.iter_mut().zip(SETTINGS) {
+        if varied.contains(&setting) && value.is_none() {
+            *value = Some(setting.of(&middle));
+            all_known = false;
+        }
+    }
+    Ok((known.complete(problem)?, all_known))
+}
+
+/// The setting with a name.
+pub fn setting_named(name: &str) -> Result<Setting, String> {
+    let mut all = SETTINGS.into_iter();
+    let found = all.find(|setting| setting.name() == name);
+    found.ok_or_else(|| unknown("setting", name, &names().collect::<Vec<_>>()))
+}
+
+fn names() -> impl Iterator<Item = &'static str> {
+    SETTINGS.iter().map(|setting| setting.name())
+}
+
+/// Says that there is no such thing, and what there is.
+fn unknown(what: &str, name: &str, known: &[&str]) -> String {
+    let nearest = nearest_name(name, known.iter().copied()).map_or_else(String::new, |nearest| {
+        format!("; did you mean `{nearest}`?")
+    });
+    let known = known.join(", ");
+    format!("there is no {what} `{name}`; expected one of {known}{nearest}")
+}
+
+/// The best settings of a result.
+fn from_result(path: &Path, problem: &Problem) -> Result<Choice, Failure> {
+    let best = output::read_record(path)?.best;
+    Ok(Choice {
+        incidence: best.settings.incidence_deg.to_radians(),
+        azimuth: best.settings.azimuth_deg.to_radians(),
+        standoff: best.settings.standoff_m,
+        speed: best.settings.speed_m_s,
+        aim_along: best.settings.aim_along_m,
+        aim_across: best.settings.aim_across_m,
+        aim_above: best.settings.aim_above_m,
+        contact: contact_named(&best.contact, problem)?,
+        static_friction: best.contact_values.mu_s,
+    })
+}
+
+pub fn contact_named(name: &str, problem: &Problem) -> Result<usize, String> {
+    let contacts = &problem.contacts;
+    contacts
+        .iter()
+        .position(|contact| contact.name == name)
+        .ok_or_else(|| {
+            let names: Vec<&str> = contacts
+                .iter()
+                .map(|contact| contact.name.as_str())
+                .collect();
+            unknown("contact", name, &names)
+        })
+}
+
+/// The settings that are known so far.
+struct Known {
+    values: [Option<f64>; SETTINGS.len()],
+    contact: Option<usize>,
+    /// Whether `--set` says what the friction is.
+    friction_asked: bool,
+}
+
+const SETTINGS: [Setting; 8] = [
+    Setting::Incidence,
+    Setting::Azimuth,
+    Setting::Standoff,
+    Setting::Speed,
+    Setting::AimAlong,
+    Setting::AimAcross,
+    Setting::AimAbove,
+    Setting::StaticFriction,
+];
+
+impl Known {
+    /// What the file holds, a result says, and `--set` says, the later ones on top.
+    fn of(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Self, Failure> {
+        let mut known = Self::held(problem);
+        if let Some(path) = from {
+            known.take(&from_result(path, problem)?);
+        }
+        for text in set {
+            known.set(text, problem)?;
+        }
+        Ok(known)
+    }
+
+    /// What the file holds at one value.
+    fn held(problem: &Problem) -> Self {
+        let held = |setting| {
+            let range = problem.settings.range(setting)?;
+            range.is_held().then_some(range.min)
+        };
+        let contact = match problem.settings.contact[..] {
+            [only] => Some(only),
+            _ => None,
+        };
+        Self {
+            values: SETTINGS.map(held),
+            contact,
+            friction_asked: false,
+        }
+    }
+
+    fn take(&mut self, choice: &Choice) {
+        self.values = SETTINGS.map(|setting| Some(setting.of(choice)));
+        self.contact = Some(choice.contact);
+    }
+
+    /// Takes `name=value` from the command line.
+    fn set(&mut self, text: &str, problem: &Problem) -> Result<(), String> {
+        let (name, value) = text.split_once('=').ok_or_else(|| {
+            format!("--set {text}: expected NAME=VALUE, such as `incidence=60deg`")
+        })?;
+        let (name, value) = (name.trim(), value.trim());
+        if name == "contact" {
+            self.contact = Some(contact_named(value, problem)?);
+            return Ok(());
+        }
+        let Some(index) = SETTINGS.iter().position(|setting| setting.name() == name) else {
+            let names: Vec<&str> = names().chain(["contact"]).collect();
+            return Err(format!(
+                "--set {text}: {}",
+                unknown("setting", name, &names)
+            ));
+        };
+        let parsed =
+            parse(SETTINGS[index], value).map_err(|fault| format!("--set {text}: {fault}"))?;
+        self.values[index] = Some(parsed);
+        self.friction_asked |= SETTINGS[index] == Setting::StaticFriction;
+        Ok(())
+    }
+
+    fn complete(&self, problem: &Problem) -> Result<Choice, String> {
+        let mut missing: Vec<&str> = Vec::new();
+        let mut value = |index: usize| {
+            self.values[index].unwrap_or_else(|| {
+                missing.push(SETTINGS[index].name());
+                0.0
+            })
+        };
+        let mut choice = Choice {
+            incidence: value(0),
+            azimuth: value(1),
+            standoff: value(2),
+            speed: value(3),
+            aim_along: value(4),
+            aim_across: value(5),
+            aim_above: value(6),
+            contact: 0,
+            static_friction: 0.0,
+        };
+        match self.contact {
+            Some(contact) => choice.contact = contact,
+            None => missing.push("contact"),
+        }
+        let contact = &problem.contacts[choice.contact];
+        let friction = contact.static_friction;
+        if self.friction_asked && self.contact.is_some() && friction.is_held() {
+            return Err(format!(
+                "--set mu_s: the friction of contact `{}` is fixed in the file, not a range",
+                contact.name
+            ));
+        }
+        choice.static_friction = self.values[7].unwrap_or(friction.min);
+        if self.values[7].is_none() && !friction.is_held() {
+            missing.push("mu_s");
+        }
+        if self.values[0] == Some(0.0) && choice.aim_above <= 0.0 {
+            let message = "the incidence must be above 0 deg where aim_above is not above 0 mm";
+            return Err(message.into());
+        }
+        if missing.is_empty() {
+            return Ok(choice);
+        }
+        Err(format!(
+            "the file leaves {} open; say what to evaluate with --set {}=... or --from result.json",
+            missing.join(", "),
+            missing[0]
+        ))
+    }
+}
+
+/// Lengths, m, and speeds, m/s, beyond any workshop; problem files end there too.
+const FARTHEST: f64 = 1e3;
+const FASTEST: f64 = 1e4;
+
+/// A value of a setting, SI, in the range where it means something.
+pub fn parse(setting: Setting, text: &str) -> Result<f64, String> {
+    let (dimension, fits): (_, fn(f64) -> bool) = match setting {
+        Setting::Incidence => (Dimension::Angle, |x| {
+            (0.0..=std::f64::consts::FRAC_PI_2 + 1e-12).contains(&x)
+        }),
+        Setting::Azimuth => (Dimension::Angle, |_| true),
+        Setting::Standoff => (Dimension::Length, |x| x > 0.0 && x <= FARTHEST),
+        Setting::Speed => (Dimension::Speed, |x| x > 0.0 && x <= FASTEST),
+        Setting::AimAlong | Setting::AimAcross | Setting::AimAbove => {
+            (Dimension::Length, |x| x.abs() <= FARTHEST)
+        }
+        Setting::StaticFriction => {
+            return text
+                .parse()
+                .ok()
+                .filter(|value: &f64| value.is_finite() && *value >= 0.0)
+                .ok_or_else(|| format!("`{text}` is not a friction coefficient such as `0.2`"));
+        }
+    };
+    let value = units::parse(dimension, text).map_err(|fault| fault.to_string())?;
+    if fits(value) {
+        Ok(value)
+    } else {
+        Err(match setting {
+            Setting::Incidence => format!("`{text}` must be at least 0 deg and at most 90 deg"),
+            Setting::Standoff => format!("`{text}` must be above 0 mm and at most 1 km"),
+            Setting::Speed => format!("`{text}` must be above 0 m/s and at most 10000 m/s"),
+            _ => format!("`{text}` must be at most 1 km"),
+        })
+    }
+}

@@ -1,0 +1,142 @@
+//! The objective, its terms and the verdicts over two settings, all others held.
+
+mod standard;
+mod survey;
+
+pub use standard::standard_maps;
+
+use rayon::prelude::*;
+
+use crate::jet::{Deviate, Replicates, Samples, Stream};
+use crate::objective::Terms;
+use crate::problem::Problem;
+use crate::problem::setting::{Choice, Range, Setting};
+use crate::setup::Setup;
+use crate::solve::{clearance_violation, speed_scales_out};
+use crate::verdict::{Subject, Verdict};
+use survey::Survey;
+
+/// What two settings do while all others are held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// The lower axis.
+    pub x: Axis,
+    /// The left axis.
+    pub y: Axis,
+    /// Shots at each place, the same for all of them.
+    pub shots: usize,
+    /// What verdicts are given on.
+    pub subjects: Vec<Subject>,
+    /// Row by row, from the first y; within a row from the first x. `None` where the nozzle does
+    /// not fit.
+    pub cells: Vec<Option<Cell>>,
+}
+
+/// One axis of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The setting that varies.
+    pub setting: Setting,
+    /// Its values, SI.
+    pub values: Vec<f64>,
+}
+
+/// What one place of a map does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// The terms of the objective.
+    pub terms: Terms,
+    /// The subjects whose verdicts fail.
+    pub failing: Vec<Subject>,
+    /// Share of the first hits on target that stick; `None` where there is none.
+    pub share_sticking: Option<f64>,
+}
+
+impl Axis {
+    /// A setting over a range, both ends included.
+    pub fn over(setting: Setting, range: Range, steps: usize) -> Self {
+        let last = steps.saturating_sub(1).max(1) as f64;
+        let value = |step: usize| range.at(step as f64 / last);
+        Self {
+            setting,
+            values: (0..steps).map(value).collect(),
+        }
+    }
+}
+
+impl Map {
+    /// The map of two settings round a choice, on `shots` shots of the jet (one where all shots
+    /// are the same).
+    ///
+    /// Where the paths do not depend on the speed they are traced once for all of its values.
+    pub fn of(setup: &Setup, choice: &Choice, x: Axis, y: Axis, shots: usize) -> Self {
+        let deviates = common_shots(&setup.problem, shots);
+        let columns = x.values.len();
+        let place = |index: usize| {
+            let across = x.setting.with(choice, x.values[index % columns]);
+            y.setting.with(&across, y.values[index / columns])
+        };
+        let count = columns * y.values.len();
+        let shares_paths = speed_scales_out(setup, choice.contact);
+        let groups: Vec<Vec<usize>> = if shares_paths && x.setting == Setting::Speed {
+            let row = |first: usize| (first..first + columns).collect();
+            (0..count).step_by(columns.max(1)).map(row).collect()
+        } else if shares_paths && y.setting == Setting::Speed {
+            let column = |first: usize| (first..count).step_by(columns).collect();
+            (0..columns).map(column).collect()
+        } else {
+            (0..count).map(|index| vec![index]).collect()
+        };
+        let found: Vec<Vec<(usize, Option<Cell>)>> = groups
+            .into_par_iter()
+            .map(|group| cells_on_one_path(setup, &group, place, &deviates))
+            .collect();
+        let mut cells = vec![None; count];
+        for (index, cell) in found.into_iter().flatten() {
+            cells[index] = cell;
+        }
+        Self {
+            x,
+            y,
+            shots: deviates.len(),
+            subjects: subjects(setup),
+            cells,
+        }
+    }
+}
+
+/// The cells of places that differ in nothing but a speed on which no path depends.
+fn cells_on_one_path(
+    setup: &Setup,
+    group: &[usize],
+    place: impl Fn(usize) -> Choice,
+    shots: &[Deviate],
+) -> Vec<(usize, Option<Cell>)> {
+    let Some(&first) = group.first() else {
+        return Vec::new();
+    };
+    let choice = place(first);
+    if clearance_violation(setup, &choice).is_some() {
+        return group.iter().map(|&index| (index, None)).collect();
+    }
+    let survey = Survey::of(setup, &choice, shots);
+    let cell = |&index: &usize| (index, Some(survey.cell(setup, place(index).speed)));
+    group.iter().map(cell).collect()
+}
+
+/// The shots of every place: others than those that a search decides on.
+fn common_shots(problem: &Problem, shots: usize) -> Vec<Deviate> {
+    let count = if problem.has_one_ray() { 1 } else { shots };
+    let stream = Stream::Fresh(PURPOSE * Replicates::COUNT as u32);
+    Samples::new(problem, stream, count).deviates
+}
+
+/// Shots of windows are drawn for the same purpose: neither decides on the other.
+const PURPOSE: u32 = 1;
+
+/// What verdicts are given on in a problem.
+fn subjects(setup: &Setup) -> Vec<Subject> {
+    let nothing = Survey::default().counts(setup, 0.0);
+    let verdicts = Verdict::on(setup, &nothing);
+    verdicts.iter().map(|verdict| verdict.subject).collect()
+}

@@ -1,0 +1,65 @@
+//! The trade-off between target error, tangential risk and rebound, in a record.
+
+use serde::{Deserialize, Serialize};
+
+use super::answer::{ObjectiveRecord, SettingsRecord, subject_name};
+use crate::setup::Setup;
+use crate::solve::{Answer, Front};
+use crate::verdict::Verdict;
+
+/// One answer of the trade-off; none of the others is better in everything.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrontRecord {
+    /// Whether it is the recommended one.
+    pub recommended: bool,
+    /// Name of the contact.
+    pub contact: String,
+    /// Static friction.
+    pub mu_s: f64,
+    /// The settings.
+    pub settings: SettingsRecord,
+    /// The terms of the objective with their weights.
+    pub objective: ObjectiveRecord,
+    /// Goals and surfaces whose verdicts fail.
+    pub fails: Vec<String>,
+}
+
+impl FrontRecord {
+    /// The records of a front, from the least target error on.
+    pub fn all(setup: &Setup, front: &Front) -> Vec<Self> {
+        let answers = front.answers.iter().enumerate();
+        answers
+            .filter_map(|(index, answer)| {
+                Self::new(setup, answer, front.recommended == Some(index))
+            })
+            .collect()
+    }
+
+    fn new(setup: &Setup, answer: &Answer, recommended: bool) -> Option<Self> {
+        let choice = &answer.choice;
+        let contact = &setup.problem.contacts[choice.contact];
+        let failing = answer.verdicts.iter().filter(|verdict| !verdict.passes());
+        Some(Self {
+            recommended,
+            contact: contact.name.clone(),
+            mu_s: contact.at(choice.static_friction).static_friction,
+            settings: SettingsRecord::new(choice),
+            objective: ObjectiveRecord::new(answer.evaluation.as_ref()?),
+            fails: failing
+                .map(|verdict: &Verdict| subject_name(setup, verdict.subject))
+                .collect(),
+        })
+    }
+
+    /// Target error (normal impulse and misses), tangential risk and rebound, each with its
+    /// standard error.
+    pub fn risks(&self) -> [(f64, f64); 3] {
+        let it = &self.objective;
+        let [normal, tangential, rebound, miss] = it.term_standard_errors;
+        [
+            (it.normal_impulse + it.miss, normal.hypot(miss)),
+            (it.tangential_impulse, tangential),
+            (it.rebound, rebound),
+        ]
+    }
+}

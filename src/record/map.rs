@@ -1,0 +1,112 @@
+//! Maps in a record.
+
+use super::answer::subject_name;
+use super::evidence::{AxisRecord, CellRecord, MapRecord};
+use super::window::key_and_unit;
+use crate::map::{Axis, Cell, Map};
+use crate::objective::Terms;
+use crate::setup::Setup;
+
+/// How a cell says that the nozzle does not fit.
+const CLEARANCE: &str = "clearance";
+
+/// What can be shown of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapTerm {
+    /// J.
+    Total,
+    /// See [`Terms::normal_impulse`].
+    NormalImpulse,
+    /// See [`Terms::tangential_impulse`].
+    TangentialImpulse,
+    /// See [`Terms::rebound`].
+    Rebound,
+    /// See [`Terms::miss`].
+    Miss,
+}
+
+impl MapTerm {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Total,
+        Self::NormalImpulse,
+        Self::TangentialImpulse,
+        Self::Rebound,
+        Self::Miss,
+    ];
+
+    /// Its name on the command line and in records.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Total => "total",
+            Self::NormalImpulse => "normal_impulse",
+            Self::TangentialImpulse => "tangential_impulse",
+            Self::Rebound => "rebound",
+            Self::Miss => "miss",
+        }
+    }
+
+    /// Its value in a cell; `None` where the nozzle does not fit.
+    pub fn of(self, cell: &CellRecord) -> Option<f64> {
+        let terms = cell.terms?.map(f64::from);
+        Some(match self {
+            Self::Total => terms.iter().sum(),
+            Self::NormalImpulse => terms[0],
+            Self::TangentialImpulse => terms[1],
+            Self::Rebound => terms[2],
+            Self::Miss => terms[3],
+        })
+    }
+}
+
+impl MapRecord {
+    /// The record of a map.
+    pub fn new(setup: &Setup, map: &Map) -> Self {
+        let named = map.subjects.iter();
+        let mut subjects: Vec<String> = named.map(|&it| subject_name(setup, it)).collect();
+        let clearance = subjects.len() as u32;
+        subjects.push(CLEARANCE.into());
+        let cell = |cell: &Option<Cell>| match cell {
+            None => CellRecord {
+                terms: None,
+                fails: vec![clearance],
+                share_sticking: None,
+            },
+            Some(cell) => CellRecord {
+                terms: Some(rounded(&cell.terms)),
+                fails: (0..)
+                    .zip(&map.subjects)
+                    .filter(|(_, subject)| cell.failing.contains(subject))
+                    .map(|(index, _)| index)
+                    .collect(),
+                share_sticking: cell.share_sticking.map(|share| share as f32),
+            },
+        };
+        Self {
+            x: AxisRecord::new(&map.x),
+            y: AxisRecord::new(&map.y),
+            shots: map.shots,
+            subjects,
+            cells: map.cells.iter().map(cell).collect(),
+        }
+    }
+}
+
+fn rounded(terms: &Terms) -> [f32; 4] {
+    [
+        terms.normal_impulse as f32,
+        terms.tangential_impulse as f32,
+        terms.rebound as f32,
+        terms.miss as f32,
+    ]
+}
+
+impl AxisRecord {
+    fn new(axis: &Axis) -> Self {
+        let (setting, shown) = key_and_unit(axis.setting);
+        Self {
+            setting,
+            values: axis.values.iter().map(|&value| shown(value)).collect(),
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! What parses but can hardly be meant: all that the file alone and its scene tell.
+
+mod extent;
+mod sight;
+
+use crate::problem::Source;
+use crate::problem::warning::{self, Warning};
+use crate::setup::Setup;
+
+/// All warnings about a problem, in the order of its text.
+///
+/// ```
+/// use peenpose::{setup::Setup, warnings};
+/// let (setup, source) = Setup::load("problems/keyway.yaml".as_ref())?;
+/// assert_eq!(warnings::of(&setup, &source), []);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn of(setup: &Setup, source: &Source) -> Vec<Warning> {
+    let mut found = warning::warnings(&setup.problem);
+    found.extend(extent::warnings(setup));
+    found.extend(sight::warning(setup));
+    let mut placed: Vec<Warning> = found.into_iter().map(|it| it.in_text(source)).collect();
+    placed.sort_by_key(|warning| warning.at);
+    placed
+}

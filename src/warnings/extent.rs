@@ -1,0 +1,204 @@
+//! Sizes and distances that do not belong together.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::problem::equipment::{Body, Nozzle};
+use crate::problem::setting::{Range, Setting};
+use crate::problem::warning::{Warning, short};
+use crate::setup::Setup;
+
+/// Sizes that differ by more than this factor are not in the same unit.
+const ANOTHER_UNIT: f64 = 300.0;
+/// A part may be longer than a shot by this factor.
+const LONGEST_IN_SHOTS: f64 = 2e4;
+/// A standoff may be longer than the scene by this factor.
+const FARTHEST_IN_SCENES: f64 = 10.0;
+/// Share of its radius by which a shot may seem to reach into a wall where facets stand for arcs.
+const FACETS: f64 = 0.05;
+
+/// A box, m.
+type Bounds = (Point3<f64>, Point3<f64>);
+
+pub(super) fn warnings(setup: &Setup) -> Vec<Warning> {
+    let Some(bounds) = part_bounds(setup) else {
+        return Vec::new();
+    };
+    let Some(of_target) = bounds.iter().find(|(name, _)| is_targets(setup, name)) else {
+        return Vec::new();
+    };
+    let own = &of_target.1;
+    [unit(setup, own), patch_box(setup, own), room(setup)]
+        .into_iter()
+        .flatten()
+        .chain(parts(setup, &bounds, own))
+        .chain(standoff(setup, &bounds))
+        .chain(aims(setup))
+        .collect()
+}
+
+/// The box round each part, in the order of the file.
+fn part_bounds(setup: &Setup) -> Option<Vec<(String, Bounds)>> {
+    let parts = setup.problem.parts.iter();
+    parts
+        .map(|part| {
+            let own = format!("{}.", part.name);
+            let names = (0..).zip(setup.scene.surfaces());
+            let surfaces = names.filter(|(_, name)| name.starts_with(&own));
+            let corners = surfaces.flat_map(|(index, _)| setup.scene.surface_triangles(index));
+            Some((part.name.clone(), around(corners.flatten())?))
+        })
+        .collect()
+}
+
+fn around(points: impl Iterator<Item = Point3<f64>>) -> Option<Bounds> {
+    let boxes = points.map(|point| (point, point));
+    boxes.reduce(|(low, high), (a, b)| (low.inf(&a), high.sup(&b)))
+}
+
+fn longest_side((low, high): &Bounds) -> f64 {
+    (high - low).max()
+}
+
+fn is_targets(setup: &Setup, part: &str) -> bool {
+    let target = &setup.problem.target.surface;
+    target
+        .strip_prefix(part)
+        .is_some_and(|rest| rest.starts_with('.'))
+}
+
+fn unit(setup: &Setup, part: &Bounds) -> Option<Warning> {
+    let (side, shot) = (longest_side(part), 2.0 * setup.problem.shot.radius);
+    let times = side / shot;
+    let message = if times < 1.0 {
+        format!(
+            "the part with the target is {} mm long, smaller than the shot of {} mm",
+            short(side * 1e3),
+            short(shot * 1e3)
+        )
+    } else if times > LONGEST_IN_SHOTS {
+        format!(
+            "the part with the target is {} mm long, {} times the diameter of the shot",
+            short(side * 1e3),
+            short(times)
+        )
+    } else {
+        return None;
+    };
+    let help = "compare `lengths_in` with the drawing";
+    Some(Warning::new("lengths_in", message, help))
+}
+
+fn patch_box(setup: &Setup, part: &Bounds) -> Option<Warning> {
+    let side = longest_side(part);
+    let within = setup.target.within?;
+    (longest_side(&within) > ANOTHER_UNIT * side).then(|| {
+        let message = format!(
+            "is {} times as long as the part itself: it cuts nothing off",
+            short(longest_side(&within) / side)
+        );
+        let help = "its corners are in `lengths_in`; leave it out if all of the surface is meant";
+        Warning::new("target.within", message, help)
+    })
+}
+
+/// A shot that touches the aim point must not reach into a wall.
+fn room(setup: &Setup) -> Option<Warning> {
+    let radius = setup.problem.shot.radius;
+    let frame = &setup.target.frame;
+    let ball = Nozzle {
+        body: vec![Body::Ball { radius }],
+        clearance: 0.0,
+    };
+    let centre = frame.aim + frame.normal * radius;
+    let (gap, surface) = setup
+        .scene
+        .clearance(&ball, &centre, &-frame.normal, radius)?;
+    (gap < -FACETS * radius).then(|| {
+        let message = format!(
+            "a shot of {} mm cannot touch the aim point: `{}` is {} mm too near",
+            short(2.0 * radius * 1e3),
+            setup.scene.surfaces()[surface as usize],
+            short(-gap * 1e3),
+        );
+        let help = "take smaller shot, or aim farther away from the wall";
+        Warning::new("shot.radius", message, help)
+    })
+}
+
+/// Parts in another unit than the one with the target.
+fn parts(setup: &Setup, bounds: &[(String, Bounds)], own: &Bounds) -> Vec<Warning> {
+    let standing = |name: &str| {
+        let mut parts = setup.problem.parts.iter();
+        parts.any(|part| part.name == name && !part.on_nozzle)
+    };
+    let side = longest_side(own);
+    let others = bounds
+        .iter()
+        .filter(|(name, _)| standing(name) && !is_targets(setup, name));
+    others
+        .filter_map(|(name, other)| {
+            let times = longest_side(other) / side;
+            let gap = (other.0 - own.1)
+                .sup(&(own.0 - other.1))
+                .sup(&Vector3::zeros())
+                .norm();
+            let message = if !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&times) {
+                format!(
+                    "is {} times as long as the part with the target",
+                    short(times)
+                )
+            } else if gap > ANOTHER_UNIT * side.max(longest_side(other)) {
+                format!("lies {} m away from the part with the target", short(gap))
+            } else {
+                return None;
+            };
+            let help = "compare its lengths and `lengths_in`";
+            Some(Warning::new(format!("scene.{name}"), message, help))
+        })
+        .collect()
+}
+
+fn standoff(setup: &Setup, bounds: &[(String, Bounds)]) -> Option<Warning> {
+    let corners = bounds.iter().flat_map(|(_, (low, high))| [*low, *high]);
+    let scene = longest_side(&around(corners)?);
+    let farthest = setup.problem.settings.standoff.max;
+    (farthest > FARTHEST_IN_SCENES * scene).then(|| {
+        let message = format!(
+            "the exit may be {} mm away, {} times the length of the scene",
+            short(farthest * 1e3),
+            short(farthest / scene)
+        );
+        let help = "it counts from the aim point back to the exit of the nozzle";
+        Warning::new("settings.standoff", message, help)
+    })
+}
+
+/// Shifts of the aim point that leave the target altogether.
+fn aims(setup: &Setup) -> Vec<Warning> {
+    let frame = &setup.target.frame;
+    let axes = [
+        (Setting::AimAlong, frame.along),
+        (Setting::AimAcross, frame.across),
+    ];
+    axes.into_iter()
+        .filter_map(|(setting, axis)| {
+            let Range { min, max } = setup.problem.settings.range(setting)?;
+            let (pieces, _) = setup.target.cut_out(&setup.scene);
+            let points = pieces.into_iter().flatten();
+            let places = points.map(|point| axis.dot(&(point - frame.aim)));
+            let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| {
+                (ends.0.min(place), ends.1.max(place))
+            });
+            let slack = 1e-6 * (high - low);
+            (min > high + slack || max < low - slack).then(|| {
+                let message = format!(
+                    "moves the aim point off the target, which reaches from {} mm to {} mm this way",
+                    short(low * 1e3),
+                    short(high * 1e3)
+                );
+                let help = "shifts count from `target.aim`";
+                Warning::new(format!("settings.{}", setting.name()), message, help)
+            })
+        })
+        .collect()
+}
