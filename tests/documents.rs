@@ -95,6 +95,7 @@ fn run(folder: &Path, command: &str) -> Output {
     let output = Command::new("sh")
         .args(["-c", &with_built_programs(command)])
         .current_dir(folder)
+        .env("HOME", folder)
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
