@@ -154,13 +154,15 @@ fn follow(document: &str) -> (usize, usize) {
             _ => {}
         }
     }
-    compare_pictures(document, &folder.path().join("docs"));
+    for drawn in ["docs", "maps"] {
+        compare_pictures(document, &folder.path().join(drawn));
+    }
     (ran, compared)
 }
 
 fn compare_pictures(document: &str, drawn: &Path) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for entry in fs::read_dir(drawn).unwrap() {
+    for entry in fs::read_dir(drawn).into_iter().flatten() {
         let entry = entry.unwrap();
         if entry
             .path()
