@@ -9,21 +9,24 @@
 
 mod accuracy;
 mod answer;
+mod archive;
 mod control;
 mod front;
 mod judge;
 mod ladder;
 mod models;
 mod polish;
+mod risks;
 mod search;
 mod space;
 mod window;
 
 pub use answer::Answer;
 pub use control::{Control, Progress, Status};
-pub use front::{Front, Risks, front, risks};
+pub use front::{Front, front};
 pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
 pub use ladder::{Ladder, Rung};
+pub use risks::{Risks, risks};
 pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use rayon::prelude::*;
@@ -31,9 +34,9 @@ use rayon::prelude::*;
 use crate::jet::{Replicates, Samples, Stream};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
-use accuracy::{is_in_reach, least_objective, unsettled};
+use accuracy::{Claim, is_in_reach, least_objective, unsettled};
 use judge::Judge;
-use models::{Claim, Models};
+use models::Models;
 use search::{STAGES, Search, Stage};
 use space::Space;
 
