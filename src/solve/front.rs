@@ -7,6 +7,7 @@
 
 use rayon::prelude::*;
 
+use super::SCREENING_SHOTS;
 use super::answer::Answer;
 use super::archive::{Archive, dominates, not_dominated, spread_out};
 use super::control::{Control, Progress};
@@ -14,8 +15,7 @@ use super::judge::{Effort, Judge, Standing};
 use super::polish::Candidate;
 use super::risks::{Risks, risks};
 use super::search::{STAGES, Search};
-use super::{ANSWERS, SCREENING_SHOTS};
-use crate::jet::{Replicates, Samples, Stream};
+use crate::jet::{Replicates, Samples, Stream, purpose};
 use crate::objective::Terms;
 use crate::setup::Setup;
 
@@ -55,7 +55,7 @@ pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
         );
     });
     let judged = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
-    let fresh = Replicates::new(&setup.problem, ANSWERS, control.fresh_shots);
+    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
     let evaluated = judged.par_iter().map(|judged| {
         let candidate = Candidate {
             point: Vec::new(),

@@ -31,7 +31,7 @@ pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use rayon::prelude::*;
 
-use crate::jet::{Replicates, Samples, Stream};
+use crate::jet::{Replicates, Samples, Stream, purpose};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use accuracy::{Claim, is_in_reach, least_objective, unsettled};
@@ -57,9 +57,6 @@ pub struct Solution {
     pub rays: usize,
 }
 
-/// What the shots behind reported figures are drawn for.
-pub const ANSWERS: u32 = 0;
-
 const SCREENING_SHOTS: usize = 64;
 /// Up to so many shots every contact is refined for itself, beyond only those that could win, the
 /// best one first.
@@ -82,7 +79,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let effort = Effort::default();
     let mut models = Models::new(setup);
     let (mut searches, mut shots) = descend(&mut models, control, &effort);
-    let fresh = Replicates::new(&models.asked.problem, ANSWERS, control.fresh_shots);
+    let fresh = Replicates::new(&models.asked.problem, purpose::ANSWERS, control.fresh_shots);
     let asked = models.asked.clone();
     let answer = |search: &Search| Answer::of(&asked, search.best(), &fresh, &effort);
     let (mut claims, _) = agree(&mut models, &mut searches, shots, control, &effort);

@@ -3,11 +3,11 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use peenpose::jet::Replicates;
+use peenpose::jet::{Replicates, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{ANSWERS, Answer, Ladder, clearance_violation};
+use peenpose::solve::{Answer, Ladder, clearance_violation};
 use peenpose::units;
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
@@ -32,7 +32,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     }
     let setup = setup.as_asked();
     let choice = settings::choice(&args.set, args.from.as_deref(), &setup.problem)?;
-    let fresh = Replicates::new(&setup.problem, ANSWERS, args.shots as usize);
+    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
     let evaluation = peenpose::evaluate::evaluate(&setup, &choice, &fresh);
     let rays = evaluation.rays;
     let answer = Answer {
