@@ -16,20 +16,12 @@ use peenpose::verdict::Verdict;
 use crate::args::EvaluateArgs;
 use crate::output::{self, Failure, quoted};
 use crate::settings;
-use crate::solve::use_threads;
+use crate::start;
 
 /// Evaluates settings and reports what they do.
 pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
-    use_threads(args.threads)?;
-    output::prepare(args.out.as_deref())?;
-    let (mut setup, source) = Setup::load(&args.file)?;
-    if !args.quiet {
-        output::warnings(&setup, &source);
-    }
-    if let Some(seed) = args.seed {
-        setup.problem.seed = seed;
-    }
+    let (setup, source) = start::load(&args.start, &args.file, args.out.as_deref())?;
     let setup = setup.as_asked();
     let choice = settings::choice(&args.set, args.from.as_deref(), &setup.problem)?;
     let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
