@@ -6,9 +6,9 @@ use std::error::Error;
 use std::path::Path;
 
 use peenpose::evaluate::evaluate;
-use peenpose::jet::Replicates;
+use peenpose::jet::{Replicates, purpose};
 use peenpose::setup::Setup;
-use peenpose::solve::{ANSWERS, Control, clearance_violation, solve};
+use peenpose::solve::{Control, clearance_violation, solve};
 use peenpose::verdict::Verdict;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let best = solve(&setup, &Control::default()).answers[0].choice;
 
     // The same fresh shots at every angle, so that differences are not noise.
-    let shots = Replicates::new(&setup.problem, ANSWERS, 16_384);
+    let shots = Replicates::new(&setup.problem, purpose::ANSWERS, 16_384);
     println!("incidence_deg,fits,J,standard_error,mean_normal_impulse_N_s,passes");
     for incidence_deg in 55..=80 {
         let mut choice = best;

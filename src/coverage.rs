@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
-use crate::jet::{Replicate, Replicates};
+use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Choice;
 use crate::scene::patch::{Frame, Triangle};
@@ -20,8 +20,6 @@ use crate::trace::Tracer;
 
 /// Shots behind the densities.
 const SHOTS: usize = 1 << 18;
-/// Fresh shots with this purpose are independent of those of all else.
-const PURPOSE: u32 = 5;
 /// Cells into which a flat square target is cut.
 const CELLS: f64 = 64.0;
 /// Less than this share of a cell is too little to count hits on.
@@ -80,7 +78,7 @@ impl Coverage {
     /// What a choice of settings does; `None` when the problem does not ask for it.
     pub fn of(setup: &Setup, choice: &Choice) -> Option<Self> {
         let wish = setup.problem.coverage?;
-        let fresh = Replicates::without_rim(&setup.problem, PURPOSE, SHOTS);
+        let fresh = Replicates::without_rim(&setup.problem, purpose::COVERAGE, SHOTS);
         let samples = fresh.sets.len();
         let grid = Grid::of(setup);
         let areas = grid.areas(&setup.target.cut_out(&setup.scene).0);

@@ -12,15 +12,12 @@ pub use places::Place;
 pub use shapes::Shape;
 pub use shown::Shown;
 
-use crate::jet::{Pose, Replicates, Samples, Stream};
+use crate::jet::{Pose, Replicates, Samples, purpose};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
 /// Shots that a picture needs to show where they go.
 pub const SHOTS: usize = 16_384;
-
-/// Fresh shots with this purpose are independent of those that figures and searches are made of.
-const PURPOSE: u32 = 4;
 
 /// What a choice of settings looks like.
 #[derive(Clone, Debug)]
@@ -45,7 +42,7 @@ impl Evidence {
         } else {
             shots
         };
-        let stream = Stream::Fresh(PURPOSE * Replicates::COUNT as u32);
+        let stream = Replicates::stream(purpose::EVIDENCE, 0);
         let jet = Samples::new(&setup.problem, stream, shots);
         let pose = Pose::new(&setup.target.frame, choice);
         let shapes = shapes::all(setup, &pose);

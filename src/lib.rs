@@ -87,9 +87,10 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`precision`] | the two precisions that paths can be traced in |
 //! | [`units`] | `0.5 mm` to SI: the only conversions |
 //! | [`impact`] | one impact of a sphere on a surface: the contact laws |
-//! | [`problem`] | what was asked: problem files, checked, and their faults |
+//! | [`problem`] | what was asked: problem files, their schema, the library, and the faults of a check |
 //! | [`scene`] | what is there: walls, meshes, the target patch; rays and clearances |
 //! | [`setup`] | a problem together with its scene |
 //! | [`jet`] | what comes out of the nozzle: its pose, and the shots |
@@ -98,7 +99,7 @@
 //! | [`evaluate`] | what settings do, on shots that nothing was tuned on |
 //! | [`verdict`] | whether that passes, goal by goal |
 //! | [`unknowns`] | which of restitution and friction, where they are not known exactly, moves the result most |
-//! | [`solve`] | the search over settings, and how far each may drift |
+//! | [`solve`] | the search over settings, how far each may drift, and the trade-off |
 //! | [`map`] | the objective and the verdicts over two settings |
 //! | [`warnings`] | what parses but can hardly be meant |
 //! | [`validity`] | what the model leaves out at the answer |
@@ -106,7 +107,7 @@
 //! | [`evidence`] | what pictures of an answer are drawn from: shapes, flights, places |
 //! | [`record`] | the complete result, JSON both ways |
 //! | [`chart`] | speed against accuracy, measured on the problem at hand |
-//! | [`report`] | sheet, page, tables and figures, made from a record or a chart alone |
+//! | [`report`] | sheet, page, tables, figures and exports, made from a record or a chart alone |
 //!
 //! Everything is in SI units and radians except where a name says otherwise. `docs/model.md` holds
 //! the model with its equations, `docs/problem-file.md` every key of a problem file.

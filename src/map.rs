@@ -7,7 +7,7 @@ pub use standard::standard_maps;
 
 use rayon::prelude::*;
 
-use crate::jet::{Deviate, Replicates, Samples, Stream};
+use crate::jet::{Deviate, Replicates, Samples, purpose};
 use crate::objective::Terms;
 use crate::problem::Problem;
 use crate::problem::setting::{Choice, Range, Setting};
@@ -127,12 +127,9 @@ fn cells_on_one_path(
 /// The shots of every place: others than those that a search decides on.
 fn common_shots(problem: &Problem, shots: usize) -> Vec<Deviate> {
     let count = if problem.has_one_ray() { 1 } else { shots };
-    let stream = Stream::Fresh(PURPOSE * Replicates::COUNT as u32);
+    let stream = Replicates::stream(purpose::WINDOWS, 0);
     Samples::new(problem, stream, count).deviates
 }
-
-/// Shots of windows are drawn for the same purpose: neither decides on the other.
-const PURPOSE: u32 = 1;
 
 /// What verdicts are given on in a problem.
 fn subjects(setup: &Setup) -> Vec<Subject> {

@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use crate::evaluate::evaluate;
-use crate::jet::{Deviate, Replicate, Replicates};
+use crate::jet::{Deviate, Replicate, Replicates, purpose};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use crate::trace::Tracer;
@@ -56,8 +56,6 @@ pub struct Outcome {
 
 /// Shots behind each effect.
 const SHOTS: usize = 4096;
-/// What they are drawn for; answers and windows have the purposes before.
-const PURPOSE: u32 = 2;
 
 impl Unknowns {
     /// Evaluates both ends of what has a tolerance; `None` where nothing has one.
@@ -122,7 +120,7 @@ fn common_shots(setup: &Setup) -> Replicates {
     let mut problem = setup.problem.clone();
     problem.tolerance.restitution = 0.0;
     problem.tolerance.friction = 0.0;
-    Replicates::new(&problem, PURPOSE, SHOTS)
+    Replicates::new(&problem, purpose::UNKNOWNS, SHOTS)
 }
 
 fn with(shots: &Replicates, quantity: Quantity, change: f64) -> Replicates {

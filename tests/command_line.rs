@@ -1,10 +1,13 @@
 //! The program from outside: exit status, what goes to stdout and stderr, files, arguments.
 
+#[path = "common/program.rs"]
+mod program;
+
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use assert_cmd::Command;
+use program::Run;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -12,33 +15,8 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// What the program did.
-struct Run {
-    status: i32,
-    out: String,
-    messages: String,
-}
-
-impl Run {
-    fn json(&self) -> Value {
-        serde_json::from_str(&self.out).expect("JSON on stdout")
-    }
-}
-
 fn peenpose(arguments: &[&str]) -> Run {
-    let output = Command::new(env!("CARGO_BIN_EXE_peenpose"))
-        .args(arguments)
-        .current_dir(root())
-        .timeout(std::time::Duration::from_secs(300))
-        .output()
-        .unwrap();
-    let run = Run {
-        status: output.status.code().expect("it was not killed"),
-        out: String::from_utf8(output.stdout).unwrap(),
-        messages: String::from_utf8(output.stderr).unwrap(),
-    };
-    assert!(!run.messages.contains("panicked"), "{}", run.messages);
-    run
+    program::peenpose(arguments, root())
 }
 
 /// The run must be refused: status 2, nothing on stdout, all of `words` on stderr.

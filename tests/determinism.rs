@@ -1,21 +1,19 @@
 //! The same question gives the same answer, bit for bit, whatever the number of threads.
 
+#[path = "common/program.rs"]
+mod program;
+
 use std::path::Path;
 
-use assert_cmd::Command;
 use peenpose::jet::{Samples, Stream};
 use peenpose::setup::Setup;
 use serde_json::Value;
 
 fn record(file: &str, arguments: &[&str]) -> Value {
-    let output = Command::new(env!("CARGO_BIN_EXE_peenpose"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(["solve", file, "--json"])
-        .args(arguments)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{:?}", output.status);
-    let mut record: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let arguments = [&["solve", file, "--json"], arguments].concat();
+    let run = program::peenpose(arguments, Path::new(env!("CARGO_MANIFEST_DIR")));
+    assert_eq!(run.status, 0, "{}", run.messages);
+    let mut record = run.json();
     let seconds = record["work"]["seconds"].take();
     assert!(seconds.as_f64().unwrap() > 0.0);
     for effect in record["model"]["effects"].as_array_mut().unwrap() {

@@ -6,10 +6,10 @@
 use std::error::Error;
 
 use peenpose::evaluate::evaluate;
-use peenpose::jet::Replicates;
+use peenpose::jet::{Replicates, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::setup::Setup;
-use peenpose::solve::{ANSWERS, Control};
+use peenpose::solve::Control;
 
 use crate::common::fresh;
 use crate::common::known::Known;
@@ -91,7 +91,7 @@ fn coverage(setup: &mut Setup, choice: &Choice, intervals: u64, reference_shots:
     let reported: Vec<Mean> = (1..=intervals)
         .map(|seed| {
             setup.problem.seed = seed;
-            let fresh = Replicates::new(&setup.problem, ANSWERS, shots);
+            let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, shots);
             let evaluation = evaluate(setup, choice, &fresh);
             Mean {
                 value: evaluation.terms.total(),

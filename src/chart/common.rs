@@ -2,20 +2,21 @@
 
 use rayon::prelude::*;
 
-use super::sampling::{Purpose, SCRAMBLINGS, Sampling, stream};
+use super::sampling::{SCRAMBLINGS, Sampling};
+use crate::jet::{Replicates, purpose};
 use crate::objective::{Sums, Tally};
 use crate::problem::goal::Goals;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
 /// Shots towards the rim show rare harm, in which good answers differ, with less noise.
-pub const COMPARISON: (Purpose, Sampling) = (Purpose::Comparison, Sampling::SobolRim);
+pub const COMPARISON: (u32, Sampling) = (purpose::CHART_COMPARISON, Sampling::SobolRim);
 
 /// The sums of each scrambling (inner) for each choice (outer), on shots common to all choices.
 pub fn sums(
     setup: &Setup,
     choices: &[Choice],
-    (purpose, sampling): (Purpose, Sampling),
+    (purpose, sampling): (u32, Sampling),
     shots: usize,
 ) -> Vec<Vec<Sums>> {
     let goals = &setup.problem.goals;
@@ -23,7 +24,8 @@ pub fn sums(
     let sets: Vec<Vec<Sums>> = (0..SCRAMBLINGS)
         .into_par_iter()
         .map(|number| {
-            let samples = sampling.draw(&setup.problem, stream(purpose, number), each);
+            let stream = Replicates::stream(purpose, number as u32);
+            let samples = sampling.draw(&setup.problem, stream, each);
             let sums = |choice: &Choice| {
                 Tally::trace(setup, choice, choice.speed, &samples.deviates)
                     .sums(goals, choice.speed)

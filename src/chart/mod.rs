@@ -25,6 +25,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::jet::purpose;
 use crate::problem::Source;
 use crate::problem::fault::Fault;
 use crate::problem::setting::Choice;
@@ -32,7 +33,7 @@ use crate::record::SettingsRecord;
 use crate::setup::Setup;
 use crate::solve::solve;
 use common::{jackknife, objective, sums};
-use sampling::{Purpose, SCRAMBLINGS};
+use sampling::SCRAMBLINGS;
 
 /// Everything that was measured; all figures, tables and texts are made from it alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -160,7 +161,7 @@ fn reference(setup: &Setup, choice: &Choice, control: &Control) -> Reference {
     let sets = &sums(
         setup,
         &[*choice],
-        (Purpose::Reference, Sampling::Sobol),
+        (purpose::CHART_REFERENCE, Sampling::Sobol),
         shots,
     )[0];
     let (value, standard_error) = jackknife(sets.len(), |kept| objective(goals, sets, kept));

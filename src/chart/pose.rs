@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::control::Control;
-use super::sampling::{Purpose, Sampling, stream};
+use super::sampling::Sampling;
 use super::timing;
-use crate::jet::Deviate;
+use crate::jet::{Deviate, Replicates, purpose};
 use crate::objective::{Sums, Tally};
 use crate::problem::fault::Fault;
 use crate::problem::part::Shape;
@@ -189,7 +189,7 @@ fn curves_of(
         .take_while(|&shots| shots <= control.most_shots.max(FEWEST_SHOTS))
         .collect();
     let draw = |number: usize| {
-        let stream = stream(Purpose::Scatter, number);
+        let stream = Replicates::stream(purpose::CHART_SCATTER, number as u32);
         sampling.draw(&ways[0].setup.problem, stream, sizes[sizes.len() - 1])
     };
     let sets: Vec<Vec<Outcome>> = (0..control.replicates)

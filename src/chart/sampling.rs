@@ -32,18 +32,3 @@ impl Sampling {
 
 /// Independent scramblings behind a standard error.
 pub(super) const SCRAMBLINGS: usize = Replicates::COUNT;
-
-/// What fresh shots are drawn for; those of different purposes are independent.
-#[derive(Clone, Copy)]
-pub(super) enum Purpose {
-    // Purposes 0 and 1 belong to the answers and windows of a search.
-    Reference = 2,
-    Comparison = 3,
-    // The last, because it may take more streams than the others.
-    Scatter = 4,
-}
-
-/// One of the streams for a purpose.
-pub(super) fn stream(purpose: Purpose, number: usize) -> Stream {
-    Stream::Fresh(purpose as u32 * SCRAMBLINGS as u32 + number as u32)
-}

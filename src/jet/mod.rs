@@ -2,6 +2,7 @@
 
 mod point;
 mod pose;
+pub mod purpose;
 mod sample;
 
 pub use point::Stream;

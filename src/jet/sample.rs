@@ -98,8 +98,14 @@ impl Replicates {
     /// Number of scramblings.
     pub const COUNT: usize = 32;
 
+    /// One of the streams of fresh shots for a [`purpose`](super::purpose).
+    pub fn stream(purpose: u32, number: u32) -> Stream {
+        Stream::Fresh(purpose * Self::COUNT as u32 + number)
+    }
+
     /// Fresh shots of the jet, rounded up to a multiple of [`Self::COUNT`], and half as many on the
-    /// rim. Sets with different `purpose` are independent of each other and of every search.
+    /// rim. Sets for different [purposes](super::purpose) are independent of each other and of every
+    /// search.
     pub fn new(problem: &Problem, purpose: u32, shots: usize) -> Self {
         let each = shots.div_ceil(Self::COUNT).max(1);
         Self::of(problem, purpose, each, each.div_ceil(2))
@@ -123,7 +129,7 @@ impl Replicates {
         let sets = (0..Self::COUNT as u32)
             .into_par_iter()
             .map(|number| {
-                let stream = Stream::Fresh(purpose * Self::COUNT as u32 + number);
+                let stream = Self::stream(purpose, number);
                 let draw = |count: usize, on_rim| {
                     let shot = |index| weighted(problem, stream, index, on_rim, rim_share);
                     Samples {

@@ -4,10 +4,11 @@ use super::hits::Hits;
 use super::tally::Tally;
 use crate::jet::Deviate;
 use crate::precision::Real;
+use crate::problem::setting::Choice;
 use crate::scene::lanes::{LANES, Lane, components, padded};
 use crate::scene::patch::Patch;
 use crate::setup::Setup;
-use crate::trace::{End, Volley, Witness, truth};
+use crate::trace::{End, Tracer, Volley, Witness, truth};
 
 /// Builds a [`Tally`] from volleys of shots.
 pub(crate) struct Score<R> {
@@ -127,6 +128,26 @@ impl<R: Real> Score<R> {
         hits.normal.extend_from_slice(&normal[..count]);
         hits.tangential.extend_from_slice(&tangential[..count]);
         hits.weight.extend_from_slice(&weight[..count]);
+    }
+}
+
+impl Tally {
+    /// Traces shots that leave at `speed` times their own factor, m/s.
+    pub fn trace(setup: &Setup, choice: &Choice, speed: f64, shots: &[Deviate]) -> Self {
+        Self::trace_in::<f64>(setup, choice, speed, shots)
+    }
+
+    /// The same with paths in another precision.
+    pub fn trace_in<R: Real>(
+        setup: &Setup,
+        choice: &Choice,
+        speed: f64,
+        shots: &[Deviate],
+    ) -> Self {
+        let mut score = Score::<R>::new(setup, speed, shots.len());
+        let tracer = Tracer::new(setup, choice, speed);
+        tracer.fire(shots, &mut score, Score::end_volley);
+        score.finish()
     }
 }
 

@@ -1,14 +1,9 @@
 //! What the objective needs to know of the shots of one pose, and the best speed for them.
 
 use super::hits::{Hits, Moments, moments};
-use super::score::Score;
 use super::{Sums, Terms};
-use crate::jet::Deviate;
-use crate::precision::Real;
 use crate::problem::goal::Goals;
-use crate::problem::setting::{Choice, Range};
-use crate::setup::Setup;
-use crate::trace::Tracer;
+use crate::problem::setting::Range;
 
 /// What the objective needs to know of the shots of one pose, per unit of launch speed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,24 +27,6 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Traces shots that leave at `speed` times their own factor, m/s.
-    pub fn trace(setup: &Setup, choice: &Choice, speed: f64, shots: &[Deviate]) -> Self {
-        Self::trace_in::<f64>(setup, choice, speed, shots)
-    }
-
-    /// The same with paths in another precision.
-    pub fn trace_in<R: Real>(
-        setup: &Setup,
-        choice: &Choice,
-        speed: f64,
-        shots: &[Deviate],
-    ) -> Self {
-        let mut score = Score::<R>::new(setup, speed, shots.len());
-        let tracer = Tracer::new(setup, choice, speed);
-        tracer.fire(shots, &mut score, Score::end_volley);
-        score.finish()
-    }
-
     /// The tally of several sets of shots together.
     pub fn join(parts: Vec<Self>) -> Self {
         let mut all = Self::default();

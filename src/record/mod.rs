@@ -11,12 +11,12 @@ mod library;
 mod map;
 mod model;
 mod question;
+mod receipt;
 mod unknowns;
 mod window;
 
 pub use answer::{
-    AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, ReceiptRecord, SettingsRecord,
-    SpreadRecord, TargetRecord, VerdictRecord,
+    AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, SettingsRecord, VerdictRecord,
 };
 pub use coverage::{CoverageRecord, DensityRecord};
 pub use evidence::{
@@ -28,6 +28,7 @@ pub use library::{LibraryContactRecord, MediumRecord, OriginRecord};
 pub use map::MapTerm;
 pub use model::{ModelRecord, RungRecord};
 pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use receipt::{ReceiptRecord, SpreadRecord, TargetRecord};
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,
 };

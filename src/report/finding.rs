@@ -1,8 +1,7 @@
 //! What a chart shows, in a sentence each.
 
 use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches, Walls};
-use crate::report::figure::time;
-use crate::report::number::{Scale, count, plain};
+use crate::report::number::{Scale, count, plain, time};
 use crate::report::series::Series;
 
 /// How the ways to draw shots and to model walls compare, at the middle of all errors seen.

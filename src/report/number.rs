@@ -109,6 +109,17 @@ pub fn count(value: usize) -> String {
     text
 }
 
+/// A time with its unit: `100 µs`.
+pub fn time(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s < 0.99e-6 => (s * 1e9, "ns"),
+        s if s < 0.99e-3 => (s * 1e6, "µs"),
+        s if s < 0.99 => (s * 1e3, "ms"),
+        s => (s, "s"),
+    };
+    format!("{} {unit}", plain(value))
+}
+
 /// `verdict`, or `verdicts` for any number but one.
 pub fn plural(number: usize, noun: &str) -> String {
     if number == 1 {
@@ -195,6 +206,13 @@ mod tests {
     fn impulses_are_in_micronewton_seconds() {
         assert_eq!(impulse(3.981_214_874_978_531e-5), "39.8");
         assert_eq!(impulse_asked(4e-5), "40 uN.s");
+    }
+
+    #[test]
+    fn times_carry_their_unit() {
+        assert_eq!(time(1e-4), "100 µs");
+        assert_eq!(time(1e-3), "1 ms");
+        assert_eq!(time(10.0), "10 s");
     }
 
     #[test]

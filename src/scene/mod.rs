@@ -10,11 +10,13 @@ mod form;
 pub mod lanes;
 pub mod mesh;
 pub mod mesh_file;
+mod moving;
 mod part;
 pub mod patch;
 mod prism;
 pub mod profile;
 pub mod ray;
+pub mod rays;
 pub mod stand;
 mod start;
 pub mod tessellate;
@@ -27,9 +29,10 @@ use crate::precision::{Real, along, scaled, unit};
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::Fault;
 use crate::problem::part::Part;
-use lanes::{Hits, Rays, components, padded, put};
+use lanes::{components, padded, put};
 use part::{BuiltPart, Fronts, Geometry};
 use ray::{Hit, Ray, Spot};
+use rays::{Hits, Rays};
 use stand::Stand;
 
 /// Two points nearer than this share of the scene's size count as one.
@@ -218,7 +221,7 @@ impl Scene {
             if !part.on_nozzle {
                 part.cross(index, rays, hits);
             } else if let Some(stands) = &rays.stands {
-                stand::cross(part, index, rays, stands, hits);
+                moving::cross(part, index, rays, stands, hits);
             }
         }
         let lift = R::of(LIFT * SLACK * R::COARSENESS * self.size);

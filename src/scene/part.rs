@@ -4,12 +4,13 @@ use nalgebra::Vector3;
 
 use super::Walls;
 use super::facets::Facets;
-use super::lanes::{Hits, Rays, put};
+use super::lanes::put;
 use super::mesh::Mesh;
 use super::mesh_file::{self, MeshWarning};
 use super::prism::Prism;
 use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
+use super::rays::{Hits, Rays};
 use super::tessellate;
 use crate::precision::Real;
 use crate::problem::fault::Fault;

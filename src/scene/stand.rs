@@ -2,11 +2,9 @@
 //!
 //! Such parts are kept in the frame of the nozzle: rays are taken there, and normals back.
 
-use multiversion::multiversion;
 use nalgebra::{Point3, Vector3};
 
-use super::lanes::{Hits, LANES, Lane, Rays, Spots, components, padded, put};
-use super::part::BuiltPart;
+use super::lanes::{LANES, Lane, components, put};
 use super::ray::Ray;
 use crate::precision::{Real, Triple, along, dot, scaled};
 
@@ -49,12 +47,12 @@ impl Stand<f64> {
 
 impl<R: Real> Stand<R> {
     #[inline(always)]
-    fn point_there(&self, point: Triple<R>) -> Triple<R> {
+    pub(super) fn point_there(&self, point: Triple<R>) -> Triple<R> {
         self.vector_there(along(point, self.origin, -R::ONE))
     }
 
     #[inline(always)]
-    fn vector_there(&self, vector: Triple<R>) -> Triple<R> {
+    pub(super) fn vector_there(&self, vector: Triple<R>) -> Triple<R> {
         let [x, y, z] = self.axes;
         [dot(x, vector), dot(y, vector), dot(z, vector)]
     }
@@ -92,7 +90,7 @@ impl<R: Real> Stands<R> {
     }
 
     #[inline(always)]
-    fn at(&self, index: usize) -> Stand<R> {
+    pub(super) fn at(&self, index: usize) -> Stand<R> {
         let [x, y, z] = &self.axes;
         Stand {
             axes: [
@@ -102,62 +100,5 @@ impl<R: Real> Stands<R> {
             ],
             origin: components(&self.origin, index),
         }
-    }
-
-    /// Rays of the scene, each as it is in the frame of its own nozzle.
-    #[inline(always)]
-    fn rays_there(&self, rays: &Rays<R>) -> Rays<R> {
-        let mut there = Rays {
-            count: rays.count,
-            are_spheres: rays.are_spheres,
-            radius: rays.radius,
-            leaving: rays.leaving.clone(),
-            ..Rays::none()
-        };
-        for i in 0..padded(rays.count) {
-            let stand = self.at(i);
-            let origin = stand.point_there(components(&rays.origin, i));
-            let direction = stand.vector_there(components(&rays.direction, i));
-            put(&mut there.origin, i, origin);
-            put(&mut there.direction, i, direction);
-        }
-        there
-    }
-}
-
-/// The part of no ray.
-const NO_PART: u32 = u32::MAX;
-
-/// Takes the first crossings with a part that moves with the nozzle, where they are nearer than
-/// what the rays have hit so far.
-///
-/// A function of its own, so that scenes without such parts are traced as fast as ever.
-#[multiversion(targets(
-    "x86_64+avx+avx2+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+bmi1+bmi2+fma",
-    "x86_64+avx+avx2+bmi1+bmi2+fma"
-))]
-pub(super) fn cross<R: Real>(
-    part: &BuiltPart,
-    index: u32,
-    rays: &Rays<R>,
-    stands: &Stands<R>,
-    hits: &mut Hits<R>,
-) {
-    let there = stands.rays_there(rays);
-    let mut met = Hits {
-        distance: hits.distance,
-        spots: Spots {
-            part: [NO_PART; LANES],
-            ..Spots::none()
-        },
-        ..Hits::none()
-    };
-    part.cross(index, &there, &mut met);
-    for i in (0..rays.count).filter(|&i| met.spots.part[i] == index) {
-        let normal = stands.at(i).vector_back(components(&met.normal, i));
-        hits.distance[i] = met.distance[i];
-        hits.surface[i] = met.surface[i];
-        hits.spots.set(i, met.spots.at(i));
-        put(&mut hits.normal, i, normal);
     }
 }

@@ -1,10 +1,13 @@
 //! When the answer is good enough.
 
 use super::answer::Answer;
-use super::models::Claim;
 use super::search::Search;
 use crate::problem::Problem;
 use crate::problem::goal::Goals;
+
+/// J of a candidate with the model that is searched and with the one that is asked for; `None`
+/// where the nozzle does not fit.
+pub(super) type Claim = Option<(f64, f64)>;
 
 /// Least J over all contacts; infinite while the nozzle has fitted nowhere.
 pub(super) fn least_objective(searches: &[Search]) -> f64 {

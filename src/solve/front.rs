@@ -5,24 +5,19 @@
 //! pose that it judges on the way is kept. What is not dominated among these, spread over the whole
 //! front, is evaluated on fresh shots; what stays apart by more than its standard error is reported.
 
-mod archive;
-
 use rayon::prelude::*;
 
+use super::SCREENING_SHOTS;
 use super::answer::Answer;
+use super::archive::{Archive, dominates, not_dominated, spread_out};
 use super::control::{Control, Progress};
 use super::judge::{Effort, Judge, Standing};
 use super::polish::Candidate;
+use super::risks::{Risks, risks};
 use super::search::{STAGES, Search};
-use super::{ANSWERS, SCREENING_SHOTS};
-use crate::jet::{Replicates, Samples, Stream};
+use crate::jet::{Replicates, Samples, Stream, purpose};
 use crate::objective::Terms;
 use crate::setup::Setup;
-pub(super) use archive::Archive;
-use archive::{dominates, not_dominated, spread_out};
-
-/// Target error, tangential risk and rebound: each a part of J.
-pub type Risks = [f64; 3];
 
 /// What can be had.
 #[derive(Clone, Debug)]
@@ -44,15 +39,6 @@ const MOST_SHOWN: usize = 12;
 /// Standard errors beyond which two risks differ.
 const CONFIDENCE: f64 = 2.0;
 
-/// Target error (normal impulse and misses), tangential risk and rebound.
-pub fn risks(terms: &Terms) -> Risks {
-    [
-        terms.normal_impulse + terms.miss,
-        terms.tangential_impulse,
-        terms.rebound,
-    ]
-}
-
 /// The front round answers that a search has found, the recommended one first.
 pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
     let effort = Effort::default();
@@ -69,7 +55,7 @@ pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
         );
     });
     let judged = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
-    let fresh = Replicates::new(&setup.problem, ANSWERS, control.fresh_shots);
+    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
     let evaluated = judged.par_iter().map(|judged| {
         let candidate = Candidate {
             point: Vec::new(),

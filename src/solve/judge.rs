@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::front::{Archive, Risks};
+use super::archive::Archive;
+use super::risks::Risks;
 use crate::jet::{Deviate, Pose};
 use crate::objective::{Tally, Terms};
 use crate::problem::setting::Choice;

@@ -9,31 +9,34 @@
 
 mod accuracy;
 mod answer;
+mod archive;
 mod control;
 mod front;
 mod judge;
 mod ladder;
 mod models;
 mod polish;
+mod risks;
 mod search;
 mod space;
 mod window;
 
 pub use answer::Answer;
 pub use control::{Control, Progress, Status};
-pub use front::{Front, Risks, front, risks};
+pub use front::{Front, front};
 pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
 pub use ladder::{Ladder, Rung};
+pub use risks::{Risks, risks};
 pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use rayon::prelude::*;
 
-use crate::jet::{Replicates, Samples, Stream};
+use crate::jet::{Replicates, Samples, Stream, purpose};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
-use accuracy::{is_in_reach, least_objective, unsettled};
+use accuracy::{Claim, is_in_reach, least_objective, unsettled};
 use judge::Judge;
-use models::{Claim, Models};
+use models::Models;
 use search::{STAGES, Search, Stage};
 use space::Space;
 
@@ -53,9 +56,6 @@ pub struct Solution {
     /// Rays cast.
     pub rays: usize,
 }
-
-/// What the shots behind reported figures are drawn for.
-pub const ANSWERS: u32 = 0;
 
 const SCREENING_SHOTS: usize = 64;
 /// Up to so many shots every contact is refined for itself, beyond only those that could win, the
@@ -79,7 +79,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let effort = Effort::default();
     let mut models = Models::new(setup);
     let (mut searches, mut shots) = descend(&mut models, control, &effort);
-    let fresh = Replicates::new(&models.asked.problem, ANSWERS, control.fresh_shots);
+    let fresh = Replicates::new(&models.asked.problem, purpose::ANSWERS, control.fresh_shots);
     let asked = models.asked.clone();
     let answer = |search: &Search| Answer::of(&asked, search.best(), &fresh, &effort);
     let (mut claims, _) = agree(&mut models, &mut searches, shots, control, &effort);

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::accuracy::{is_in_reach, least_objective};
+use super::accuracy::{Claim, is_in_reach, least_objective};
 use super::control::Control;
 use super::judge::Effort;
 use super::ladder::{Ladder, fewer, objective};
@@ -107,7 +107,3 @@ impl<'a> Models<'a> {
         }
     }
 }
-
-/// J of a candidate with the model that is searched and with the one that is asked for; `None`
-/// where the nozzle does not fit.
-pub(super) type Claim = Option<(f64, f64)>;

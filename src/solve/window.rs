@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::Solution;
 use super::judge::clearance_violation;
 use crate::evaluate::evaluate;
-use crate::jet::Replicates;
+use crate::jet::{Replicates, purpose};
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
 use crate::verdict::{Subject, Verdict};
@@ -60,12 +60,10 @@ pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
         .filter(|verdict| verdict.passes())
         .map(|verdict| verdict.subject)
         .collect();
-    let fresh = Replicates::without_rim(&setup.problem, WINDOWS, WINDOW_SHOTS);
+    let fresh = Replicates::without_rim(&setup.problem, purpose::WINDOWS, WINDOW_SHOTS);
     windows(setup, &best.choice, &passing, &fresh)
 }
 
-/// What the shots behind windows are drawn for; answers are purpose 0.
-const WINDOWS: u32 = 1;
 /// Shots behind each verdict of a window.
 const WINDOW_SHOTS: usize = 4096;
 

@@ -10,7 +10,8 @@ use super::{End, MOST_DEFLECTIONS, Tracer, energy, rough};
 use crate::impact::{Coefficients, Contact, Friction, collide};
 use crate::jet::Deviate;
 use crate::precision::{Real, Triple, along, dot, unit};
-use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
+use crate::scene::lanes::{LANES, Lane, components, padded, put};
+use crate::scene::rays::{Hits, Rays};
 use crate::scene::stand::Stands;
 
 /// Up to [`LANES`] shots in flight, side by side.

@@ -1,37 +1,22 @@
 //! Bad input through the program: exit status 2 (or 1 where the question is sound but has no
 //! answer), a message that names the place, and never a panic.
 
+#[path = "../common/program.rs"]
+mod program;
+
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
-use serde_json::Value;
+use program::Run;
 use tempfile::TempDir;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// What the program did.
-struct Run {
-    status: i32,
-    out: String,
-    messages: String,
-}
-
 fn peenpose(arguments: &[&str], path: &Path) -> Run {
-    let output = Command::new(env!("CARGO_BIN_EXE_peenpose"))
-        .args(arguments)
-        .arg(path)
-        .timeout(std::time::Duration::from_secs(120))
-        .output()
-        .unwrap();
-    let run = Run {
-        status: output.status.code().expect("it was not killed"),
-        out: String::from_utf8(output.stdout).unwrap(),
-        messages: String::from_utf8(output.stderr).unwrap(),
-    };
-    assert!(!run.messages.contains("panicked"), "{}", run.messages);
-    run
+    let arguments = arguments.iter().map(OsStr::new);
+    program::peenpose(arguments.chain([path.as_os_str()]), root())
 }
 
 /// A folder with a problem file and the meshes beside it.
@@ -416,7 +401,7 @@ fn a_nozzle_that_fits_nowhere_is_an_answer() {
     let out = folder.folder.path().join("results");
     let run = peenpose(&["solve", "--json", "--out", out.to_str().unwrap()], &path);
     assert_eq!(run.status, 1, "{}", run.messages);
-    let record: Value = serde_json::from_str(&run.out).unwrap();
+    let record = run.json();
     assert_eq!(record["status"], "no_feasible_pose");
     assert_eq!(record["choices"].as_array().unwrap().len(), 3);
     for answer in record["choices"].as_array().unwrap() {

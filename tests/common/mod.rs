@@ -1,4 +1,4 @@
-//! Problems and helpers that several tests share.
+//! Problems and what else several tests share.
 #![allow(dead_code)]
 
 use nalgebra::{Point3, Vector3};

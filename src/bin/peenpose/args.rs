@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 use peenpose::record::MapTerm;
 
 use crate::impact::ImpactArgs;
 use crate::init::Template;
+use crate::start::StartArgs;
 
 /// Finds nozzle settings for precision shot peening deep inside keyways, bores and slots.
 #[derive(Parser)]
@@ -177,15 +178,8 @@ pub struct SolveArgs {
     /// Show the trade-off between target error, tangential risk and rebound, too
     #[arg(long)]
     pub pareto: bool,
-    /// Seed of all samples; the file's by default
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
-    /// Threads; all cores by default. The answer does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
-    /// No progress bar, no warnings
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub start: StartArgs,
 }
 
 /// Arguments of `evaluate`.
@@ -202,18 +196,11 @@ pub struct EvaluateArgs {
     /// Number of shots
     #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub shots: u32,
-    /// Seed of all samples; the file's by default
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
-    /// Threads; all cores by default. The answer does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub start: StartArgs,
     /// Print JSON instead of the sheet
     #[arg(long)]
     pub json: bool,
-    /// No warnings
-    #[arg(long)]
-    pub quiet: bool,
     /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -232,7 +219,7 @@ pub struct MapArgs {
     pub y: String,
     /// What is drawn
     #[arg(long, default_value = "total", value_parser = terms())]
-    pub term: String,
+    pub term: MapTerm,
     /// Hold a setting, such as `standoff=8mm`; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
@@ -248,22 +235,18 @@ pub struct MapArgs {
     /// Shots at each place
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub shots: u32,
-    /// Seed of all samples; the file's by default
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
-    /// Threads; all cores by default. The map does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
-    /// No progress bar, no warnings
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub start: StartArgs,
     /// Write the map as SVG, PNG and CSV into this folder
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 }
 
-fn terms() -> PossibleValuesParser {
-    MapTerm::ALL.map(MapTerm::name).into()
+fn terms() -> impl TypedValueParser<Value = MapTerm> {
+    PossibleValuesParser::new(MapTerm::ALL.map(MapTerm::name)).try_map(|name| {
+        let mut terms = MapTerm::ALL.into_iter();
+        terms.find(|term| term.name() == name).ok_or("no such term")
+    })
 }
 
 /// Arguments of `report`.
@@ -302,15 +285,8 @@ pub struct ChartArgs {
     /// Searches with seeds of their own at each speed
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=100))]
     pub seeds: u16,
-    /// Seed of all samples; the file's by default
-    #[arg(long, value_name = "N")]
-    pub seed: Option<u64>,
-    /// Threads; all cores by default. Only times depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
-    /// No progress bar, no warnings
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub start: StartArgs,
 }
 
 /// Arguments of `check`.

@@ -12,22 +12,14 @@ use peenpose::setup::Setup;
 use crate::args::ChartArgs;
 use crate::output::{self, Failure, quoted};
 use crate::progress::Watcher;
-use crate::solve::use_threads;
+use crate::start;
 
 /// Measures a problem file and writes figures, tables and a text.
 pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
-    use_threads(args.threads)?;
     let beside = beside(&args.beside)?;
-    output::prepare(Some(&args.out))?;
-    let (mut setup, source) = Setup::load(&args.file)?;
-    if !args.quiet {
-        output::warnings(&setup, &source);
-    }
-    if let Some(seed) = args.seed {
-        setup.problem.seed = seed;
-    }
+    let (setup, source) = start::load(&args.start, &args.file, Some(&args.out))?;
     let setup = setup.as_asked();
-    let watcher = Watcher::new(args.quiet);
+    let watcher = Watcher::new(args.start.quiet);
     let control = Control {
         most_shots: args.most_shots as usize,
         seeds: args.seeds.into(),

@@ -3,11 +3,11 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use peenpose::jet::Replicates;
+use peenpose::jet::{Replicates, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{ANSWERS, Answer, Ladder, clearance_violation};
+use peenpose::solve::{Answer, Ladder, clearance_violation};
 use peenpose::units;
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
@@ -16,23 +16,15 @@ use peenpose::verdict::Verdict;
 use crate::args::EvaluateArgs;
 use crate::output::{self, Failure, quoted};
 use crate::settings;
-use crate::solve::use_threads;
+use crate::start;
 
 /// Evaluates settings and reports what they do.
 pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
-    use_threads(args.threads)?;
-    output::prepare(args.out.as_deref())?;
-    let (mut setup, source) = Setup::load(&args.file)?;
-    if !args.quiet {
-        output::warnings(&setup, &source);
-    }
-    if let Some(seed) = args.seed {
-        setup.problem.seed = seed;
-    }
+    let (setup, source) = start::load(&args.start, &args.file, args.out.as_deref())?;
     let setup = setup.as_asked();
     let choice = settings::choice(&args.set, args.from.as_deref(), &setup.problem)?;
-    let fresh = Replicates::new(&setup.problem, ANSWERS, args.shots as usize);
+    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
     let evaluation = peenpose::evaluate::evaluate(&setup, &choice, &fresh);
     let rays = evaluation.rays;
     let answer = Answer {

@@ -16,6 +16,7 @@ mod schema;
 mod settings;
 mod shell;
 mod solve;
+mod start;
 
 use std::process::ExitCode;
 

@@ -16,11 +16,10 @@ use crate::args::MapArgs;
 use crate::output::{self, Failure};
 use crate::progress::Watcher;
 use crate::settings::{self, contact_named, setting_named};
-use crate::solve::use_threads;
+use crate::start;
 
 /// Draws a map and writes it as SVG, PNG and CSV.
 pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
-    use_threads(args.threads)?;
     let axes = [("--x", &args.x), ("--y", &args.y)];
     let [x, y] = axes.map(|(option, text)| Asked::new(option, text));
     let (x, y) = (x?, y?);
@@ -28,14 +27,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         let name = x.setting.name();
         return Err(format!("--y {name}: both axes are the same setting").into());
     }
-    output::prepare(Some(&args.out))?;
-    let (mut setup, source) = Setup::load(&args.file)?;
-    if !args.quiet {
-        output::warnings(&setup, &source);
-    }
-    if let Some(seed) = args.seed {
-        setup.problem.seed = seed;
-    }
+    let (mut setup, source) = start::load(&args.start, &args.file, Some(&args.out))?;
     if let Some(name) = &args.contact {
         let contact = contact_named(name, &setup.problem)
             .map_err(|message| format!("--contact: {message}"))?;
@@ -68,9 +60,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
 
 /// Writes the files and says what they show.
 fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCode, Failure> {
-    let mut terms = MapTerm::ALL.into_iter();
-    let term = terms.find(|term| term.name() == args.term);
-    let term = term.unwrap_or(MapTerm::Total);
+    let term = args.term;
     let mut stem = format!("map-{}-{}", varied[0].name(), varied[1].name());
     if term != MapTerm::Total {
         stem += &format!("-{}", term.name());
@@ -103,8 +93,8 @@ fn choice(args: &MapArgs, setup: &Setup, varied: [Setting; 2]) -> Result<(Choice
 
 /// The best settings.
 fn searched(args: &MapArgs, setup: &Setup) -> Result<Choice, Failure> {
-    let watcher = Watcher::new(args.quiet);
-    if !args.quiet {
+    let watcher = Watcher::new(args.start.quiet);
+    if !args.start.quiet {
         output::note("no --from and no --set: searching for the best settings first");
     }
     let control = Control {

@@ -13,23 +13,16 @@ use peenpose::validity;
 use crate::args::SolveArgs;
 use crate::output::{self, Failure, quoted};
 use crate::progress::Watcher;
+use crate::start;
 
 /// Solves a problem file and reports the answer.
 pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
-    use_threads(args.threads)?;
-    output::prepare(args.out.as_deref())?;
-    let (mut setup, source) = Setup::load(&args.file)?;
-    if !args.quiet {
-        output::warnings(&setup, &source);
-    }
+    let (mut setup, source) = start::load(&args.start, &args.file, args.out.as_deref())?;
     if let Some(accuracy) = &args.accuracy {
         setup.problem.accuracy = accuracy_of(accuracy)?;
     }
-    if let Some(seed) = args.seed {
-        setup.problem.seed = seed;
-    }
-    let watcher = Watcher::new(args.quiet);
+    let watcher = Watcher::new(args.start.quiet);
     let control = Control {
         stop: &watcher.stop,
         watch: &|progress| watcher.show(progress),
@@ -108,15 +101,4 @@ fn accuracy_of(text: &str) -> Result<f64, String> {
             "--accuracy: `{text}` must lie between 0 and 100 %, such as `1 %`"
         ))
     }
-}
-
-/// Uses this many threads instead of one for each core.
-pub fn use_threads(threads: Option<u16>) -> Result<(), String> {
-    let Some(threads) = threads else {
-        return Ok(());
-    };
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
-        .build_global()
-        .map_err(|error| format!("cannot start {threads} threads: {error}"))
 }

@@ -77,17 +77,6 @@ impl LogAxis {
     }
 }
 
-/// A time with its unit: `100 µs`.
-pub fn time(seconds: f64) -> String {
-    let (value, unit) = match seconds {
-        s if s < 0.99e-6 => (s * 1e9, "ns"),
-        s if s < 0.99e-3 => (s * 1e6, "µs"),
-        s if s < 0.99 => (s * 1e3, "ms"),
-        s => (s, "s"),
-    };
-    format!("{} {unit}", plain(value))
-}
-
 /// A share in percent: `0.1 %`.
 pub fn percent(share: f64) -> String {
     let percent = share * 100.0;
@@ -123,10 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_carry_their_units() {
-        assert_eq!(time(1e-4), "100 µs");
-        assert_eq!(time(1e-3), "1 ms");
-        assert_eq!(time(10.0), "10 s");
+    fn shares_are_in_percent() {
         assert_eq!(percent(1e-3), "0.1 %");
         assert_eq!(percent(1.0), "100 %");
     }

@@ -94,17 +94,21 @@ fn rounded_powers(from: f64, to: f64) -> Vec<f64> {
 
 /// Multiples of 1, 2 or 5 times a power of ten, between two values.
 fn rounded_steps(from: f64, to: f64) -> Vec<f64> {
-    let least = (to - from) / (MOST - 1) as f64;
-    let power = 10_f64.powf(least.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|multiple| multiple * power);
-    let step = steps.into_iter().find(|step| *step >= least);
-    let step = step.unwrap_or(10.0 * power);
+    let step = round_step((to - from) / (MOST - 1) as f64);
     let first = (from / step).floor() as i64 + 1;
     (first..)
         .map(|multiple| multiple as f64 * step)
         .take_while(|level| *level < to)
         .take(MOST)
         .collect()
+}
+
+/// The smallest of 1, 2 or 5 times a power of ten that is not below a positive value.
+pub fn round_step(least: f64) -> f64 {
+    let power = 10_f64.powf(least.log10().floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|multiple| multiple * power);
+    let step = steps.into_iter().find(|step| *step >= least);
+    step.unwrap_or(10.0 * power)
 }
 
 #[cfg(test)]

@@ -18,7 +18,6 @@ mod search;
 mod sheet;
 mod style;
 
-pub(super) use axis::time;
 pub(super) use pose::curve_name;
 
 use super::map::{MAPS, MapView};

@@ -3,13 +3,13 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::axis::{LogAxis, percent, time};
+use super::axis::{LogAxis, percent};
 use super::plot::{Axes, Plot};
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
 use super::style::{FAINT, GHOST, INK, LABEL, Look, look_of};
 use crate::chart::{Chart, PoseCurve, Precision, Sampling, Walls};
 use crate::report::finding;
-use crate::report::number::{count, significant};
+use crate::report::number::{count, significant, time};
 
 const SIZE: (u32, u32) = (2000, 1110);
 const HEAD: u32 = 230;

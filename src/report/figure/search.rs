@@ -2,13 +2,13 @@
 
 use plotters::style::text_anchor::HPos;
 
-use super::axis::{LogAxis, percent, time};
+use super::axis::{LogAxis, percent};
 use super::plot::{Axes, Plot};
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
 use super::style::{BAND, FAINT, INK, LABEL, look_of};
 use crate::chart::Chart;
 use crate::report::finding;
-use crate::report::number::{count, significant};
+use crate::report::number::{count, significant, time};
 use crate::report::series::{Group, Series};
 
 const WIDTH: u32 = 2000;

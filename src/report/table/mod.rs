@@ -1,6 +1,7 @@
 //! Numbers as tables: comma-separated values with a heading, units in it.
 
 mod chart;
+mod evidence;
 mod front;
 mod map;
 mod record;

@@ -3,11 +3,8 @@
 use std::fmt::Display;
 use std::io;
 
-use super::{Rows, Table, front, map, or_empty};
-use crate::record::{
-    AnswerRecord, EvidenceRecord, HitsRecord, PlaceRecord, PoseRecord, ReboundsRecord,
-    ReceiptRecord, Record, SpreadRecord, TargetRecord,
-};
+use super::{Rows, Table, evidence, front, map, or_empty};
+use crate::record::{AnswerRecord, PoseRecord, ReceiptRecord, Record, SpreadRecord, TargetRecord};
 use crate::report::map::MAPS;
 
 pub(super) fn all(record: &Record) -> io::Result<Vec<Table>> {
@@ -19,9 +16,7 @@ pub(super) fn all(record: &Record) -> io::Result<Vec<Table>> {
         poses(record)?,
     ];
     if let Some(evidence) = &record.evidence {
-        tables.push(hits(&evidence.hits)?);
-        tables.push(rebounds(evidence)?);
-        tables.push(places(&evidence.places)?);
+        tables.extend(evidence::all(evidence)?);
         for (name, map) in MAPS.into_iter().zip(&evidence.maps) {
             tables.push(map::table(name, map)?);
         }
@@ -273,97 +268,4 @@ fn poses(record: &Record) -> io::Result<Table> {
 /// A coordinate or a direction without the rounding errors at its end.
 fn picometres(value: &f64) -> String {
     ((value * 1e12).round() / 1e12 + 0.0).to_string()
-}
-
-/// One row for each first hit on the target; `along` and `across` are measured from the aim point.
-fn hits(hits: &HitsRecord) -> io::Result<Table> {
-    let mut table = Rows::headed(
-        "hits",
-        &[
-            "x_m",
-            "y_m",
-            "z_m",
-            "along_m",
-            "across_m",
-            "angle_deg",
-            "normal_impulse_N_s",
-            "tangential_impulse_N_s",
-            "sticks",
-        ],
-    )?;
-    let columns = hits
-        .points_m
-        .iter()
-        .zip(&hits.plane_m)
-        .zip(&hits.angle_deg)
-        .zip(&hits.normal_impulse)
-        .zip(&hits.tangential_impulse)
-        .zip(&hits.sticks);
-    for (((((point, plane), angle), normal), tangential), sticks) in columns {
-        let ([x, y, z], [along, across]) = (point, plane);
-        table.row(&[x, y, z, along, across, angle, normal, tangential, sticks])?;
-    }
-    table.finish()
-}
-
-/// One row for each impact on a secondary surface; the number is 1 for a direct hit.
-fn rebounds(evidence: &EvidenceRecord) -> io::Result<Table> {
-    let mut table = Rows::headed(
-        "rebounds",
-        &[
-            "x_m",
-            "y_m",
-            "z_m",
-            "surface",
-            "number",
-            "normal_impulse_N_s",
-        ],
-    )?;
-    let ReboundsRecord {
-        points_m,
-        surface,
-        number,
-        normal_impulse,
-    } = &evidence.rebounds;
-    let columns = points_m.iter().zip(surface).zip(number).zip(normal_impulse);
-    for (((point, surface), number), normal) in columns {
-        let shape = evidence.surfaces.get(*surface as usize);
-        let [x, y, z] = point;
-        let name = or_empty(shape.map(|shape| &shape.name));
-        table.row(&[x, y, z, &name, number, normal])?;
-    }
-    table.finish()
-}
-
-/// Where to put test strips.
-fn places(places: &[PlaceRecord]) -> io::Result<Table> {
-    let mut table = Rows::headed(
-        "places",
-        &[
-            "place", "surface", "x_m", "y_m", "z_m", "normal_x", "normal_y", "normal_z", "value",
-            "unit", "text",
-        ],
-    )?;
-    for place in places {
-        let unit = match place.name.as_str() {
-            "most_grazing" => "deg",
-            "shadow_edge" => "m",
-            _ => "N s",
-        };
-        let ([x, y, z], [a, b, c]) = (place.point_m, place.normal);
-        table.row(&[
-            &place.name,
-            &place.surface,
-            &x,
-            &y,
-            &z,
-            &a,
-            &b,
-            &c,
-            &place.value,
-            &unit,
-            &place.text,
-        ])?;
-    }
-    table.finish()
 }

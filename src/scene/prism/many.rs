@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 use super::{Nearest, Prism};
 use crate::precision::{Real, dot};
 use crate::scene::form::{Extent, Flight, Form, Wall};
-use crate::scene::lanes::{Hits, LANES, Lane, Rays, components, padded, put};
+use crate::scene::lanes::{LANES, Lane, components, padded, put};
 use crate::scene::ray::Ray;
+use crate::scene::rays::{Hits, Rays};
 use crate::scene::start::Start;
 
 /// What the rays have met so far.

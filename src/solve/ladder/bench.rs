@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::{Rung, SHOTS};
 use crate::evaluate::evaluate;
-use crate::jet::{Deviate, Replicates, Samples, Stream};
+use crate::jet::{Deviate, Replicates, Samples, Stream, purpose};
 use crate::objective::Tally;
 use crate::problem::model::Effect;
 use crate::problem::setting::Choice;
@@ -212,13 +212,11 @@ const DESCENT_SHOTS: usize = 128;
 const DESCENT_SIZE: f64 = 0.1;
 /// A descent ends when J differs by less than this share of the accuracy.
 const DESCENT_SETTLED: f64 = 0.3;
-/// What shots for verdicts are drawn for.
-const VERDICTS: u32 = 3;
 const TIMED_TURNS: usize = 3;
 
 /// Whether each verdict on a choice passes.
 fn passes(setup: &Setup, choice: &Choice) -> Vec<(Subject, bool)> {
-    let fresh = Replicates::without_rim(&setup.problem, VERDICTS, SHOTS);
+    let fresh = Replicates::without_rim(&setup.problem, purpose::EFFECTS, SHOTS);
     let verdicts = Verdict::all(setup, &evaluate(setup, choice, &fresh));
     let verdict = |verdict: &Verdict| (verdict.subject, verdict.passes());
     verdicts.iter().map(verdict).collect()

@@ -3,20 +3,20 @@
 use std::cmp::Ordering;
 use std::sync::Mutex;
 
-use super::{Risks, risks};
+use super::risks::{Risks, risks};
 use crate::objective::Terms;
 use crate::problem::setting::{Choice, Setting};
 
 /// A pose with its risks.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::solve) struct Judged {
+pub(super) struct Judged {
     pub choice: Choice,
     pub risks: Risks,
 }
 
 /// What was judged, by any thread.
 #[derive(Debug, Default)]
-pub(in crate::solve) struct Archive(Mutex<Vec<Judged>>);
+pub(super) struct Archive(Mutex<Vec<Judged>>);
 
 impl Archive {
     /// Adds a pose that was judged with these factors on the weights.

@@ -1,0 +1,202 @@
+//! The maps: where hits lie, and what they deliver there.
+
+use std::ops::Range;
+
+use colorous::Gradient;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::grid::Grid;
+use super::{LEFT, MAP_HEIGHT, Mark, TOP, WIDTH, limit_mark, tolerance_marks};
+use crate::record::{HitsRecord, Record};
+use crate::report::figure::levels::round_step;
+use crate::report::figure::linear::{Axes, Plot};
+use crate::report::figure::sheet::{Area, Drawn, Fault, Place, styled};
+use crate::report::figure::style::{GHOST, INK, LABEL, letters};
+use crate::report::number::plain;
+
+/// Where the colour bar stands beside a map, px, and how wide it is.
+const BAR_APART: i32 = 24;
+const BAR_WIDTH: i32 = 26;
+/// The colours of N* reach at least so far from what is wanted, relative to it.
+const LEAST_TOLERANCE: f64 = 0.01;
+
+/// A map of a quantity over the target.
+pub struct Map {
+    title: &'static str,
+    values: Vec<Option<f64>>,
+    scale: Range<f64>,
+    gradient: Gradient,
+    /// Values that are marked on the colour bar.
+    marks: Vec<Mark>,
+}
+
+pub fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
+    let goals = &record.problem.goals;
+    let area = grid.side * grid.side;
+    let density = |cell: &[usize]| cell.len() as f64 / hits.shots as f64 / area * 100.0;
+    let mean = |of: &[f32], cell: &[usize]| {
+        let sum: f64 = cell.iter().map(|&index| f64::from(of[index])).sum();
+        sum / cell.len() as f64 * 1e6
+    };
+    let density = grid.values(density);
+    let normal = grid.values(|cell| mean(&hits.normal_impulse, cell));
+    let tangential = grid.values(|cell| mean(&hits.tangential_impulse, cell));
+    let wanted = goals.normal_impulse * 1e6;
+    let off = |value: &Option<f64>| value.map_or(0.0, |value| (value - wanted).abs());
+    let least = goals.normal_impulse_tolerance.max(LEAST_TOLERANCE) * wanted;
+    let half = normal.iter().map(off).fold(least, f64::max) * 1.05;
+    let limit = limit_mark(goals);
+    let tangential_most = most(&tangential);
+    [
+        Map {
+            title: "Hits, % of the shots per mm\u{b2}",
+            scale: 0.0..most(&density),
+            values: density,
+            gradient: colorous::CIVIDIS,
+            marks: Vec::new(),
+        },
+        Map {
+            title: "Mean N*, uN.s",
+            values: normal,
+            scale: wanted - half..wanted + half,
+            gradient: colorous::PURPLE_ORANGE,
+            marks: tolerance_marks(goals),
+        },
+        Map {
+            title: "Mean f*, uN.s",
+            scale: 0.0..limit
+                .as_ref()
+                .map(|limit| limit.value)
+                .filter(|limit| *limit < 2.0 * tangential_most)
+                .map_or(tangential_most, |limit| limit.max(tangential_most)),
+            values: tangential,
+            gradient: colorous::CIVIDIS,
+            marks: limit.into_iter().collect(),
+        },
+    ]
+}
+
+fn most(values: &[Option<f64>]) -> f64 {
+    let most = values.iter().flatten().copied().fold(0.0, f64::max);
+    if most > 0.0 { most } else { 1.0 }
+}
+
+impl Map {
+    pub fn draw<'a, 'b>(
+        &self,
+        area: &'a Area<'b>,
+        index: usize,
+        grid: &Grid,
+    ) -> Result<Plot<'a, 'b>, Fault> {
+        let (left, top) = (LEFT[index], TOP[0]);
+        let corners = [(left, top), (left + WIDTH, top + MAP_HEIGHT)];
+        let axes = Axes {
+            title: self.title,
+            x: grid.x.clone(),
+            x_name: "along (azimuth 0), mm",
+            y: grid.y.clone(),
+            y_name: "across (azimuth 90 deg), mm",
+        };
+        let plot = Plot::new(area, corners, &axes)?;
+        self.cells(&plot, grid)?;
+        self.bar(area, (left + WIDTH + BAR_APART, top))?;
+        Ok(plot)
+    }
+
+    fn colour(&self, value: f64) -> RGBColor {
+        let share = (value - self.scale.start) / (self.scale.end - self.scale.start);
+        let colour = self.gradient.eval_continuous(share.clamp(0.0, 1.0));
+        RGBColor(colour.r, colour.g, colour.b)
+    }
+
+    fn cells(&self, plot: &Plot, grid: &Grid) -> Drawn {
+        for row in 0..grid.rows {
+            for column in 0..grid.columns {
+                let Some(value) = self.values[row * grid.columns + column] else {
+                    continue;
+                };
+                let corner = |dx: usize, dy: usize| {
+                    (
+                        grid.x.start + (column + dx) as f64 * grid.side,
+                        grid.y.start + (row + dy) as f64 * grid.side,
+                    )
+                };
+                plot.rectangle([corner(0, 0), corner(1, 1)], self.colour(value).filled())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The colours with their values, the marked ones by name.
+    fn bar(&self, area: &Area, (left, top): Place) -> Drawn {
+        const STEPS: i32 = 50;
+        let (from, to) = (self.scale.start, self.scale.end);
+        let height = |share: f64| top + MAP_HEIGHT - (share * f64::from(MAP_HEIGHT)).round() as i32;
+        for step in 0..STEPS {
+            let share = |step: i32| f64::from(step) / f64::from(STEPS);
+            let value = from + (share(step) + share(1) / 2.0) * (to - from);
+            let corners = [
+                (left, height(share(step + 1))),
+                (left + BAR_WIDTH, height(share(step))),
+            ];
+            area.draw(&Rectangle::new(corners, self.colour(value).filled()))?;
+        }
+        let frame = [(left, top), (left + BAR_WIDTH, top + MAP_HEIGHT)];
+        area.draw(&Rectangle::new(frame, GHOST.stroke_width(2)))?;
+        let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
+        let right = left + BAR_WIDTH;
+        let place = |value: f64| height((value - from) / (to - from));
+        let mut taken: Vec<i32> = Vec::new();
+        let is_shown = |mark: &&Mark| (from..=to).contains(&mark.value);
+        for mark in self.marks.iter().filter(is_shown) {
+            let y = place(mark.value);
+            area.draw(&PathElement::new(
+                vec![(left - 4, y), (right + 4, y)],
+                INK.stroke_width(4),
+            ))?;
+            let text = format!("{} {}", plain(mark.value), mark.name);
+            area.draw_text(&text, &style, (right + 10, y))?;
+            taken.push(y);
+        }
+        for value in ticks(from, to) {
+            let y = place(value);
+            if taken.iter().all(|other| (other - y).abs() > 28) {
+                area.draw(&PathElement::new(
+                    vec![(right, y), (right + 6, y)],
+                    GHOST.stroke_width(2),
+                ))?;
+                area.draw_text(&plain(value), &style, (right + 10, y))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// About five round values between two.
+fn ticks(from: f64, to: f64) -> Vec<f64> {
+    if to <= from {
+        return Vec::new();
+    }
+    let step = round_step((to - from) / 7.0);
+    let first = (from / step).ceil() as i64;
+    (first..)
+        .map(|tick| tick as f64 * step)
+        .take_while(|tick| *tick <= to)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        assert!(ticks(1.0, 1.0).is_empty());
+        assert_eq!(ticks(0.0, 65.0), [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0]);
+        assert_eq!(
+            ticks(33.0, 47.0),
+            [34.0, 36.0, 38.0, 40.0, 42.0, 44.0, 46.0]
+        );
+    }
+}

@@ -1,0 +1,66 @@
+//! Rays and the parts that move with the nozzle.
+
+use multiversion::multiversion;
+
+use super::lanes::{LANES, components, padded, put};
+use super::part::BuiltPart;
+use super::rays::{Hits, Rays, Spots};
+use super::stand::Stands;
+use crate::precision::Real;
+
+/// The part of no ray.
+const NO_PART: u32 = u32::MAX;
+
+/// Takes the first crossings with a part that moves with the nozzle, where they are nearer than
+/// what the rays have hit so far.
+///
+/// A function of its own, so that scenes without such parts are traced as fast as ever.
+#[multiversion(targets(
+    "x86_64+avx+avx2+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+bmi1+bmi2+fma",
+    "x86_64+avx+avx2+bmi1+bmi2+fma"
+))]
+pub(super) fn cross<R: Real>(
+    part: &BuiltPart,
+    index: u32,
+    rays: &Rays<R>,
+    stands: &Stands<R>,
+    hits: &mut Hits<R>,
+) {
+    let there = rays_there(rays, stands);
+    let mut met = Hits {
+        distance: hits.distance,
+        spots: Spots {
+            part: [NO_PART; LANES],
+            ..Spots::none()
+        },
+        ..Hits::none()
+    };
+    part.cross(index, &there, &mut met);
+    for i in (0..rays.count).filter(|&i| met.spots.part[i] == index) {
+        let normal = stands.at(i).vector_back(components(&met.normal, i));
+        hits.distance[i] = met.distance[i];
+        hits.surface[i] = met.surface[i];
+        hits.spots.set(i, met.spots.at(i));
+        put(&mut hits.normal, i, normal);
+    }
+}
+
+/// Rays of the scene, each as it is in the frame of its own nozzle.
+#[inline(always)]
+fn rays_there<R: Real>(rays: &Rays<R>, stands: &Stands<R>) -> Rays<R> {
+    let mut there = Rays {
+        count: rays.count,
+        are_spheres: rays.are_spheres,
+        radius: rays.radius,
+        leaving: rays.leaving.clone(),
+        ..Rays::none()
+    };
+    for i in 0..padded(rays.count) {
+        let stand = stands.at(i);
+        let origin = stand.point_there(components(&rays.origin, i));
+        let direction = stand.vector_there(components(&rays.direction, i));
+        put(&mut there.origin, i, origin);
+        put(&mut there.direction, i, direction);
+    }
+    there
+}

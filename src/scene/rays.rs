@@ -1,0 +1,116 @@
+//! Many rays side by side, and what they meet.
+
+use nalgebra::{Point3, Vector3};
+
+use super::lanes::{LANES, Lane, components};
+use super::ray::{Ray, Spot};
+use super::stand::Stands;
+use crate::precision::Real;
+
+/// Rays side by side; all of them start on a surface, or none.
+pub struct Rays<R> {
+    /// How many there are; what stands beyond has no meaning.
+    pub count: usize,
+    /// Where they start, m.
+    pub origin: [Lane<R>; 3],
+    /// Unit directions.
+    pub direction: [Lane<R>; 3],
+    /// Whether the shots have a size; their centres move along the rays.
+    pub are_spheres: bool,
+    /// Radii of the shots, m.
+    pub radius: Lane<R>,
+    /// The spots that they start from, if they do.
+    pub leaving: Option<Spots>,
+    /// The stands of their nozzles, where parts of the scene move with these.
+    pub stands: Option<Box<Stands<R>>>,
+}
+
+/// Spots side by side.
+#[derive(Clone)]
+pub struct Spots {
+    /// Index of the part in the scene.
+    pub part: [u32; LANES],
+    /// Index of the wall or triangle in the part.
+    pub piece: [u32; LANES],
+    /// Whether the ray runs on the front of that piece.
+    pub front: [bool; LANES],
+}
+
+/// What the rays meet first.
+pub struct Hits<R> {
+    /// Distances, m; infinite where nothing is met.
+    pub distance: Lane<R>,
+    /// The places, m.
+    pub point: [Lane<R>; 3],
+    /// Unit normals towards the side that the rays come from.
+    pub normal: [Lane<R>; 3],
+    /// Indices of the surfaces in the scene.
+    pub surface: [u32; LANES],
+    /// The exact spots.
+    pub spots: Spots,
+}
+
+impl Spots {
+    pub(super) fn none() -> Self {
+        Self {
+            part: [0; LANES],
+            piece: [0; LANES],
+            front: [true; LANES],
+        }
+    }
+
+    /// One of them.
+    pub fn at(&self, index: usize) -> Spot {
+        Spot {
+            part: self.part[index],
+            piece: self.piece[index],
+            front: self.front[index],
+        }
+    }
+
+    /// Sets one of them.
+    pub fn set(&mut self, index: usize, spot: Spot) {
+        self.part[index] = spot.part;
+        self.piece[index] = spot.piece;
+        self.front[index] = spot.front;
+    }
+}
+
+impl<R: Real> Rays<R> {
+    /// No rays yet.
+    pub fn none() -> Self {
+        // Numbers that no arithmetic stumbles over, beyond the rays that there are.
+        let mut direction = [[R::ZERO; LANES]; 3];
+        direction[2] = [R::ONE; LANES];
+        Self {
+            count: 0,
+            origin: [[R::ZERO; LANES]; 3],
+            direction,
+            are_spheres: false,
+            radius: [R::ZERO; LANES],
+            leaving: None,
+            stands: None,
+        }
+    }
+
+    /// One of them, in f64.
+    pub fn at(&self, index: usize) -> Ray {
+        Ray {
+            origin: Point3::from(components(&self.origin, index).map(Real::wide)),
+            direction: Vector3::from(components(&self.direction, index).map(Real::wide)),
+        }
+    }
+}
+
+impl<R: Real> Hits<R> {
+    /// No hits yet.
+    pub fn none() -> Self {
+        Self {
+            distance: [R::INFINITY; LANES],
+            point: [[R::ZERO; LANES]; 3],
+            normal: [[R::ZERO; LANES]; 3],
+            surface: [0; LANES],
+            spots: Spots::none(),
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! The program from outside.
+
+use std::ffi::OsStr;
+use std::path::Path;
+use std::time::Duration;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+/// What the program did.
+pub struct Run {
+    pub status: i32,
+    pub out: String,
+    pub messages: String,
+}
+
+impl Run {
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.out).expect("JSON on stdout")
+    }
+}
+
+/// Runs the program in a folder; it must neither panic nor be killed.
+pub fn peenpose<A: AsRef<OsStr>>(arguments: impl IntoIterator<Item = A>, folder: &Path) -> Run {
+    let output = Command::new(env!("CARGO_BIN_EXE_peenpose"))
+        .args(arguments)
+        .current_dir(folder)
+        .timeout(Duration::from_secs(300))
+        .output()
+        .unwrap();
+    let run = Run {
+        status: output.status.code().expect("it was not killed"),
+        out: String::from_utf8(output.stdout).unwrap(),
+        messages: String::from_utf8(output.stderr).unwrap(),
+    };
+    assert!(!run.messages.contains("panicked"), "{}", run.messages);
+    run
+}
