@@ -34,6 +34,10 @@ pub(super) fn within_tolerance(setup: &Setup, choice: &Choice) -> Option<Note> {
         let scene = &setup.scene;
         scene.clearance(nozzle, &pose.exit, &pose.direction, nozzle.clearance)
     };
+    if gap(choice).is_some() {
+        // It has no room where it is set exactly either: that is said elsewhere.
+        return None;
+    }
     let nearest = corners.iter().filter_map(gap);
     let (gap, surface) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let surface = &setup.scene.surfaces()[surface as usize];
