@@ -26,6 +26,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let (mut setup, source) = Setup::load(&args.file)?;
     if !args.quiet {
         output::warnings(&setup, &source);
+        settings::warn_of_another_problem(args.from.as_deref(), &setup.problem)?;
     }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;

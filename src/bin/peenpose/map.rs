@@ -15,7 +15,7 @@ use peenpose::solve::{Answer, Control, solve};
 use crate::args::MapArgs;
 use crate::output::{self, Failure};
 use crate::progress::Watcher;
-use crate::settings::{self, contact_named, setting_named};
+use crate::settings::{self, contact_named, setting_named, warn_of_another_problem};
 use crate::solve::use_threads;
 
 /// Draws a map and writes it as SVG, PNG and CSV.
@@ -32,6 +32,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     let (mut setup, source) = Setup::load(&args.file)?;
     if !args.quiet {
         output::warnings(&setup, &source);
+        warn_of_another_problem(args.from.as_deref(), &setup.problem)?;
     }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
