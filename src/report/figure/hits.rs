@@ -11,12 +11,12 @@ use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline, styled};
 use super::style::{FAINT, GHOST, INK, LABEL, LOOKS, letters};
 use crate::record::{EvidenceRecord, GoalsRecord, HitsRecord, Record, RoleRecord};
 use crate::report::number::{
-    count, decimals_for, fixed, impulse_asked, plain, share, share_asked, significant,
+    count, decimals_for, fixed, impulse_asked, plain, rounded, share, share_asked, significant,
 };
 
 const SIZE: (u32, u32) = (2000, 1230);
 /// Upper left corners of maps and histograms, px, and their sizes.
-const LEFT: [i32; 3] = [130, 790, 1450];
+const LEFT: [i32; 3] = [130, 760, 1450];
 const TOP: [i32; 2] = [250, 810];
 const WIDTH: i32 = 390;
 const MAP_HEIGHT: i32 = 390;
@@ -27,7 +27,9 @@ const BAR_WIDTH: i32 = 26;
 /// Room round the hits, relative to their extent.
 const ROOM: f64 = 0.08;
 /// Room beside the marks of a histogram, relative to its extent.
-const ROOM_FOR_NAMES: f64 = 0.2;
+const ROOM_FOR_NAMES: f64 = 0.25;
+/// A histogram shows at least this much of its values, relative to them.
+const LEAST_SPAN: f64 = 1e-3;
 /// Cells along the longer side of a map.
 const FEWEST_CELLS: f64 = 8.0;
 const MOST_CELLS: f64 = 36.0;
@@ -36,7 +38,7 @@ const LEAST_TOLERANCE: f64 = 0.01;
 /// Bars of a histogram.
 const BARS: usize = 32;
 
-/// The figure as SVG; `None` where nothing was hit, or a hit lacks some of its values.
+/// The figure as SVG; `None` where nothing was hit, where all shots are the same, or a hit lacks some of its values.
 pub fn svg(record: &Record, evidence: &EvidenceRecord) -> Option<Result<String, Fault>> {
     let hits = &evidence.hits;
     let number = hits.plane_m.len();
@@ -46,7 +48,7 @@ pub fn svg(record: &Record, evidence: &EvidenceRecord) -> Option<Result<String, 
         hits.tangential_impulse.len(),
         hits.sticks.len(),
     ];
-    if number == 0 || hits.shots == 0 || columns.iter().any(|column| *column != number) {
+    if number == 0 || hits.shots < 2 || columns.iter().any(|column| *column != number) {
         return None;
     }
     let grid = Grid::new(hits);
@@ -150,6 +152,8 @@ fn extent(points: &mut dyn Iterator<Item = [f64; 2]>) -> [Range<f64>; 2] {
 struct Grid {
     x: Range<f64>,
     y: Range<f64>,
+    /// Whether all hits lie at one place, so that the scale means nothing.
+    is_one_place: bool,
     /// Side of a cell, mm.
     side: f64,
     columns: usize,
@@ -166,7 +170,8 @@ impl Grid {
         let room =
             (2.0 * ROOM + 1.0) * width.max(height * f64::from(WIDTH) / f64::from(MAP_HEIGHT));
         // Where all hits are the same, any scale does.
-        let room = if room > 0.0 { room } else { 1.0 };
+        let is_one_place = room == 0.0;
+        let room = if is_one_place { 1.0 } else { room };
         let half = [
             room / 2.0,
             room / 2.0 * f64::from(MAP_HEIGHT) / f64::from(WIDTH),
@@ -180,6 +185,7 @@ impl Grid {
         let mut grid = Self {
             x,
             y,
+            is_one_place,
             side,
             columns,
             rows,
@@ -212,7 +218,12 @@ struct Map {
 
 fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
     let goals = &record.problem.goals;
-    let area = grid.side * grid.side;
+    // A density needs an extent; what lies at one place is all of it.
+    let area = if grid.is_one_place {
+        1.0
+    } else {
+        grid.side * grid.side
+    };
     let density = |cell: &[usize]| cell.len() as f64 / hits.shots as f64 / area * 100.0;
     let mean = |of: &[f32], cell: &[usize]| {
         let sum: f64 = cell.iter().map(|&index| f64::from(of[index])).sum();
@@ -229,7 +240,11 @@ fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
     let tangential_most = most(&tangential);
     [
         Map {
-            title: "Hits, % of the shots per mm\u{b2}",
+            title: if grid.is_one_place {
+                "Hits, % of the shots, at one place"
+            } else {
+                "Hits, % of the shots per mm\u{b2}"
+            },
             scale: 0.0..most(&density),
             values: density,
             gradient: colorous::CIVIDIS,
@@ -363,8 +378,11 @@ impl Map {
                 vec![(left - 4, y), (right + 4, y)],
                 INK.stroke_width(4),
             ))?;
-            let text = format!("{} {name}", plain(*value));
-            area.draw_text(&text, &style, (right + 10, y))?;
+            // On a wide scale the marks are all at one place; the first is the one that counts.
+            if taken.iter().all(|other| (other - y).abs() > 28) {
+                let text = format!("{} {name}", rounded(*value, 3));
+                area.draw_text(&text, &style, (right + 10, y))?;
+            }
             taken.push(y);
         }
         for value in ticks(from, to) {
@@ -484,7 +502,7 @@ impl Histogram {
             .iter()
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
-        let span = (highest - lowest).max(1e-6 * highest.abs()).max(1e-9);
+        let span = (highest - lowest).max(LEAST_SPAN * highest.abs()).max(1e-9);
         // Marks that are near are worth seeing.
         let near = |value: &f64| (lowest - span..=highest + span).contains(value);
         let marks = || self.marks.iter().map(|(value, ..)| *value).filter(near);
@@ -523,12 +541,13 @@ impl Histogram {
             plot.mark(*value, name, *is_dashed)?;
         }
         let decimals = decimals_for(span, 3);
-        let remark = format!(
-            "{} to {}; {}",
-            fixed(lowest, decimals),
-            fixed(highest, decimals),
-            self.remark
-        );
+        let [from, to] = [lowest, highest].map(|value| fixed(value, decimals));
+        let extent = if from == to {
+            format!("all {from}")
+        } else {
+            format!("{from} to {to}")
+        };
+        let remark = format!("{extent}; {}", self.remark);
         let place = (left, top + HISTOGRAM_HEIGHT + 76);
         sheet::text(area, &remark, place, HPos::Left, &letters(LABEL), FAINT)
     }
@@ -584,6 +603,7 @@ mod tests {
                 .sum::<f64>(),
             5.0
         );
+        assert!(grid.is_one_place);
     }
 
     #[test]

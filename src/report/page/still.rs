@@ -7,7 +7,7 @@ use super::look::{Colour, LOOK, Look};
 use crate::record::{
     BodyRecord, EvidenceRecord, PathRecord, Record, RoleRecord, SurfaceShapeRecord,
 };
-use crate::report::number::{count, plain};
+use crate::report::number::{plain, plural};
 
 /// Units of the drawing: its width, the height of the scene in it, and that of the whole.
 const WIDTH: f64 = 1000.0;
@@ -122,8 +122,8 @@ impl Still {
             legend: legend(&kept, !breaking.is_empty()),
             legend_height: PICTURE + 20.0,
             caption: format!(
-                "{} shots as they come; cut through the aim point{}, seen against {}.",
-                count(breaking.len() + kept.len()),
+                "{} as they come; cut through the aim point{}, seen against {}.",
+                plural(breaking.len() + kept.len(), "shot"),
                 if evidence.places.is_empty() {
                     ""
                 } else {
