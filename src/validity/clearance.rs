@@ -48,7 +48,7 @@ pub(super) fn within_tolerance(setup: &Setup, choice: &Choice) -> Option<Note> {
             "within the setup tolerance the nozzle comes {} {surface}, where {:.2} mm are wanted: \
              the clearance holds only for a nozzle that is set exactly",
             if gap < 0.0 {
-                format!("{:.2} mm too far into", -gap * 1e3)
+                format!("{:.2} mm into", -gap * 1e3)
             } else {
                 format!("within {:.2} mm of", gap * 1e3)
             },
