@@ -7,7 +7,7 @@ use super::look::{Colour, LOOK, Look};
 use crate::record::{
     BodyRecord, EvidenceRecord, PathRecord, Record, RoleRecord, SurfaceShapeRecord,
 };
-use crate::report::number::{plain, plural};
+use crate::report::number::{count, plain};
 
 /// Units of the drawing: its width, the height of the scene in it, and that of the whole.
 const WIDTH: f64 = 1000.0;
@@ -122,8 +122,11 @@ impl Still {
             legend: legend(&kept, !breaking.is_empty()),
             legend_height: PICTURE + 20.0,
             caption: format!(
-                "{} as they come; cut through the aim point{}, seen against {}.",
-                plural(breaking.len() + kept.len(), "shot"),
+                "{}; cut through the aim point{}, seen against {}.",
+                match breaking.len() + kept.len() {
+                    1 => "1 shot".into(),
+                    shots => format!("{} shots as they come", count(shots)),
+                },
                 if evidence.places.is_empty() {
                     ""
                 } else {

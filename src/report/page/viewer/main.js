@@ -79,7 +79,7 @@ function fillStage(root, scene, stage, section, say) {
     };
     const asTheyCome = scene.paths.filter((path) => !path.picked);
     const picked = scene.paths.filter((path) => path.picked);
-    const shots = legendGroup(legend, `${asTheyCome.length} ${asTheyCome.length === 1 ? "shot" : "shots"} as they come`);
+    const shots = legendGroup(legend, asTheyCome.length === 1 ? "1 shot" : `${asTheyCome.length} shots as they come`);
     const { flights, breaks } = pathObjects(asTheyCome, stage.near);
     flights.forEach((lines, flight) => {
         const { name, colour } = LOOK.flights[flight];
