@@ -271,7 +271,9 @@ fn a_map_is_written_as_picture_and_table() {
     assert!(total < 1e-9 && there.ends_with(",true,"), "{there}");
 
     let with = |more: &[&str]| map(&[&plate[..], more].concat(), folder.path());
-    assert_eq!(with(&["--term", "miss"]).status.code(), Some(0));
+    let miss = with(&["--term", "miss"]);
+    assert_eq!(miss.status.code(), Some(0));
+    assert!(out(&miss).contains("miss 0 wherever the nozzle fits"));
     assert!(folder.path().join("map-incidence-speed-miss.svg").exists());
     assert_eq!(with(&["--term", "mis"]).status.code(), Some(2));
 }

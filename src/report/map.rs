@@ -200,15 +200,28 @@ pub fn map(view: &MapView, term: MapTerm) -> String {
         MapTerm::Total => "J",
         part => part.name(),
     };
+    let mut values = view.map.cells.iter().filter_map(|cell| term.of(cell));
+    let place = if values.all(|value| value == least) {
+        "wherever the nozzle fits".into()
+    } else {
+        format!("at {place}")
+    };
     line(
         "least",
-        &format!("{name} {} at {place}", significant(least, 3)),
+        &format!("{name} {} {place}", significant(least, 3)),
     );
+    let cells = &view.map.cells;
+    let blocked = cells.iter().filter(|cell| cell.terms.is_none()).count();
+    let of_which = if blocked > 0 {
+        " where the nozzle fits"
+    } else {
+        ""
+    };
     let passing = view.passing().map_or_else(
         || "nowhere: at every place some verdict fails".into(),
         |(share, [in_x, in_y])| {
             format!(
-                "every verdict at {} % of the places, within {}, {}",
+                "every verdict at {} % of the places{of_which}, within {}, {}",
                 plain((share * 1000.0).round() / 10.0),
                 x.range(in_x),
                 y.range(in_y)
@@ -216,8 +229,6 @@ pub fn map(view: &MapView, term: MapTerm) -> String {
         },
     );
     line("passes", &passing);
-    let cells = &view.map.cells;
-    let blocked = cells.iter().filter(|cell| cell.terms.is_none()).count();
     if blocked > 0 {
         let share = blocked as f64 / cells.len() as f64 * 100.0;
         line(

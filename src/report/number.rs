@@ -25,7 +25,12 @@ pub fn significant(value: f64, digits: i32) -> String {
 
 /// A number that somebody asked for: up to six significant digits, without zeros at the end.
 pub fn plain(value: f64) -> String {
-    without_end_zeros(&significant(value, 6)).into()
+    rounded(value, 6)
+}
+
+/// `value` with at most this many significant digits, without zeros at the end.
+pub fn rounded(value: f64, digits: i32) -> String {
+    without_end_zeros(&significant(value, digits)).into()
 }
 
 fn without_end_zeros(text: &str) -> &str {

@@ -34,6 +34,10 @@ pub(super) fn within_tolerance(setup: &Setup, choice: &Choice) -> Option<Note> {
         let scene = &setup.scene;
         scene.clearance(nozzle, &pose.exit, &pose.direction, nozzle.clearance)
     };
+    if gap(choice).is_some() {
+        // It has no room where it is set exactly either: that is said elsewhere.
+        return None;
+    }
     let nearest = corners.iter().filter_map(gap);
     let (gap, surface) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let surface = &setup.scene.surfaces()[surface as usize];
@@ -44,7 +48,7 @@ pub(super) fn within_tolerance(setup: &Setup, choice: &Choice) -> Option<Note> {
             "within the setup tolerance the nozzle comes {} {surface}, where {:.2} mm are wanted: \
              the clearance holds only for a nozzle that is set exactly",
             if gap < 0.0 {
-                format!("{:.2} mm too far into", -gap * 1e3)
+                format!("{:.2} mm into", -gap * 1e3)
             } else {
                 format!("within {:.2} mm of", gap * 1e3)
             },

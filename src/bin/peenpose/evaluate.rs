@@ -22,6 +22,9 @@ use crate::start;
 pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     let (setup, source) = start::load(&args.start, &args.file, args.out.as_deref())?;
+    if !args.start.quiet {
+        settings::warn_of_another_problem(args.from.as_deref(), &setup.problem)?;
+    }
     let setup = setup.as_asked();
     let choice = settings::choice(&args.set, args.from.as_deref(), &setup.problem)?;
     let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, args.shots as usize);

@@ -28,6 +28,9 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         return Err(format!("--y {name}: both axes are the same setting").into());
     }
     let (mut setup, source) = start::load(&args.start, &args.file, Some(&args.out))?;
+    if !args.start.quiet {
+        settings::warn_of_another_problem(args.from.as_deref(), &setup.problem)?;
+    }
     if let Some(name) = &args.contact {
         let contact = contact_named(name, &setup.problem)
             .map_err(|message| format!("--contact: {message}"))?;

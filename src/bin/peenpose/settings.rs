@@ -53,9 +53,26 @@ fn unknown(what: &str, name: &str, known: &[&str]) -> String {
     format!("there is no {what} `{name}`; expected one of {known}{nearest}")
 }
 
+/// Warns of a result that answers another problem: settings that fit there may be nonsense here.
+pub fn warn_of_another_problem(from: Option<&Path>, problem: &Problem) -> Result<(), Failure> {
+    let Some(path) = from else {
+        return Ok(());
+    };
+    let answered = output::read_record(path)?.problem.title;
+    if answered != problem.title {
+        output::warn(&format!(
+            "{} answers another problem, `{answered}`: its settings are taken all the same",
+            path.display()
+        ));
+    }
+    Ok(())
+}
+
 /// The best settings of a result.
 fn from_result(path: &Path, problem: &Problem) -> Result<Choice, Failure> {
     let best = output::read_record(path)?.best;
+    let contact = contact_named(&best.contact, problem)
+        .map_err(|fault| format!("--from {}: {fault}", path.display()))?;
     Ok(Choice {
         incidence: best.settings.incidence_deg.to_radians(),
         azimuth: best.settings.azimuth_deg.to_radians(),
@@ -64,7 +81,7 @@ fn from_result(path: &Path, problem: &Problem) -> Result<Choice, Failure> {
         aim_along: best.settings.aim_along_m,
         aim_across: best.settings.aim_across_m,
         aim_above: best.settings.aim_above_m,
-        contact: contact_named(&best.contact, problem)?,
+        contact,
         static_friction: best.contact_values.mu_s,
     })
 }

@@ -18,7 +18,7 @@ use crate::report::number::{count, share_asked, significant};
 
 const SIZE: (u32, u32) = (2000, 1230);
 /// Upper left corners of maps and histograms, px, and their sizes.
-const LEFT: [i32; 3] = [130, 790, 1450];
+const LEFT: [i32; 3] = [130, 760, 1450];
 const TOP: [i32; 2] = [250, 810];
 const WIDTH: i32 = 390;
 const MAP_HEIGHT: i32 = 390;
@@ -26,7 +26,8 @@ const HISTOGRAM_HEIGHT: i32 = 300;
 /// Room round the hits, relative to their extent.
 const ROOM: f64 = 0.08;
 
-/// The figure as SVG; `None` where nothing was hit, or a hit lacks some of its values.
+/// The figure as SVG; `None` where nothing was hit, where all shots are the same, or where a hit
+/// lacks some of its values.
 pub fn svg(record: &Record, evidence: &EvidenceRecord) -> Option<Result<String, Fault>> {
     let hits = &evidence.hits;
     let number = hits.plane_m.len();
@@ -36,7 +37,7 @@ pub fn svg(record: &Record, evidence: &EvidenceRecord) -> Option<Result<String, 
         hits.tangential_impulse.len(),
         hits.sticks.len(),
     ];
-    if number == 0 || hits.shots == 0 || columns.iter().any(|column| *column != number) {
+    if number == 0 || hits.shots < 2 || columns.iter().any(|column| *column != number) {
         return None;
     }
     let grid = Grid::new(hits);

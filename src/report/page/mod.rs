@@ -77,6 +77,7 @@ pub fn page(record: &Record) -> Result<String, PageFault> {
         sheet: sheet::sheet(record),
         parts: Parts::new(record),
         windows: WindowBar::of(record),
+        no_windows: no_windows(record),
         loads: LoadBar::of(record),
         choices: ChoiceBar::of(record),
         term_names: record
@@ -96,6 +97,18 @@ pub fn page(record: &Record) -> Result<String, PageFault> {
     Ok(page.render()?)
 }
 
+/// Why no setting has a window.
+fn no_windows(record: &Record) -> &'static str {
+    match record.status {
+        StatusRecord::Evaluated => "Not computed for given settings.",
+        StatusRecord::NoFeasiblePose => "Not computed: the nozzle fits nowhere.",
+        _ if record.problem.ranges.iter().all(|it| it.min == it.max) => {
+            "Every setting is held at one value in the file."
+        }
+        _ => "Not computed.",
+    }
+}
+
 #[derive(Template)]
 #[template(path = "page.html")]
 struct Page<'a> {
@@ -106,6 +119,7 @@ struct Page<'a> {
     sheet: String,
     parts: Parts,
     windows: Vec<WindowBar>,
+    no_windows: &'static str,
     loads: Vec<LoadBar>,
     choices: Vec<ChoiceBar>,
     term_names: Vec<&'static str>,

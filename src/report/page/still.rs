@@ -118,8 +118,11 @@ impl Still {
             legend: legend(&kept, !breaking.is_empty()),
             legend_height: PICTURE + 20.0,
             caption: format!(
-                "{} shots as they come; cut through the aim point{}, seen against {}.",
-                count(breaking.len() + kept.len()),
+                "{}; cut through the aim point{}, seen against {}.",
+                match breaking.len() + kept.len() {
+                    1 => "1 shot".into(),
+                    shots => format!("{} shots as they come", count(shots)),
+                },
                 if evidence.places.is_empty() {
                     ""
                 } else {

@@ -72,8 +72,8 @@ pub fn work(record: &Record) -> Block {
         ));
         if record.best.shots > 0 {
             block.paragraph(&format!(
-                "figures from {} fresh shots that the search had not seen",
-                count(record.best.shots)
+                "figures from {} that the search had not seen",
+                plural(record.best.shots, "fresh shot")
             ));
         }
         if record.best.rim_shots > 0 {

@@ -48,7 +48,17 @@ pub fn target(record: &Record) -> Option<Block> {
         ));
     }
     block.table(table);
-    if hit {
+    if hit && best.shots == 1 {
+        let sticking = if target.share_sticking == 0.0 {
+            "slide"
+        } else {
+            "stick"
+        };
+        block.paragraph(&format!(
+            "All shots are the same: they hit {} first and {sticking}.",
+            target.surface
+        ));
+    } else if hit {
         block.paragraph(&format!(
             "{} of {} hit {} first; {}.",
             share(target.share_on_target),

@@ -55,7 +55,7 @@ pub const SETTINGS: [Setting; 7] = [
         of: |settings| settings.speed_m_s,
     },
     Setting {
-        name: "aim along",
+        name: "aim_along",
         key: "aim_along_m",
         unit: "mm",
         scale: 1e3,
@@ -63,7 +63,7 @@ pub const SETTINGS: [Setting; 7] = [
         of: |settings| settings.aim_along_m,
     },
     Setting {
-        name: "aim across",
+        name: "aim_across",
         key: "aim_across_m",
         unit: "mm",
         scale: 1e3,
@@ -71,7 +71,7 @@ pub const SETTINGS: [Setting; 7] = [
         of: |settings| settings.aim_across_m,
     },
     Setting {
-        name: "aim above",
+        name: "aim_above",
         key: "aim_above_m",
         unit: "mm",
         scale: 1e3,

@@ -227,7 +227,7 @@ fn clearance(best: &AnswerRecord) -> String {
             format!("{} mm to {surface}, {wanted}", fixed(gap * 1e3, 2))
         }
         (Some(gap), Some(surface)) => format!(
-            "NONE: {} mm too far into {surface}, {wanted}",
+            "NONE: the body reaches {} mm into {surface}, {wanted}",
             fixed(-gap * 1e3, 2)
         ),
         _ => "not checked: the nozzle has no body in the file".into(),

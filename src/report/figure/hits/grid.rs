@@ -14,6 +14,8 @@ pub struct Grid {
     /// Ends of its sides, mm.
     pub x: Range<f64>,
     pub y: Range<f64>,
+    /// Whether all hits lie at one place, so that the scale means nothing.
+    pub is_one_place: bool,
     /// Side of a cell, mm.
     pub side: f64,
     pub columns: usize,
@@ -30,7 +32,8 @@ impl Grid {
         let room =
             (2.0 * ROOM + 1.0) * width.max(height * f64::from(WIDTH) / f64::from(MAP_HEIGHT));
         // Where all hits are the same, any scale does.
-        let room = if room > 0.0 { room } else { 1.0 };
+        let is_one_place = room == 0.0;
+        let room = if is_one_place { 1.0 } else { room };
         let half = [
             room / 2.0,
             room / 2.0 * f64::from(MAP_HEIGHT) / f64::from(WIDTH),
@@ -44,6 +47,7 @@ impl Grid {
         let mut grid = Self {
             x,
             y,
+            is_one_place,
             side,
             columns,
             rows,
@@ -114,5 +118,6 @@ mod tests {
                 .sum::<f64>(),
             5.0
         );
+        assert!(grid.is_one_place);
     }
 }

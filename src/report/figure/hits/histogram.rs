@@ -11,7 +11,9 @@ use crate::report::figure::style::{FAINT, LABEL, LOOKS, letters};
 use crate::report::number::{decimals_for, fixed, impulse_asked, share, share_asked};
 
 /// Room beside the marks, relative to the extent of the values.
-const ROOM_FOR_NAMES: f64 = 0.2;
+const ROOM_FOR_NAMES: f64 = 0.25;
+/// A histogram shows at least this much of its values, relative to them.
+const LEAST_SPAN: f64 = 1e-3;
 /// Bars of a histogram.
 const BARS: usize = 32;
 
@@ -95,7 +97,7 @@ impl Histogram {
             .iter()
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
-        let span = (highest - lowest).max(1e-6 * highest.abs()).max(1e-9);
+        let span = (highest - lowest).max(LEAST_SPAN * highest.abs()).max(1e-9);
         // Marks that are near are worth seeing.
         let near = |value: &f64| (lowest - span..=highest + span).contains(value);
         let marks = || self.marks.iter().map(|mark| mark.value).filter(near);
@@ -134,12 +136,13 @@ impl Histogram {
             plot.mark(mark.value, &mark.name, mark.is_dashed)?;
         }
         let decimals = decimals_for(span, 3);
-        let remark = format!(
-            "{} to {}; {}",
-            fixed(lowest, decimals),
-            fixed(highest, decimals),
-            self.remark
-        );
+        let [from, to] = [lowest, highest].map(|value| fixed(value, decimals));
+        let extent = if from == to {
+            format!("all {from}")
+        } else {
+            format!("{from} to {to}")
+        };
+        let remark = format!("{extent}; {}", self.remark);
         let place = (left, top + HISTOGRAM_HEIGHT + 76);
         sheet::text(area, &remark, place, HPos::Left, &letters(LABEL), FAINT)
     }

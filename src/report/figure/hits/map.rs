@@ -13,7 +13,7 @@ use crate::report::figure::levels::round_step;
 use crate::report::figure::linear::{Axes, Plot};
 use crate::report::figure::sheet::{Area, Drawn, Fault, Place, styled};
 use crate::report::figure::style::{GHOST, INK, LABEL, letters};
-use crate::report::number::plain;
+use crate::report::number::{plain, rounded};
 
 /// Where the colour bar stands beside a map, px, and how wide it is.
 const BAR_APART: i32 = 24;
@@ -33,7 +33,12 @@ pub struct Map {
 
 pub fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
     let goals = &record.problem.goals;
-    let area = grid.side * grid.side;
+    // A density needs an extent; what lies at one place is all of it.
+    let area = if grid.is_one_place {
+        1.0
+    } else {
+        grid.side * grid.side
+    };
     let density = |cell: &[usize]| cell.len() as f64 / hits.shots as f64 / area * 100.0;
     let mean = |of: &[f32], cell: &[usize]| {
         let sum: f64 = cell.iter().map(|&index| f64::from(of[index])).sum();
@@ -50,7 +55,11 @@ pub fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
     let tangential_most = most(&tangential);
     [
         Map {
-            title: "Hits, % of the shots per mm\u{b2}",
+            title: if grid.is_one_place {
+                "Hits, % of the shots, at one place"
+            } else {
+                "Hits, % of the shots per mm\u{b2}"
+            },
             scale: 0.0..most(&density),
             values: density,
             gradient: colorous::CIVIDIS,
@@ -155,8 +164,11 @@ impl Map {
                 vec![(left - 4, y), (right + 4, y)],
                 INK.stroke_width(4),
             ))?;
-            let text = format!("{} {}", plain(mark.value), mark.name);
-            area.draw_text(&text, &style, (right + 10, y))?;
+            // On a wide scale the marks are all at one place; the first is the one that counts.
+            if taken.iter().all(|other| (other - y).abs() > 28) {
+                let text = format!("{} {}", rounded(mark.value, 3), mark.name);
+                area.draw_text(&text, &style, (right + 10, y))?;
+            }
             taken.push(y);
         }
         for value in ticks(from, to) {

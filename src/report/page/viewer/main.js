@@ -79,7 +79,7 @@ function fillStage(root, scene, stage, section, say) {
     };
     const asTheyCome = scene.paths.filter((path) => !path.picked);
     const picked = scene.paths.filter((path) => path.picked);
-    const shots = legendGroup(legend, `${asTheyCome.length} shots as they come`);
+    const shots = legendGroup(legend, asTheyCome.length === 1 ? "1 shot" : `${asTheyCome.length} shots as they come`);
     const { flights, breaks } = pathObjects(asTheyCome, stage.near);
     flights.forEach((lines, flight) => {
         const { name, colour } = LOOK.flights[flight];
@@ -88,7 +88,8 @@ function fillStage(root, scene, stage, section, say) {
     const dashes = { kind: "dashes", colour: LOOK.breaks };
     add(shots, "break a limit or miss", dashes, breaks);
     // So many would look as if they were the rule.
-    add(shots, `${picked.length} more that do, picked`, dashes, pathObjects(picked, stage.near).breaks, false);
+    const others = breaks ? `${picked.length} more that do, picked` : `${picked.length} picked that break a limit or miss`;
+    add(shots, others, dashes, pathObjects(picked, stage.near).breaks, false);
 
     const impacts = legendGroup(legend, "Impacts, area of a dot: N*");
     const kinds = [

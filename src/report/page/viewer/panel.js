@@ -6,8 +6,11 @@ function legendGroup(parent, title) {
     const legend = document.createElement("legend");
     legend.textContent = title;
     group.append(legend);
-    parent.append(group);
     return (name, swatch, show, isShown = true) => {
+        // A title alone would say nothing.
+        if (!group.parentElement) {
+            parent.append(group);
+        }
         const label = document.createElement("label");
         const box = document.createElement("input");
         box.type = "checkbox";
