@@ -67,7 +67,7 @@ pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
 /// Shots behind each verdict of a window.
 const WINDOW_SHOTS: usize = 4096;
 
-/// The windows of all settings that have a range or a tolerance, each as far as its range goes.
+/// The windows of all settings that have a range, each as far as its range goes.
 pub fn windows(
     setup: &Setup,
     choice: &Choice,

@@ -110,7 +110,7 @@ fn no_windows(record: &Record) -> &'static str {
 }
 
 #[derive(Template)]
-#[template(path = "page.html")]
+#[template(path = "page.html", config = "src/report/page/askama.toml")]
 struct Page<'a> {
     title: &'a str,
     file: &'a str,

@@ -19,7 +19,7 @@ const NOZZLE_ON_WHITE: Colour = Colour(165, 170, 176);
 
 /// The picture.
 #[derive(Template)]
-#[template(path = "still.svg")]
+#[template(path = "still.svg", config = "src/report/page/askama.toml")]
 pub struct Still {
     look: Look,
     width: f64,
