@@ -20,11 +20,11 @@ use super::file::ProblemFile;
 /// assert!(schema["required"].as_array().unwrap().contains(&"goals".into()));
 /// ```
 pub fn schema() -> Value {
-    let schema = SchemaSettings::draft2020_12()
+    let mut schema = SchemaSettings::draft2020_12()
         .with_transform(RecursiveTransform(finish))
         .into_generator()
         .into_root_schema_for::<ProblemFile>();
-    let all = schema.as_object().cloned().unwrap_or_default();
+    let all = schema.ensure_object().clone();
     // What it is comes first, for those who read it.
     let mut ordered = Map::new();
     for key in ["$schema", "title", "description"] {

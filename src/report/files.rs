@@ -3,8 +3,9 @@
 use std::io;
 
 use super::figure::Figure;
+use super::page::page_with;
+use super::sheet;
 use super::table::Table;
-use super::{page, sheet};
 use crate::record::Record;
 
 /// Every report that can be made from a record, by the name of its file; `result.json` itself is not
@@ -17,9 +18,10 @@ pub fn files(record: &Record) -> io::Result<Vec<(String, Vec<u8>)>> {
     for Table { name, csv } in Table::of_record(record)? {
         files.push((format!("{name}.csv"), csv.into_bytes()));
     }
-    let page = page(record).map_err(io::Error::other)?;
+    let figures = Figure::of_record(record).map_err(io::Error::other)?;
+    let page = page_with(record, &figures).map_err(io::Error::other)?;
     files.push(("report.html".to_owned(), page.into_bytes()));
-    for figure in Figure::of_record(record).map_err(io::Error::other)? {
+    for figure in figures {
         let png = figure.png().map_err(io::Error::other)?;
         files.push((format!("{}.png", figure.name), png));
         files.push((format!("{}.svg", figure.name), figure.svg.into_bytes()));

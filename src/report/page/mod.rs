@@ -69,6 +69,11 @@ impl From<FigureFault> for PageFault {
 /// # Errors
 /// None is expected: the page is written into memory.
 pub fn page(record: &Record) -> Result<String, PageFault> {
+    page_with(record, &Figure::of_record(record)?)
+}
+
+/// The same with the figures of the record, which are drawn already.
+pub(super) fn page_with(record: &Record, figures: &[Figure]) -> Result<String, PageFault> {
     let page = Page {
         title: &record.problem.title,
         file: &record.problem.file,
@@ -91,7 +96,7 @@ pub fn page(record: &Record) -> Result<String, PageFault> {
         pictures: record
             .evidence
             .as_ref()
-            .map(|evidence| Pictures::new(record, evidence))
+            .map(|evidence| Pictures::new(record, evidence, figures))
             .transpose()?,
     };
     Ok(page.render()?)
@@ -123,7 +128,7 @@ struct Page<'a> {
     loads: Vec<LoadBar>,
     choices: Vec<ChoiceBar>,
     term_names: Vec<&'static str>,
-    pictures: Option<Pictures>,
+    pictures: Option<Pictures<'a>>,
 }
 
 /// What is seen in the first seconds.
@@ -227,17 +232,17 @@ impl Parts {
 }
 
 /// What is drawn from the evidence.
-struct Pictures {
+struct Pictures<'a> {
     /// The scene as JSON that may stand in a script element.
     scene: String,
     three: &'static str,
     viewer: [&'static str; 7],
     still: String,
-    hits: Vec<Drawing>,
+    hits: Vec<Drawing<'a>>,
     /// Where every verdict passes, over two settings.
-    maps: Vec<Drawing>,
+    maps: Vec<Drawing<'a>>,
     /// What can be had instead of the recommended settings.
-    trade_off: Vec<Drawing>,
+    trade_off: Vec<Drawing<'a>>,
     strips: Vec<Strip>,
 }
 
@@ -246,8 +251,8 @@ const TRADE_OFF_IN_WORDS: &str =
     "target error, tangential risk and rebound of settings of which none is better in all three";
 
 /// A figure in the page.
-struct Drawing {
-    svg: String,
+struct Drawing<'a> {
+    svg: &'a str,
     /// What it shows, for who cannot see it.
     words: String,
 }
@@ -262,8 +267,12 @@ struct Strip {
     normal: [String; 3],
 }
 
-impl Pictures {
-    fn new(record: &Record, evidence: &EvidenceRecord) -> Result<Self, PageFault> {
+impl<'a> Pictures<'a> {
+    fn new(
+        record: &Record,
+        evidence: &EvidenceRecord,
+        figures: &'a [Figure],
+    ) -> Result<Self, PageFault> {
         let scene = serde_json::to_string(&Scene::new(record, evidence))?;
         let hits_in_words = format!(
             "{} first hits on the target: where they lie, mean N* and f* there, and how often each \
@@ -271,8 +280,8 @@ impl Pictures {
             count(evidence.hits.points_m.len()),
         );
         let (mut hits, mut maps, mut trade_off) = (Vec::new(), Vec::new(), Vec::new());
-        for Figure { name, svg } in Figure::of_record(record)? {
-            let (group, words) = match name {
+        for Figure { name, svg } in figures {
+            let (group, words) = match *name {
                 "hits" => (&mut hits, hits_in_words.as_str()),
                 "trade_off" => (&mut trade_off, TRADE_OFF_IN_WORDS),
                 _ => (&mut maps, MAP_IN_WORDS),
