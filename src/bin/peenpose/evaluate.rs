@@ -15,18 +15,20 @@ use peenpose::verdict::Verdict;
 
 use crate::args::EvaluateArgs;
 use crate::output::{self, Failure, quoted};
-use crate::settings;
+use crate::settings::{self, Earlier};
 use crate::start;
 
 /// Evaluates settings and reports what they do.
 pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     let (setup, source) = start::load(&args.start, &args.file, args.out.as_deref())?;
-    if !args.start.quiet {
-        settings::warn_of_another_problem(args.from.as_deref(), &setup.problem)?;
-    }
+    let from = args
+        .from
+        .as_deref()
+        .map(|path| Earlier::read(path, &setup.problem, args.start.quiet))
+        .transpose()?;
     let setup = setup.as_asked();
-    let choice = settings::choice(&args.set, args.from.as_deref(), &setup.problem)?;
+    let choice = settings::choice(&args.set, from.as_ref(), &setup.problem)?;
     let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
     let evaluation = peenpose::evaluate::evaluate(&setup, &choice, &fresh);
     let rays = evaluation.rays;

@@ -15,7 +15,7 @@ use peenpose::solve::{Answer, Control, solve};
 use crate::args::MapArgs;
 use crate::output::{self, Failure};
 use crate::progress::Watcher;
-use crate::settings::{self, contact_named, setting_named};
+use crate::settings::{self, Earlier, contact_named, setting_named};
 use crate::start;
 
 /// Draws a map and writes it as SVG, PNG and CSV.
@@ -28,9 +28,11 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         return Err(format!("--y {name}: both axes are the same setting").into());
     }
     let (mut setup, source) = start::load(&args.start, &args.file, Some(&args.out))?;
-    if !args.start.quiet {
-        settings::warn_of_another_problem(args.from.as_deref(), &setup.problem)?;
-    }
+    let from = args
+        .from
+        .as_deref()
+        .map(|path| Earlier::read(path, &setup.problem, args.start.quiet))
+        .transpose()?;
     if let Some(name) = &args.contact {
         let contact = contact_named(name, &setup.problem)
             .map_err(|message| format!("--contact: {message}"))?;
@@ -39,7 +41,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     x.check(&setup.problem)?;
     y.check(&setup.problem)?;
     let varied = [x.setting, y.setting];
-    let (choice, is_known) = choice(args, &setup, varied)?;
+    let (choice, is_known) = choice(args, from.as_ref(), &setup, varied)?;
     let setup = setup.as_asked();
     let axis = |asked: &Asked| -> Result<Axis, String> {
         let range = asked.range(&setup.problem, &choice)?;
@@ -85,13 +87,18 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
 
 /// The settings round which the map is made, and whether those on its axes are known: as given, or
 /// found by a search where nothing is.
-fn choice(args: &MapArgs, setup: &Setup, varied: [Setting; 2]) -> Result<(Choice, bool), Failure> {
-    if args.set.is_empty() && args.from.is_none() {
+fn choice(
+    args: &MapArgs,
+    from: Option<&Earlier>,
+    setup: &Setup,
+    varied: [Setting; 2],
+) -> Result<(Choice, bool), Failure> {
+    if args.set.is_empty() && from.is_none() {
         return Ok((searched(args, setup)?, true));
     }
     let mut set = args.set.clone();
     set.extend(args.contact.iter().map(|name| format!("contact={name}")));
-    settings::choice_round(varied, &set, args.from.as_deref(), &setup.problem)
+    Ok(settings::choice_round(varied, &set, from, &setup.problem)?)
 }
 
 /// The best settings.

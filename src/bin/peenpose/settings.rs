@@ -5,22 +5,23 @@ use std::path::Path;
 use peenpose::problem::Problem;
 use peenpose::problem::fault::nearest_name;
 use peenpose::problem::setting::{Choice, Setting};
+use peenpose::record::Record;
 use peenpose::units::{self, Dimension};
 
 use crate::output::{self, Failure};
 
 /// The settings asked for: from a result, from `--set`, or held in the file.
-pub fn choice(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Choice, Failure> {
-    Ok(Known::of(set, from, problem)?.complete(problem)?)
+pub fn choice(set: &[String], from: Option<&Earlier>, problem: &Problem) -> Result<Choice, String> {
+    Known::of(set, from, problem)?.complete(problem)
 }
 
 /// The same where two settings vary: these need not be known. Also tells whether they are.
 pub fn choice_round(
     varied: [Setting; 2],
     set: &[String],
-    from: Option<&Path>,
+    from: Option<&Earlier>,
     problem: &Problem,
-) -> Result<(Choice, bool), Failure> {
+) -> Result<(Choice, bool), String> {
     let mut known = Known::of(set, from, problem)?;
     let middle = problem.settings.middle();
     let mut all_known = true;
@@ -53,37 +54,44 @@ fn unknown(what: &str, name: &str, known: &[&str]) -> String {
     format!("there is no {what} `{name}`; expected one of {known}{nearest}")
 }
 
-/// Warns of a result that answers another problem: settings that fit there may be nonsense here.
-pub fn warn_of_another_problem(from: Option<&Path>, problem: &Problem) -> Result<(), Failure> {
-    let Some(path) = from else {
-        return Ok(());
-    };
-    let answered = output::read_record(path)?.problem.title;
-    if answered != problem.title {
-        output::warn(&format!(
-            "{} answers another problem, `{answered}`: its settings are taken all the same",
-            path.display()
-        ));
-    }
-    Ok(())
+/// The result that `--from` names.
+pub struct Earlier<'a> {
+    path: &'a Path,
+    record: Record,
 }
 
-/// The best settings of a result.
-fn from_result(path: &Path, problem: &Problem) -> Result<Choice, Failure> {
-    let best = output::read_record(path)?.best;
-    let contact = contact_named(&best.contact, problem)
-        .map_err(|fault| format!("--from {}: {fault}", path.display()))?;
-    Ok(Choice {
-        incidence: best.settings.incidence_deg.to_radians(),
-        azimuth: best.settings.azimuth_deg.to_radians(),
-        standoff: best.settings.standoff_m,
-        speed: best.settings.speed_m_s,
-        aim_along: best.settings.aim_along_m,
-        aim_across: best.settings.aim_across_m,
-        aim_above: best.settings.aim_above_m,
-        contact,
-        static_friction: best.contact_values.mu_s,
-    })
+impl<'a> Earlier<'a> {
+    /// Reads it. Unless `quiet`, warns when it answers another problem: settings that fit there may be
+    /// nonsense here.
+    pub fn read(path: &'a Path, problem: &Problem, quiet: bool) -> Result<Self, Failure> {
+        let record = output::read_record(path)?;
+        let answered = &record.problem.title;
+        if !quiet && *answered != problem.title {
+            output::warn(&format!(
+                "{} answers another problem, `{answered}`: its settings are taken all the same",
+                path.display()
+            ));
+        }
+        Ok(Self { path, record })
+    }
+
+    /// Its best settings.
+    fn choice(&self, problem: &Problem) -> Result<Choice, String> {
+        let best = &self.record.best;
+        let contact = contact_named(&best.contact, problem)
+            .map_err(|fault| format!("--from {}: {fault}", self.path.display()))?;
+        Ok(Choice {
+            incidence: best.settings.incidence_deg.to_radians(),
+            azimuth: best.settings.azimuth_deg.to_radians(),
+            standoff: best.settings.standoff_m,
+            speed: best.settings.speed_m_s,
+            aim_along: best.settings.aim_along_m,
+            aim_across: best.settings.aim_across_m,
+            aim_above: best.settings.aim_above_m,
+            contact,
+            static_friction: best.contact_values.mu_s,
+        })
+    }
 }
 
 pub fn contact_named(name: &str, problem: &Problem) -> Result<usize, String> {
@@ -121,10 +129,10 @@ const SETTINGS: [Setting; 8] = [
 
 impl Known {
     /// What the file holds, a result says, and `--set` says, the later ones on top.
-    fn of(set: &[String], from: Option<&Path>, problem: &Problem) -> Result<Self, Failure> {
+    fn of(set: &[String], from: Option<&Earlier>, problem: &Problem) -> Result<Self, String> {
         let mut known = Self::held(problem);
-        if let Some(path) = from {
-            known.take(&from_result(path, problem)?);
+        if let Some(earlier) = from {
+            known.take(&earlier.choice(problem)?);
         }
         for text in set {
             known.set(text, problem)?;
