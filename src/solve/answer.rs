@@ -58,16 +58,24 @@ impl Answer {
                 verdicts: Vec::new(),
                 violation,
             },
-            Standing::Feasible(_) => {
-                let evaluation = evaluate(setup, &choice, fresh);
-                effort.add(1, evaluation.rays);
-                Self {
-                    choice,
-                    verdicts: Verdict::all(setup, &evaluation),
-                    evaluation: Some(evaluation),
-                    violation: 0.0,
-                }
-            }
+            Standing::Feasible(_) => Self::feasible(setup, &choice, fresh, effort),
+        }
+    }
+
+    /// The answer that settings are at which the nozzle fits.
+    pub(super) fn feasible(
+        setup: &Setup,
+        choice: &Choice,
+        fresh: &Replicates,
+        effort: &Effort,
+    ) -> Self {
+        let evaluation = evaluate(setup, choice, fresh);
+        effort.add(1, evaluation.rays);
+        Self {
+            choice: *choice,
+            verdicts: Verdict::all(setup, &evaluation),
+            evaluation: Some(evaluation),
+            violation: 0.0,
         }
     }
 }

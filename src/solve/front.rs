@@ -11,12 +11,10 @@ use super::SCREENING_SHOTS;
 use super::answer::Answer;
 use super::archive::{Archive, dominates, not_dominated, spread_out};
 use super::control::{Control, Progress};
-use super::judge::{Effort, Judge, Standing};
-use super::polish::Candidate;
+use super::judge::{Effort, Judge};
 use super::risks::{Risks, risks};
 use super::search::{STAGES, Search};
 use crate::jet::{Replicates, Samples, Stream, purpose};
-use crate::objective::Terms;
 use crate::setup::Setup;
 
 /// What can be had.
@@ -56,14 +54,9 @@ pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
     });
     let judged = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
     let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
-    let evaluated = judged.par_iter().map(|judged| {
-        let candidate = Candidate {
-            point: Vec::new(),
-            choice: judged.choice,
-            standing: Standing::Feasible(Terms::default()),
-        };
-        Answer::of(setup, &candidate, &fresh, &effort)
-    });
+    let evaluated = judged
+        .par_iter()
+        .map(|judged| Answer::feasible(setup, &judged.choice, &fresh, &effort));
     let evaluated: Vec<Answer> = evaluated.collect();
     let all = found.iter().chain(&evaluated).filter_map(Measured::of);
     let all: Vec<Measured> = all.collect();
