@@ -9,6 +9,15 @@ use tempfile::TempDir;
 
 const KEYWAY: &str = "problems/keyway.yaml";
 const DOUBTFUL: &str = "tests/doubtful/exit_too_small.yaml";
+const MAP_OF_PLATE: [&str; 7] = [
+    "problems/plate.yaml",
+    "--x",
+    "incidence=40deg:80deg",
+    "--y",
+    "speed=5m/s:15m/s",
+    "--set",
+    "contact=mu_006",
+];
 
 fn peenpose(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_peenpose"));
@@ -153,6 +162,12 @@ fn a_closed_pipe_is_quiet_for_every_command() {
     let folder = TempDir::new().unwrap();
     let maps = folder.path().to_str().unwrap();
     let set = ["--set", "contact=mu_006", "--set", "contact=mu_006"];
+    let map = [
+        &["map"],
+        &MAP_OF_PLATE[..],
+        &["--steps", "3", "--out", maps],
+    ]
+    .concat();
     let commands: [&[&str]; 9] = [
         &["--help"],
         &["--version"],
@@ -162,20 +177,7 @@ fn a_closed_pipe_is_quiet_for_every_command() {
         &["impact", "--table", "zohdi1"],
         &["solve", "problems/plate.yaml"],
         &["evaluate", "problems/plate.yaml", set[0], set[1]],
-        &[
-            "map",
-            "problems/plate.yaml",
-            "--x",
-            "incidence=40deg:80deg",
-            "--y",
-            "speed=5m/s:15m/s",
-            "--set",
-            "contact=mu_006",
-            "--steps",
-            "3",
-            "--out",
-            maps,
-        ],
+        &map,
     ];
     for arguments in commands {
         let mut child = peenpose(arguments)
@@ -237,17 +239,7 @@ fn map(arguments: &[&str], folder: &Path) -> Output {
 #[test]
 fn a_map_is_written_as_picture_and_table() {
     let folder = TempDir::new().unwrap();
-    let plate = [
-        "problems/plate.yaml",
-        "--x",
-        "incidence=40deg:80deg",
-        "--y",
-        "speed=5m/s:15m/s",
-        "--set",
-        "contact=mu_006",
-        "--steps",
-        "11",
-    ];
+    let plate = [&MAP_OF_PLATE[..], &["--steps", "11"]].concat();
     let told = map(&plate, folder.path());
     assert_eq!(told.status.code(), Some(0), "{}", messages(&told));
     assert!(out(&told).contains("J over incidence and speed"));

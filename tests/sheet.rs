@@ -1,34 +1,15 @@
 //! The technique sheet of kept results against kept texts. `UPDATE_SHEETS=1 cargo test --test sheet`
 //! writes the texts anew; look at the difference before it is kept.
 
-use std::path::{Path, PathBuf};
+#[path = "common/kept.rs"]
+mod kept;
 
 use peenpose::record::{
     AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, Record, StatusRecord,
 };
 use peenpose::report::sheet;
 
-const NAMES: [&str; 7] = [
-    "keyway",
-    "long_keyway",
-    "plate",
-    "given_fails",
-    "given_collides",
-    "given_unknown",
-    "no_room",
-];
-
-fn data(name: &str, extension: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data/sheets")
-        .join(name)
-        .with_extension(extension)
-}
-
-fn record(name: &str) -> Record {
-    let text = std::fs::read_to_string(data(name, "json")).unwrap();
-    Record::from_json(&text).unwrap()
-}
+use kept::{NAMES, file, record};
 
 /// What holds for every sheet.
 fn assert_well_formed(text: &str) {
@@ -65,7 +46,7 @@ fn assert_well_formed(text: &str) {
 fn sheets_are_as_they_were() {
     for name in NAMES {
         let text = sheet(&record(name));
-        let path = data(name, "txt");
+        let path = file(name, "txt");
         if std::env::var_os("UPDATE_SHEETS").is_some() {
             std::fs::write(&path, &text).unwrap();
         }

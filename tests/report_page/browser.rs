@@ -147,8 +147,14 @@ impl Browser {
         }
     }
 
+    /// There must be neither errors and warnings on the console nor exceptions.
+    pub fn assert_no_complaints(&self) {
+        let complaints = self.complaints();
+        assert!(complaints.is_empty(), "{complaints:?}");
+    }
+
     /// Errors and warnings on the console, and exceptions.
-    pub fn complaints(&self) -> Vec<&Value> {
+    fn complaints(&self) -> Vec<&Value> {
         let is_complaint = |event: &&Value| match event["method"].as_str() {
             Some("Runtime.exceptionThrown") => true,
             Some("Runtime.consoleAPICalled") => {

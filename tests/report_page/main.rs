@@ -2,6 +2,8 @@
 
 mod browser;
 mod html;
+#[path = "../common/kept.rs"]
+mod kept;
 
 use std::path::Path;
 
@@ -13,15 +15,6 @@ use peenpose::setup::Setup;
 
 use browser::Browser;
 
-const KEPT: [&str; 7] = [
-    "keyway",
-    "long_keyway",
-    "plate",
-    "given_fails",
-    "given_collides",
-    "given_unknown",
-    "no_room",
-];
 /// A page for 16 384 shots must not be larger.
 const MOST_BYTES: usize = 3_000_000;
 const SHOTS: usize = 16_384;
@@ -29,15 +22,9 @@ const SHOTS: usize = 16_384;
 const HOSTILE: &str =
     "</script><img src=x onerror=alert(1)>\"'&amp;--><!--]]>{{ 7 }}</pre></style>";
 
-fn kept(name: &str) -> Record {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/sheets");
-    let text = std::fs::read_to_string(folder.join(name).with_extension("json")).unwrap();
-    Record::from_json(&text).unwrap()
-}
-
 /// The kept keyway with what its pictures are drawn from.
 fn illustrated() -> Record {
-    let mut record = kept("keyway");
+    let mut record = kept::record("keyway");
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
     let (setup, _) = Setup::load(&file).unwrap();
     let settings = &record.best.settings;
@@ -121,7 +108,10 @@ fn fetched(page: &str) -> Vec<String> {
 
 #[test]
 fn pages_are_whole_stand_alone_and_hold_the_sheet() {
-    let records = KEPT.map(kept).into_iter().chain([illustrated()]);
+    let records = kept::NAMES
+        .map(kept::record)
+        .into_iter()
+        .chain([illustrated()]);
     for record in records {
         let page = page(&record).unwrap();
         assert_eq!(fetched(&page), Vec::<String>::new());
@@ -149,7 +139,7 @@ fn what_must_be_known_at_once_stands_before_everything_else() {
     ];
     let places = places.map(|needed| text.find(needed).unwrap_or_else(|| panic!("no {needed}")));
     assert!(places.is_sorted(), "{places:?}");
-    let text = page(&kept("no_room")).unwrap();
+    let text = page(&kept::record("no_room")).unwrap();
     assert!(text.contains("verdict bad") && text.contains("What would cure it"));
 }
 
@@ -274,11 +264,7 @@ fn a_browser_shows_the_page_and_the_view_obeys_the_keyboard() {
         "{:?}",
         browser.fetched()
     );
-    assert!(
-        browser.complaints().is_empty(),
-        "{:?}",
-        browser.complaints()
-    );
+    browser.assert_no_complaints();
 }
 
 #[test]
@@ -292,11 +278,7 @@ fn without_webgl_the_still_picture_stands_in() {
         browser.value("document.querySelector('#viewer').offsetHeight"),
         0
     );
-    assert!(
-        browser.complaints().is_empty(),
-        "{:?}",
-        browser.complaints()
-    );
+    browser.assert_no_complaints();
 }
 
 #[test]
@@ -311,9 +293,5 @@ fn names_that_try_to_break_out_do_nothing_in_a_browser() {
         browser.value("document.querySelector('h1').textContent"),
         HOSTILE
     );
-    assert!(
-        browser.complaints().is_empty(),
-        "{:?}",
-        browser.complaints()
-    );
+    browser.assert_no_complaints();
 }
