@@ -5,7 +5,6 @@ mod folds;
 mod plates;
 
 use nalgebra::{Point3, Vector3};
-use rayon::prelude::*;
 
 use super::Facets;
 use crate::scene::LIFT;
@@ -62,10 +61,11 @@ impl Facets {
         })
     }
 
+    /// On one thread: made behind a lock, where a thread that shares work out may take up other work
+    /// that waits for the same lock.
     fn build_plates(&self) -> Vec<Plates> {
         let flat = LIFT * self.slack;
         let shapes: Vec<Plate> = (0..self.count() as u32)
-            .into_par_iter()
             .map(|index| plate(self.corners(index), self.corners[index as usize], flat))
             .collect();
         let clear: Vec<bool> = shapes.iter().map(|plate| plate.clear).collect();
@@ -74,7 +74,7 @@ impl Facets {
             plate: shapes[index as usize],
             folds: folds[index as usize],
         };
-        let bundles = self.bundles.par_iter();
+        let bundles = self.bundles.iter();
         let plates = bundles.map(|bundle| {
             let triangles: Vec<Ready> = bundle.triangles().iter().map(ready).collect();
             Plates::new(&triangles)

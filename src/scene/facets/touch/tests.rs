@@ -4,6 +4,12 @@
 mod rebounds;
 mod search;
 
+use std::hint;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
 use nalgebra::{Point3, Vector3};
 
 use super::super::tests::{Random, heap, ray, room};
@@ -264,4 +270,54 @@ fn small_spheres_touch_what_points_cross() {
         }
         assert!(crossings > 400, "{crossings}");
     }
+}
+
+/// What is made for the first sphere is made behind a lock. Were its making shared out to the pool,
+/// the thread that holds the lock could take up another sphere while it waits for the others.
+#[test]
+fn who_prepares_a_mesh_takes_no_other_work() {
+    let (done, wait) = mpsc::channel();
+    thread::spawn(move || {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
+        pool.unwrap()
+            .install(|| (0..60).for_each(|_| meet_in_a_mesh()));
+        done.send(()).unwrap();
+    });
+    assert_eq!(wait.recv_timeout(Duration::from_secs(100)), Ok(()));
+}
+
+/// Two of three threads are busy while the third prepares a mesh; work that needs the mesh lies
+/// beside the first, and the second becomes free to help.
+fn meet_in_a_mesh() {
+    let facets = facets(&room(0.01));
+    let touch = || {
+        let ray = Ray {
+            origin: Point3::origin(),
+            direction: Vector3::x(),
+        };
+        let found = facets.first_touch(&ray, 0.1, None, false, f64::INFINITY);
+        assert!(found.is_some());
+    };
+    let busy = AtomicUsize::new(0);
+    let both_are_busy = || {
+        busy.fetch_add(1, Ordering::SeqCst);
+        while busy.load(Ordering::SeqCst) < 2 {
+            hint::spin_loop();
+        }
+    };
+    rayon::scope(|scope| {
+        scope.spawn(|scope| {
+            scope.spawn(|_| touch());
+            both_are_busy();
+            thread::sleep(Duration::from_millis(10));
+        });
+        scope.spawn(|_| {
+            both_are_busy();
+            thread::sleep(Duration::from_micros(200));
+        });
+        while busy.load(Ordering::SeqCst) < 2 {
+            hint::spin_loop();
+        }
+        touch();
+    });
 }
