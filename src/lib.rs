@@ -98,6 +98,7 @@
 //! | [`objective`] | impacts to terms to J, and the best speed |
 //! | [`evaluate`] | what settings do, on shots that nothing was tuned on |
 //! | [`verdict`] | whether that passes, goal by goal |
+//! | [`checkpoint`] | work that is written down as it is done |
 //! | [`unknowns`] | which of restitution and friction, where they are not known exactly, moves the result most |
 //! | [`solve`] | the search over settings, how far each may drift, and the trade-off |
 //! | [`map`] | the objective and the verdicts over two settings |
@@ -132,6 +133,8 @@ pub mod objective;
 
 pub mod evaluate;
 pub mod verdict;
+
+pub mod checkpoint;
 
 pub mod unknowns;
 

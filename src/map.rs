@@ -6,7 +6,9 @@ mod survey;
 pub use standard::standard_maps;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
+use crate::checkpoint::Checkpoint;
 use crate::jet::{Deviate, Replicates, Samples, purpose};
 use crate::objective::Terms;
 use crate::problem::Problem;
@@ -42,7 +44,7 @@ pub struct Axis {
 }
 
 /// What one place of a map does.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// The terms of the objective.
     pub terms: Terms,
@@ -68,9 +70,19 @@ impl Map {
     /// The map of two settings round a choice, on `shots` shots of the jet (one where all shots
     /// are the same).
     ///
-    /// Where the paths do not depend on the speed they are traced once for all of its values.
-    pub fn of(setup: &Setup, choice: &Choice, x: Axis, y: Axis, shots: usize) -> Self {
+    /// Where the paths do not depend on the speed they are traced once for all of its values. Rows,
+    /// columns or places that are in the checkpoint are taken from there.
+    pub fn of(
+        setup: &Setup,
+        choice: &Choice,
+        x: Axis,
+        y: Axis,
+        shots: usize,
+        checkpoint: Option<&Checkpoint>,
+    ) -> Self {
         let deviates = common_shots(&setup.problem, shots);
+        let kind = format!("map {x:?} {y:?}");
+        let page = checkpoint.map(|checkpoint| checkpoint.page(&kind, setup, &deviates));
         let columns = x.values.len();
         let place = |index: usize| {
             let across = x.setting.with(choice, x.values[index % columns]);
@@ -87,10 +99,14 @@ impl Map {
         } else {
             (0..count).map(|index| vec![index]).collect()
         };
-        let found: Vec<Vec<(usize, Option<Cell>)>> = groups
-            .into_par_iter()
-            .map(|group| cells_on_one_path(setup, &group, place, &deviates))
-            .collect();
+        let cells_of = |group: Vec<usize>| {
+            let work = || cells_on_one_path(setup, &group, place, &deviates);
+            match (&page, group.first()) {
+                (Some(page), Some(&first)) => page.recall_or(&place(first), work),
+                _ => work(),
+            }
+        };
+        let found: Vec<Vec<(usize, Option<Cell>)>> = groups.into_par_iter().map(cells_of).collect();
         let mut cells = vec![None; count];
         for (index, cell) in found.into_iter().flatten() {
             cells[index] = cell;

@@ -8,10 +8,12 @@ pub use hits::{Hits, Impulses};
 pub(crate) use score::Score;
 pub use tally::Tally;
 
+use serde::{Deserialize, Serialize};
+
 use crate::problem::goal::Goals;
 
 /// The terms of the objective with their weights, so that they add up to J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Terms {
     /// First hits on target: squared relative error of the normal impulse.
     pub normal_impulse: f64,

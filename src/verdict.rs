@@ -1,10 +1,12 @@
 //! Whether a choice of settings passes: one verdict for each goal and each secondary surface.
 
+use serde::{Deserialize, Serialize};
+
 use crate::evaluate::Evaluation;
 use crate::setup::Setup;
 
 /// What a verdict is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Subject {
     /// N* of first hits on target.
     NormalImpulse,

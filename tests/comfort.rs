@@ -194,7 +194,14 @@ fn a_closed_pipe_is_quiet_for_every_command() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_with_the_best_answer_so_far() {
+fn ctrl_c_and_a_request_to_end_give_the_best_answer_so_far() {
+    for signal in ["-INT", "-TERM"] {
+        ends_with_the_best_answer(signal);
+    }
+}
+
+#[cfg(unix)]
+fn ends_with_the_best_answer(signal: &str) {
     // So accurate that it takes minutes.
     let mut child = peenpose(&[
         "solve",
@@ -215,7 +222,7 @@ fn ctrl_c_ends_with_the_best_answer_so_far() {
     });
     std::thread::sleep(std::time::Duration::from_secs(3));
     let interrupt = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+        .args([signal, &child.id().to_string()])
         .status()
         .unwrap();
     assert!(interrupt.success());

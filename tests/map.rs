@@ -93,7 +93,7 @@ fn a_map_without_speed_is_what_evaluations_say() {
     let setup = keyway();
     let x = axis(Setting::Incidence, 0.6, 1.4, 9);
     let y = axis(Setting::Azimuth, -0.6, 0.6, 7);
-    let map = Map::of(&setup, &good(), x, y, SHOTS);
+    let map = Map::of(&setup, &good(), x, y, SHOTS, None);
     assert!(map.cells.iter().any(Option::is_none));
     agrees_with_evaluations(&setup, &map);
 }
@@ -105,11 +105,11 @@ fn one_set_of_paths_does_for_every_speed() {
     let speed = || axis(Setting::Speed, 5.0, 20.0, 9);
     agrees_with_evaluations(
         &setup,
-        &Map::of(&setup, &good(), standoff(), speed(), SHOTS),
+        &Map::of(&setup, &good(), standoff(), speed(), SHOTS, None),
     );
     agrees_with_evaluations(
         &setup,
-        &Map::of(&setup, &good(), speed(), standoff(), SHOTS),
+        &Map::of(&setup, &good(), speed(), standoff(), SHOTS, None),
     );
 }
 
@@ -125,7 +125,7 @@ fn every_speed_has_its_own_paths_where_restitution_falls() {
     }
     let x = axis(Setting::Speed, 5.0, 15.0, 5);
     let y = axis(Setting::Incidence, 1.0, 1.3, 4);
-    agrees_with_evaluations(&setup, &Map::of(&setup, &good(), x, y, SHOTS));
+    agrees_with_evaluations(&setup, &Map::of(&setup, &good(), x, y, SHOTS, None));
 }
 
 #[test]
@@ -138,7 +138,7 @@ fn on_a_plate_the_map_is_a_formula() {
     };
     let x = axis(Setting::Incidence, 0.5, 1.5, 11);
     let y = axis(Setting::Speed, 2.0, 20.0, 10);
-    let map = Map::of(&setup, &choice, x, y, SHOTS);
+    let map = Map::of(&setup, &choice, x, y, SHOTS, None);
     assert_eq!(map.shots, 1);
     let restitution = setup.problem.contacts[0].contact.restitution.reference();
     let target = setup.problem.goals.normal_impulse.target;
@@ -156,7 +156,7 @@ fn records_keep_seven_digits_and_name_what_fails() {
     let setup = keyway();
     let x = axis(Setting::Incidence, 0.6, 1.4, 5);
     let y = axis(Setting::Azimuth, -0.6, 0.6, 4);
-    let map = Map::of(&setup, &good(), x, y, SHOTS);
+    let map = Map::of(&setup, &good(), x, y, SHOTS, None);
     let record = MapRecord::new(&setup, &map);
     assert_eq!(record.x.setting, "incidence_deg");
     assert!((record.x.values[0] - 0.6_f64.to_degrees()).abs() < 1e-6);

@@ -54,6 +54,45 @@ impl Deviate {
         weight: 1.0,
     };
 
+    /// All of them, for checksums.
+    pub fn numbers(&self) -> [f64; 19] {
+        let Self {
+            exit: [exit_x, exit_y],
+            cone: [cone_x, cone_y, cone_z],
+            speed,
+            size,
+            incidence: [sin_incidence, cos_incidence],
+            azimuth: [sin_azimuth, cos_azimuth],
+            standoff,
+            aim: [along, across, above],
+            restitution,
+            friction,
+            tilts,
+            weight,
+        } = *self;
+        [
+            exit_x,
+            exit_y,
+            cone_x,
+            cone_y,
+            cone_z,
+            speed,
+            size,
+            sin_incidence,
+            cos_incidence,
+            sin_azimuth,
+            cos_azimuth,
+            standoff,
+            along,
+            across,
+            above,
+            restitution,
+            friction,
+            tilts,
+            weight,
+        ]
+    }
+
     /// Factor on the mass.
     #[inline(always)]
     pub fn mass(&self) -> f64 {

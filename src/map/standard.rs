@@ -44,7 +44,7 @@ pub fn standard_maps(setup: &Setup, choice: &Choice) -> Vec<Map> {
             };
             Axis::over(setting, shown, steps as usize)
         };
-        Map::of(setup, choice, axis(x), axis(y), SHOTS)
+        Map::of(setup, choice, axis(x), axis(y), SHOTS, None)
     };
     pairs.into_iter().map(map).collect()
 }

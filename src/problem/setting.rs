@@ -84,6 +84,33 @@ pub struct Choice {
     pub static_friction: f64,
 }
 
+impl Choice {
+    /// All of them but the contact, for checksums.
+    pub fn numbers(&self) -> [f64; 8] {
+        let Self {
+            incidence,
+            azimuth,
+            standoff,
+            speed,
+            aim_along,
+            aim_across,
+            aim_above,
+            contact: _,
+            static_friction,
+        } = *self;
+        [
+            incidence,
+            azimuth,
+            standoff,
+            speed,
+            aim_along,
+            aim_across,
+            aim_above,
+            static_friction,
+        ]
+    }
+}
+
 /// One of the settings that are numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Setting {

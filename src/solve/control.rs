@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::checkpoint::Checkpoint;
+
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
@@ -25,6 +27,8 @@ pub struct Control<'a> {
     pub stop: &'a AtomicBool,
     /// Told about progress; called from any thread.
     pub watch: &'a (dyn Fn(Progress) + Sync),
+    /// Where what poses are worth is kept, and taken from.
+    pub checkpoint: Option<&'a Checkpoint>,
 }
 
 impl Control<'_> {
@@ -43,6 +47,7 @@ impl Default for Control<'_> {
             fresh_shots: 1 << 16,
             stop: &NEVER,
             watch: &|_| (),
+            checkpoint: None,
         }
     }
 }

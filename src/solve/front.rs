@@ -134,7 +134,7 @@ fn search(
     let weighted = weighted(setup, weights);
     let judge = |shots: usize| {
         let shots = shots.min(samples.deviates.len());
-        Judge::new(&weighted, &samples.deviates[..shots], effort, control.stop)
+        Judge::new(&weighted, &samples.deviates[..shots], effort, control)
     };
     if control.is_stopped() {
         return;

@@ -1,18 +1,21 @@
 //! What one point of the search is worth: feasible or not, the best speed there, and J.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::archive::Archive;
+use super::control::Control;
 use super::risks::Risks;
+use crate::checkpoint::{Checkpoint, Page};
 use crate::jet::{Deviate, Pose};
 use crate::objective::{Tally, Terms};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
 /// What a choice of settings is worth on a set of shots.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Standing {
     /// The nozzle fits.
     Feasible(Terms),
@@ -73,12 +76,23 @@ impl Effort {
     }
 }
 
+/// What was found out about a choice, and with how many rays.
+#[derive(Serialize, Deserialize)]
+struct Judged {
+    /// The best one, m/s.
+    speed: f64,
+    standing: Standing,
+    rays: usize,
+}
+
 /// Judges choices on common shots.
 pub struct Judge<'a> {
     setup: &'a Setup,
     shots: &'a [Deviate],
     effort: &'a Effort,
-    stop: &'a AtomicBool,
+    control: &'a Control<'a>,
+    /// Where what was judged is written down.
+    page: Option<Page<'a>>,
     /// Where to keep what was judged, and the factors that are on the weights.
     archive: Option<(&'a Archive, Risks)>,
 }
@@ -89,13 +103,15 @@ impl<'a> Judge<'a> {
         setup: &'a Setup,
         shots: &'a [Deviate],
         effort: &'a Effort,
-        stop: &'a AtomicBool,
+        control: &'a Control,
     ) -> Self {
+        let page = |checkpoint: &'a Checkpoint| checkpoint.page("judged", setup, shots);
         Self {
             setup,
             shots,
             effort,
-            stop,
+            control,
+            page: control.checkpoint.map(page),
             archive: None,
         }
     }
@@ -111,31 +127,50 @@ impl<'a> Judge<'a> {
 
     /// Whether the search should come to an end.
     pub fn is_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.control.is_stopped()
     }
 
     /// The standing of a choice, and the choice with the best speed for it.
     pub fn judge(&self, choice: &Choice) -> (Choice, Standing) {
+        let judged = match &self.page {
+            Some(page) => page.recall_or(choice, || self.judge_anew(choice)),
+            None => self.judge_anew(choice),
+        };
+        self.effort.add(1, judged.rays);
+        let choice = Choice {
+            speed: judged.speed,
+            ..*choice
+        };
+        if let (Some((archive, factors)), Standing::Feasible(terms)) =
+            (&self.archive, &judged.standing)
+        {
+            archive.add(choice, terms, factors);
+        }
+        (choice, judged.standing)
+    }
+
+    fn judge_anew(&self, choice: &Choice) -> Judged {
         if let Some(violation) = clearance_violation(self.setup, choice) {
-            self.effort.add(1, 0);
-            return (*choice, Standing::Blocked(violation));
+            return Judged {
+                speed: choice.speed,
+                standing: Standing::Blocked(violation),
+                rays: 0,
+            };
         }
         let goals = &self.setup.problem.goals;
-        let mut choice = *choice;
-        let tally = if speed_scales_out(self.setup, choice.contact) {
+        let (tally, speed) = if speed_scales_out(self.setup, choice.contact) {
             // Paths do not depend on the speed; any will do to trace them.
-            let tally = self.trace(&choice, 1.0);
-            choice.speed = tally.best_speed(goals, self.setup.problem.settings.speed);
-            tally
+            let tally = self.trace(choice, 1.0);
+            let speed = tally.best_speed(goals, self.setup.problem.settings.speed);
+            (tally, speed)
         } else {
-            self.trace(&choice, choice.speed)
+            (self.trace(choice, choice.speed), choice.speed)
         };
-        self.effort.add(1, tally.rays);
-        let terms = tally.terms(goals, choice.speed);
-        if let Some((archive, factors)) = &self.archive {
-            archive.add(choice, &terms, factors);
+        Judged {
+            speed,
+            standing: Standing::Feasible(tally.terms(goals, speed)),
+            rays: tally.rays,
         }
-        (choice, Standing::Feasible(terms))
     }
 
     /// Traces the shots, many of them on all threads.

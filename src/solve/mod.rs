@@ -162,7 +162,7 @@ fn refine(
     effort: &Effort,
 ) {
     let samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
-    let judge = Judge::new(setup, &samples.deviates, effort, control.stop);
+    let judge = Judge::new(setup, &samples.deviates, effort, control);
     let stage = Stage::beyond(shots);
     refine_in_turn(searches, which, &judge, &stage, setup.problem.accuracy);
     tell(control, effort, searches);
@@ -211,7 +211,7 @@ fn judge_of<'a>(
     control: &'a Control,
 ) -> Judge<'a> {
     let shots = shots.min(samples.deviates.len());
-    Judge::new(setup, &samples.deviates[..shots], effort, control.stop)
+    Judge::new(setup, &samples.deviates[..shots], effort, control)
 }
 
 /// Refines some of the searches, the best one first, so that the others can profit from it.

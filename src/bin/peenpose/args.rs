@@ -78,6 +78,8 @@ Examples:
   peenpose solve keyway.yaml --out result           sheet, result.json and figures in a folder
   peenpose solve keyway.yaml --pareto               what can be had instead, too
   peenpose solve keyway.yaml --json | jq .best.settings
+  peenpose solve keyway.yaml --out result --checkpoint kept
+                                                    goes on where it was, if it was ended
 Ctrl-C ends the search with the best answer so far.";
 
 const EVALUATE_EXAMPLES: &str = "\
@@ -178,6 +180,9 @@ pub struct SolveArgs {
     /// Show the trade-off between target error, tangential risk and rebound, too
     #[arg(long)]
     pub pareto: bool,
+    /// Keep what was worked out in this folder, and go on from what is there
+    #[arg(long, value_name = "DIR")]
+    pub checkpoint: Option<PathBuf>,
     #[command(flatten)]
     pub start: StartArgs,
 }
@@ -235,6 +240,9 @@ pub struct MapArgs {
     /// Shots at each place
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub shots: u32,
+    /// Keep what was worked out in this folder, and go on from what is there
+    #[arg(long, value_name = "DIR")]
+    pub checkpoint: Option<PathBuf>,
     #[command(flatten)]
     pub start: StartArgs,
     /// Write the map as SVG, PNG and CSV into this folder

@@ -7,6 +7,7 @@ mod evaluate;
 mod export;
 mod impact;
 mod init;
+mod kept;
 mod map;
 mod media;
 mod output;

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use peenpose::checkpoint::Checkpoint;
 use peenpose::map::{Axis, Map};
 use peenpose::problem::Problem;
 use peenpose::problem::setting::{Choice, Range, Setting};
@@ -13,6 +14,7 @@ use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Control, solve};
 
 use crate::args::MapArgs;
+use crate::kept;
 use crate::output::{self, Failure};
 use crate::progress::Watcher;
 use crate::settings::{self, Earlier, contact_named, setting_named};
@@ -41,13 +43,17 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     x.check(&setup.problem)?;
     y.check(&setup.problem)?;
     let varied = [x.setting, y.setting];
-    let (choice, is_known) = choice(args, from.as_ref(), &setup, varied)?;
+    let kept = kept::open(args.checkpoint.as_deref(), &setup)?;
+    let kept = kept.as_ref();
+    let (choice, is_known) = choice(args, from.as_ref(), &setup, varied, kept)?;
     let setup = setup.as_asked();
     let axis = |asked: &Asked| -> Result<Axis, String> {
         let range = asked.range(&setup.problem, &choice)?;
         Ok(Axis::over(asked.setting, range, args.steps.into()))
     };
-    let map = Map::of(&setup, &choice, axis(&x)?, axis(&y)?, args.shots as usize);
+    let (x, y) = (axis(&x)?, axis(&y)?);
+    let map = Map::of(&setup, &choice, x, y, args.shots as usize, kept);
+    kept::close(kept, args.start.quiet);
     let answer = Answer {
         choice,
         evaluation: None,
@@ -92,9 +98,10 @@ fn choice(
     from: Option<&Earlier>,
     setup: &Setup,
     varied: [Setting; 2],
+    kept: Option<&Checkpoint>,
 ) -> Result<(Choice, bool), Failure> {
     if args.set.is_empty() && from.is_none() {
-        return Ok((searched(args, setup)?, true));
+        return Ok((searched(args, setup, kept)?, true));
     }
     let mut set = args.set.clone();
     set.extend(args.contact.iter().map(|name| format!("contact={name}")));
@@ -102,7 +109,7 @@ fn choice(
 }
 
 /// The best settings.
-fn searched(args: &MapArgs, setup: &Setup) -> Result<Choice, Failure> {
+fn searched(args: &MapArgs, setup: &Setup, kept: Option<&Checkpoint>) -> Result<Choice, Failure> {
     let watcher = Watcher::new(args.start.quiet);
     if !args.start.quiet {
         output::note("no --from and no --set: searching for the best settings first");
@@ -110,6 +117,7 @@ fn searched(args: &MapArgs, setup: &Setup) -> Result<Choice, Failure> {
     let control = Control {
         stop: &watcher.stop,
         watch: &|progress| watcher.show(progress),
+        checkpoint: kept,
         ..Control::default()
     };
     let solution = solve(setup, &control);

@@ -11,6 +11,7 @@ use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 
 use crate::args::SolveArgs;
+use crate::kept;
 use crate::output::{self, Failure, quoted};
 use crate::progress::Watcher;
 use crate::start;
@@ -22,8 +23,10 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     if let Some(accuracy) = &args.accuracy {
         setup.problem.accuracy = accuracy_of(accuracy)?;
     }
+    let checkpoint = kept::open(args.checkpoint.as_deref(), &setup)?;
     let watcher = Watcher::new(args.start.quiet);
     let control = Control {
+        checkpoint: checkpoint.as_ref(),
         stop: &watcher.stop,
         watch: &|progress| watcher.show(progress),
         ..Control::default()
@@ -36,6 +39,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         .then(|| front(&setup, &solution.answers, &control));
     let is_stopped = control.is_stopped();
     watcher.finish();
+    kept::close(checkpoint.as_ref(), args.start.quiet);
     if is_stopped {
         output::note("stopped: this is the best answer so far");
     }

@@ -119,7 +119,7 @@ impl<'a> Bench<'a> {
     /// The best settings of a setup near the first leading choice.
     fn descend(&self, setup: &Setup, shots: &[Deviate]) -> Choice {
         let choice = &self.leading[0];
-        let judge = Judge::new(setup, shots, self.effort, self.control.stop);
+        let judge = Judge::new(setup, shots, self.effort, self.control);
         let search_speed = !speed_scales_out(setup, choice.contact);
         let space = Space::new(&setup.problem, choice.contact, search_speed);
         let start = Candidate::at(&space, &judge, &space.point(choice));

@@ -1,0 +1,173 @@
+//! Work that is written down as it is done, so that a run that was ended goes on where it was.
+//!
+//! What settings do on given shots depends on nothing but the scene, the problem and those shots. A
+//! run that finds it in the file takes it from there and does the rest: it ends with the same bits
+//! as one that was never interrupted. Work of another problem in the same file is never taken.
+
+mod log;
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use sha2::{Digest, Sha256};
+
+use crate::jet::Deviate;
+use crate::problem::Problem;
+use crate::problem::part::{Part, Shape};
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+use log::Log;
+pub use log::Trouble;
+
+/// The file that keeps the work of runs.
+pub struct Checkpoint {
+    /// Of the program's version and the scene.
+    scene: Sha256,
+    known: HashMap<Key, String>,
+    log: Mutex<Log>,
+    recalled: AtomicUsize,
+}
+
+/// What identifies a piece of work: a hash of all that it depends on.
+type Key = [u8; 16];
+
+impl Checkpoint {
+    /// Opens the file in a folder, or makes both, for runs on the scene of a setup.
+    ///
+    /// # Errors
+    /// The file cannot be read or written, another run uses it, or it is damaged before its end.
+    pub fn open(folder: &Path, setup: &Setup) -> Result<Self, Trouble> {
+        let (log, known) = Log::open(folder)?;
+        Ok(Self {
+            scene: hash_of_scene(setup),
+            known,
+            log: Mutex::new(log),
+            recalled: AtomicUsize::new(0),
+        })
+    }
+
+    /// How many pieces of work this run has taken from the file.
+    pub fn recalled(&self) -> usize {
+        self.recalled.load(Ordering::Relaxed)
+    }
+
+    /// How many this run has added to it.
+    pub fn added(&self) -> usize {
+        self.log().added()
+    }
+
+    /// Writes what is not in the file yet.
+    ///
+    /// # Errors
+    /// What could not be written, now or earlier. Nothing is written after a failure, so that the
+    /// file is only ever cut short.
+    pub fn finish(&self) -> Result<(), Trouble> {
+        self.log().finish()
+    }
+
+    /// A page for work with a setup on given shots; `kind` tells work of different kinds apart.
+    pub(crate) fn page(&self, kind: &str, setup: &Setup, shots: &[Deviate]) -> Page<'_> {
+        let mut hash = self.scene.clone();
+        let problem = Problem {
+            // A title decides nothing; the parts are in the scene.
+            title: String::new(),
+            parts: Vec::new(),
+            ..setup.problem.clone()
+        };
+        hash.update(format!(
+            "{kind} {problem:?} {:?} {:?}",
+            setup.target, setup.surfaces
+        ));
+        for shot in shots {
+            add(&mut hash, &shot.numbers());
+        }
+        Page {
+            checkpoint: self,
+            hash,
+        }
+    }
+
+    fn recall<T: DeserializeOwned>(&self, key: &Key) -> Option<T> {
+        let value = serde_json::from_str(self.known.get(key)?).ok()?;
+        self.recalled.fetch_add(1, Ordering::Relaxed);
+        Some(value)
+    }
+
+    fn keep<T: Serialize>(&self, key: &Key, value: &T) {
+        // What JSON cannot hold is worked out again by the next run.
+        if let Ok(value) = serde_json::to_string(value) {
+            self.log().add(key, &value);
+        }
+    }
+
+    fn log(&self) -> MutexGuard<'_, Log> {
+        // What a thread left behind that panicked is whole lines.
+        self.log.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The work on one set of shots.
+pub(crate) struct Page<'a> {
+    checkpoint: &'a Checkpoint,
+    hash: Sha256,
+}
+
+impl Page<'_> {
+    /// The outcome of work on a choice of settings: from the file, or else done and written down.
+    pub fn recall_or<T>(&self, choice: &Choice, work: impl FnOnce() -> T) -> T
+    where
+        T: Serialize + DeserializeOwned,
+    {
+        let key = self.key(choice);
+        self.checkpoint.recall(&key).unwrap_or_else(|| {
+            let outcome = work();
+            self.checkpoint.keep(&key, &outcome);
+            outcome
+        })
+    }
+
+    fn key(&self, choice: &Choice) -> Key {
+        let mut hash = self.hash.clone();
+        add(&mut hash, &choice.numbers());
+        hash.update(choice.contact.to_le_bytes());
+        let mut key = Key::default();
+        key.copy_from_slice(&hash.finalize()[..16]);
+        key
+    }
+}
+
+/// Of everything that is there, whatever the names of the files it comes from.
+fn hash_of_scene(setup: &Setup) -> Sha256 {
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
+    for part in &setup.problem.parts {
+        hash.update(description(part));
+    }
+    let surfaces = setup.scene.surfaces();
+    for (index, name) in (0..).zip(surfaces) {
+        hash.update(name);
+        for corner in setup.scene.surface_triangles(index).flatten() {
+            add(&mut hash, &[corner.x, corner.y, corner.z]);
+        }
+    }
+    hash
+}
+
+/// A part without the path of its mesh, whose triangles are in the scene.
+fn description(part: &Part) -> String {
+    let shape = match &part.shape {
+        Shape::Mesh { .. } => String::new(),
+        exact => format!("{exact:?}"),
+    };
+    format!("{} {shape} {:?} {}", part.name, part.place, part.on_nozzle)
+}
+
+fn add(hash: &mut Sha256, numbers: &[f64]) {
+    for number in numbers {
+        hash.update(number.to_bits().to_le_bytes());
+    }
+}
