@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::jet::Replicates;
+use crate::jet::{Draw, Replicates};
 use crate::objective::{Hits, Sums, Terms};
 use crate::problem::goal::Goals;
 use crate::problem::setting::Choice;
@@ -88,12 +88,22 @@ pub struct Spread {
 
 /// Evaluates `choice` on fresh shots.
 pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluation {
-    let replicates: Vec<Ledger> = fresh
-        .sets
-        .par_iter()
-        .map(|replicate| Ledger::of(setup, choice, replicate))
-        .collect();
-    let shots = fresh.shots();
+    let sets = fresh.sets.par_iter();
+    let ledgers = sets.map(|set| Ledger::of(setup, choice, set)).collect();
+    summed_up(setup, choice, ledgers)
+}
+
+/// The same on shots that are forgotten once they are fired, as [`Replicates`] of the same number
+/// would take 230 bytes a shot.
+pub fn evaluate_drawn(setup: &Setup, choice: &Choice, fresh: &Draw) -> Evaluation {
+    let numbers = (0..fresh.sets()).into_par_iter();
+    let ledgers = numbers.map(|number| Ledger::of(setup, choice, &fresh.set(number)));
+    summed_up(setup, choice, ledgers.collect())
+}
+
+fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluation {
+    let shots = replicates.iter().map(|r| r.tally.shots).sum();
+    let is_exact = replicates.len() == 1;
     let goals = &setup.problem.goals;
     let sums: Vec<Sums> = replicates
         .iter()
@@ -102,7 +112,7 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
             of_jet.plus(&replicate.rim.sums(goals, choice.speed))
         })
         .collect();
-    let (terms, term_errors, standard_error) = if fresh.is_one_ray() {
+    let (terms, term_errors, standard_error) = if is_exact {
         (sums[0].terms(goals), Terms::default(), 0.0)
     } else {
         jackknife(&sums, goals)
@@ -118,8 +128,8 @@ pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluatio
     let impacts: usize = replicates.iter().map(|r| r.impacts).sum();
     Evaluation {
         shots,
-        is_exact: fresh.is_one_ray(),
-        rim_shots: fresh.rim_shots(),
+        is_exact,
+        rim_shots: replicates.iter().map(|r| r.rim.shots).sum(),
         rays,
         terms,
         term_errors,
@@ -193,20 +203,18 @@ fn target_receipt(goals: &Goals, speed: f64, replicates: &[Ledger]) -> TargetRec
         let all = replicates.iter().flat_map(|ledger| of(&ledger.tally.hits));
         all.map(|impulse| impulse * speed).collect()
     };
-    let normal = at_speed(|hits| &hits.normal);
-    let tangential = at_speed(|hits| &hits.tangential);
     let count = |of: fn(&Hits, &Goals, f64) -> usize| {
         let each = replicates.iter();
         each.map(|ledger| of(&ledger.tally.hits, goals, speed))
             .sum()
     };
     TargetReceipt {
-        hits: normal.len(),
+        hits: replicates.iter().map(|r| r.tally.hits.len()).sum(),
         off_target: count(Hits::off_target),
         over_limit: count(Hits::over_limit),
         sticking: replicates.iter().map(|r| r.sticking).sum(),
-        normal_impulse: Spread::of(normal),
-        tangential_impulse: Spread::of(tangential),
+        normal_impulse: Spread::of(at_speed(|hits| &hits.normal)),
+        tangential_impulse: Spread::of(at_speed(|hits| &hits.tangential)),
     }
 }
 

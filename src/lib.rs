@@ -153,6 +153,7 @@ pub mod record;
 
 pub mod chart;
 
+#[cfg(feature = "report")]
 pub mod report;
 
 /// The example of the README, which must run as well.

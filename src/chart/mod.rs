@@ -19,6 +19,7 @@ pub use effect::Effect;
 pub use pose::{PoseCurve, PosePoint, Precision, Walls};
 pub use sampling::Sampling;
 pub use search::{BestKnown, Method, SearchRun, Searches};
+#[cfg(feature = "report")]
 pub(crate) use timing::median;
 
 use std::fmt;

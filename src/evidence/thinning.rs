@@ -27,7 +27,9 @@ pub(super) fn thinned(shapes: Vec<Shape>, target: &Patch) -> Vec<Shape> {
     let mut near = NEAR * target.area.sqrt();
     loop {
         let mut cells = FINEST;
-        while cells >= COARSEST {
+        // No grid helps as long as too many are kept on purpose.
+        let is_worth_a_try = count_near(&shapes, &target.frame.aim, near) <= MOST_TRIANGLES;
+        while is_worth_a_try && cells >= COARSEST {
             let fewer = gathered(&shapes, &target.frame.aim, near, cells);
             // With nothing kept on purpose the coarsest grid is the end of it.
             if count(&fewer) <= MOST_TRIANGLES || (near == 0.0 && cells / COARSER < COARSEST) {
@@ -45,6 +47,18 @@ pub(super) fn thinned(shapes: Vec<Shape>, target: &Patch) -> Vec<Shape> {
 
 fn count(shapes: &[Shape]) -> usize {
     shapes.iter().map(|shape| shape.triangles.len()).sum()
+}
+
+/// How many triangles lie near the aim point with all corners.
+fn count_near(shapes: &[Shape], aim: &Point3<f64>, near: f64) -> usize {
+    let count_in = |shape: &Shape| {
+        let is_near = |corner: &u32| (shape.points[*corner as usize] - aim).norm() < near;
+        let triangles = shape.triangles.iter();
+        triangles
+            .filter(|corners| corners.iter().all(is_near))
+            .count()
+    };
+    shapes.iter().map(count_in).sum()
 }
 
 /// With the corners of each cell gathered at the first of them, but for those near the aim point.

@@ -146,57 +146,82 @@ impl Replicates {
     /// rim. Sets for different [purposes](super::purpose) are independent of each other and of every
     /// search.
     pub fn new(problem: &Problem, purpose: u32, shots: usize) -> Self {
-        let each = shots.div_ceil(Self::COUNT).max(1);
-        Self::of(problem, purpose, each, each.div_ceil(2))
+        Self::of(&Draw::new(problem, purpose, shots))
     }
 
     /// Fresh shots of the jet alone: for shares of shots.
     pub fn without_rim(problem: &Problem, purpose: u32, shots: usize) -> Self {
-        Self::of(problem, purpose, shots.div_ceil(Self::COUNT).max(1), 0)
+        Self::of(&Draw {
+            rim: 0,
+            ..Draw::new(problem, purpose, shots)
+        })
     }
 
-    /// One shot, when all shots of a problem are the same.
-    fn of(problem: &Problem, purpose: u32, jet: usize, rim: usize) -> Self {
-        if problem.has_one_ray() {
-            let only = Replicate {
-                jet: Samples::new(problem, Stream::Fresh(0), 1),
-                rim: Samples { deviates: vec![] },
-            };
-            return Self { sets: vec![only] };
+    fn of(draw: &Draw) -> Self {
+        let numbers = (0..draw.sets()).into_par_iter();
+        Self {
+            sets: numbers.map(|number| draw.set(number)).collect(),
         }
-        let rim_share = rim as f64 / (jet + rim) as f64;
-        let sets = (0..Self::COUNT as u32)
-            .into_par_iter()
-            .map(|number| {
-                let stream = Self::stream(purpose, number);
-                let draw = |count: usize, on_rim| {
-                    let shot = |index| weighted(problem, stream, index, on_rim, rim_share);
-                    Samples {
-                        deviates: (0..count as u32).map(shot).collect(),
-                    }
-                };
-                Replicate {
-                    jet: draw(jet, false),
-                    rim: draw(rim, true),
-                }
-            })
-            .collect();
-        Self { sets }
-    }
-
-    /// Whether all shots are the same, so that figures from one of them are exact.
-    pub fn is_one_ray(&self) -> bool {
-        self.sets.len() == 1
     }
 
     /// Number of shots of the jet in all sets together.
     pub fn shots(&self) -> usize {
         self.sets.iter().map(|set| set.jet.deviates.len()).sum()
     }
+}
 
-    /// Number of shots on the rim in all sets together.
-    pub fn rim_shots(&self) -> usize {
-        self.sets.iter().map(|set| set.rim.deviates.len()).sum()
+/// Fresh shots that are too many to be kept: each scrambling is drawn when it is needed.
+#[derive(Clone, Copy, Debug)]
+pub struct Draw<'a> {
+    problem: &'a Problem,
+    purpose: u32,
+    /// Shots of the jet in each scrambling.
+    jet: usize,
+    /// Shots on the rim in each scrambling.
+    rim: usize,
+}
+
+impl<'a> Draw<'a> {
+    /// The shots of [`Replicates::new`].
+    pub fn new(problem: &'a Problem, purpose: u32, shots: usize) -> Self {
+        let jet = shots.div_ceil(Replicates::COUNT).max(1);
+        Self {
+            problem,
+            purpose,
+            jet,
+            rim: jet.div_ceil(2),
+        }
+    }
+
+    /// Number of scramblings: one, when all shots of the problem are the same.
+    pub fn sets(&self) -> u32 {
+        if self.problem.has_one_ray() {
+            1
+        } else {
+            Replicates::COUNT as u32
+        }
+    }
+
+    /// The shots of one scrambling; one shot, when all shots of the problem are the same.
+    pub fn set(&self, number: u32) -> Replicate {
+        if self.problem.has_one_ray() {
+            return Replicate {
+                jet: Samples::new(self.problem, Stream::Fresh(0), 1),
+                rim: Samples { deviates: vec![] },
+            };
+        }
+        let stream = Replicates::stream(self.purpose, number);
+        let rim_share = self.rim as f64 / (self.jet + self.rim) as f64;
+        let draw = |count: usize, on_rim| {
+            let shot = |index| weighted(self.problem, stream, index, on_rim, rim_share);
+            Samples {
+                deviates: (0..count as u32).map(shot).collect(),
+            }
+        };
+        Replicate {
+            jet: draw(self.jet, false),
+            rim: draw(self.rim, true),
+        }
     }
 }
 

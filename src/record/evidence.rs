@@ -200,7 +200,8 @@ pub struct AxisRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellRecord {
     /// Terms of the objective with their weights: normal_impulse, tangential_impulse, rebound,
-    /// miss; absent where the nozzle does not fit.
+    /// miss; absent where the nozzle does not fit. What is larger than any `f32` is kept as the
+    /// largest of them.
     pub terms: Option<[f32; 4]>,
     /// The subjects that fail there.
     pub fails: Vec<u32>,

@@ -94,11 +94,18 @@ impl MapRecord {
 
 fn rounded(terms: &Terms) -> [f32; 4] {
     [
-        terms.normal_impulse as f32,
-        terms.tangential_impulse as f32,
-        terms.rebound as f32,
-        terms.miss as f32,
+        terms.normal_impulse,
+        terms.tangential_impulse,
+        terms.rebound,
+        terms.miss,
     ]
+    .map(kept)
+}
+
+/// A term of J as it is kept. Terms are squares: wanting far less than a shot can give is legal, and
+/// takes them beyond what is kept.
+fn kept(term: f64) -> f32 {
+    term.min(f64::from(f32::MAX)) as f32
 }
 
 impl AxisRecord {

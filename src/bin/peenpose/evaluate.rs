@@ -3,7 +3,8 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
-use peenpose::jet::{Replicates, purpose};
+use peenpose::evaluate::evaluate_drawn;
+use peenpose::jet::{Draw, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
@@ -29,9 +30,9 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         .transpose()?;
     let setup = setup.as_asked();
     let choice = settings::choice(&args.set, from.as_ref(), &setup.problem)?;
-    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
-    let evaluation = peenpose::evaluate::evaluate(&setup, &choice, &fresh);
-    let rays = evaluation.rays;
+    let fresh = Draw::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
+    let evaluation = evaluate_drawn(&setup, &choice, &fresh);
+    let (shots, rays) = (evaluation.shots, evaluation.rays);
     let answer = Answer {
         verdicts: Verdict::all(&setup, &evaluation),
         evaluation: Some(evaluation),
@@ -45,7 +46,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         ladder: &Ladder::of(&setup),
         work: WorkRecord {
             poses: 1,
-            shots_per_pose: fresh.shots(),
+            shots_per_pose: shots,
             rays,
             seconds: started.elapsed().as_secs_f64(),
         },
