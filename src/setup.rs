@@ -9,6 +9,7 @@ use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
 use crate::problem::model::{Effect, Model};
 use crate::problem::part::{Part, Target};
+use crate::problem::rule::Rule;
 use crate::problem::setting::Choice;
 use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
@@ -76,6 +77,10 @@ impl Setup {
             .as_ref()
             .zip(reading.target)
             .and_then(|(scene, target)| Patch::find(scene, &target).map_err(&mut collect).ok());
+        let unknown = scene.as_ref().map_or_else(Vec::new, |scene| {
+            let names = reading.surfaces.iter();
+            names.filter_map(|name| unknown(scene, name)).collect()
+        });
         let whole = reading.problem.zip(scene).zip(target);
         let setup = whole.and_then(|((problem, scene), target)| {
             Self::assemble(problem, scene, target)
@@ -84,7 +89,12 @@ impl Setup {
         });
         match setup {
             Some(setup) => Ok((setup, source)),
-            None => Err(Rejection::new(source, faults)),
+            None => {
+                let is_new = |fault: &Fault| faults.iter().all(|known| known.key != fault.key);
+                let new: Vec<Fault> = unknown.into_iter().filter(is_new).collect();
+                faults.extend(new);
+                Err(Rejection::new(source, faults))
+            }
         }
     }
 
@@ -162,7 +172,13 @@ impl Rejection {
 
     fn new(source: Source, mut faults: Vec<Fault>) -> Box<Self> {
         for fault in &mut faults {
-            fault.at = fault.at.or_else(|| source.locate(&fault.key));
+            // Under `surfaces` the name itself is wrong, not what stands behind it.
+            let of_name = fault.rule == Rule::UnknownSurface && fault.key.starts_with("surfaces.");
+            let place = || match of_name {
+                true => source.locate_name(&fault.key),
+                false => source.locate(&fault.key),
+            };
+            fault.at = fault.at.or_else(place);
         }
         faults.sort_by_key(|fault| fault.at);
         Box::new(Self {
@@ -209,6 +225,15 @@ impl fmt::Display for Rejection {
 
 impl std::error::Error for Rejection {}
 
+/// What is wrong with a rule for a surface that the scene does not have.
+fn unknown(scene: &Scene, surface: &str) -> Option<Fault> {
+    let fault = scene.surface_named(surface).err()?;
+    Some(Fault {
+        key: format!("surfaces.{surface}"),
+        ..*fault
+    })
+}
+
 fn surface_limits(
     problem: &Problem,
     scene: &Scene,
@@ -226,11 +251,10 @@ fn surface_limits(
     let mut limits = vec![usual; scene.surfaces().len()];
     let mut faults = Vec::new();
     for rule in &problem.surfaces {
+        let fault_on_target = rule.fault_on_target();
         match scene.surface_named(&rule.surface) {
-            Ok(index) if index == target && rule.role == Role::Deflector => {
-                let key = format!("surfaces.{}.role", rule.surface);
-                let message = "hits on a deflector do not count, and this is the target";
-                faults.push(Fault::at_key(key, message).expecting("another surface"));
+            Ok(index) if index == target && fault_on_target.is_some() => {
+                faults.extend(fault_on_target);
             }
             Ok(index) => {
                 limits[index as usize] = SurfaceLimits {
@@ -242,10 +266,7 @@ fn surface_limits(
                     deflector: rule.role == Role::Deflector,
                 };
             }
-            Err(fault) => faults.push(Fault {
-                key: format!("surfaces.{}", rule.surface),
-                ..*fault
-            }),
+            Err(_) => faults.extend(unknown(scene, &rule.surface)),
         }
     }
     if faults.is_empty() {

@@ -283,9 +283,11 @@ fn split_number(text: &str) -> Option<(&str, &str)> {
         }
     }
     let (number, unit) = text.split_at(end);
-    // `1_000`, `0x10`, `1,5` and `1.2.3` are mistakes in the number, not in the unit.
-    let broken = unit.starts_with(['_', ',', '.', '\'']) || unit.starts_with("x");
-    (!broken).then(|| (number, unit.trim_start()))
+    // `1_000`, `0x10`, `1,5`, `1.2.3`, `4-5` and `1 000` are mistakes in the number, not in the unit.
+    let broken = unit.starts_with(['_', ',', '.', '\'', 'x']);
+    let unit = unit.trim_start();
+    let goes_on = unit.starts_with(|c: char| c.is_ascii_digit() || "+-±".contains(c));
+    (!broken && !goes_on).then_some((number, unit))
 }
 
 /// The number times 10^places, as exactly as the decimal text allows.

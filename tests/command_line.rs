@@ -68,7 +68,11 @@ fn number(value: &Value, path: &str) -> f64 {
 }
 
 fn problem_files() -> Vec<String> {
-    let entries = root().join("problems").read_dir().unwrap();
+    yaml_files("problems")
+}
+
+fn yaml_files(folder: &str) -> Vec<String> {
+    let entries = root().join(folder).read_dir().unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
     let mut files: Vec<String> = paths
         .filter(|path| path.extension().is_some_and(|ending| ending == "yaml"))
@@ -711,6 +715,54 @@ fn a_bad_file_does_not_hide_good_ones() {
     assert_eq!(run.status, 2);
     assert!(run.out.contains("plate.yaml: ok") && run.out.contains("keyway.yaml: ok"));
     assert!(run.messages.contains("no/such.yaml"));
+}
+
+#[test]
+fn all_bad_files_are_refused_in_one_run_each_at_its_place() {
+    let files: Vec<String> = ["tests/bad", "tests/bad_geometry"]
+        .into_iter()
+        .flat_map(yaml_files)
+        .collect();
+    let arguments: Vec<&str> = ["check"]
+        .into_iter()
+        .chain(files.iter().map(String::as_str))
+        .collect();
+    let run = peenpose(&arguments);
+    assert_eq!((run.status, run.out.as_str()), (2, ""));
+    for file in &files {
+        let place = format!("--> {file}:");
+        assert!(run.messages.contains(&place), "{file}:\n{}", run.messages);
+    }
+}
+
+#[test]
+fn a_bad_file_is_solved_by_no_command() {
+    let cases: [(&str, &[&str]); 5] = [
+        (
+            "tests/bad/repeated_keys.yaml",
+            &[
+                "shot.radius: is given twice",
+                "shot: is given already in line 7",
+            ],
+        ),
+        (
+            "tests/bad/misplaced_keys.yaml",
+            &["shot.divergence: belongs to jet"],
+        ),
+        (
+            "tests/bad/wrong_case.yaml",
+            &["`MM` is not a unit of length", "did you mean `mm`?"],
+        ),
+        ("tests/bad/nul_byte.yaml", &["nul_byte.yaml:2:9", "control"]),
+        (
+            "tests/bad_geometry/mesh_files.yaml",
+            &["there is no such file", "cut short", "zero area"],
+        ),
+    ];
+    for (file, words) in cases {
+        refused(&["solve", file], words);
+        refused(&["evaluate", file], words);
+    }
 }
 
 #[test]

@@ -505,6 +505,11 @@ fn faults_of_ply_files_say_what_is_missing() {
         (
             "element face 12",
             "element face 99999999999",
+            ": the mesh has more than 20000000 triangles; export it with a coarser tolerance",
+        ),
+        (
+            "element face 12",
+            "element face 19999999",
             ", line 29: the file ends where another face should follow; it was cut short, copy or export it again",
         ),
     ] {

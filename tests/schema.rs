@@ -372,7 +372,15 @@ fn examples_in_the_text_are_valid() {
 
 /// Files of tests/bad with faults that are not of structure: numbers that do not fit, names of the
 /// file, and YAML that the program does not take but others do.
-const ONLY_THE_CHECK_SEES: [&str; 12] = [
+const ONLY_THE_CHECK_SEES: [&str; 30] = [
+    "azimuth_wide",
+    "bare_coordinates",
+    "block_text",
+    "contact_numbers",
+    "curly_quotes",
+    "deflecting_target",
+    "flat_boxes",
+    "incidence_above",
     "keyway",
     "mass_flow",
     "merge_key",
@@ -380,11 +388,21 @@ const ONLY_THE_CHECK_SEES: [&str; 12] = [
     "no_contact",
     "no_length_unit",
     "out_of_range",
+    "ranges_upside_down",
+    "root_too_large",
+    "surface_of_nozzle_part",
     "tolerance",
+    "tolerance_reaches_zero",
     "tolerance_too_far",
+    "tolerance_wider_than_aims",
+    "tolerances_negative",
+    "too_many_impacts",
+    "too_small",
     "unknown_contact",
     "unknown_surface",
     "upside_down",
+    "within_upside_down",
+    "zero_sizes",
 ];
 
 #[test]

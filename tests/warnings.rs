@@ -2,11 +2,13 @@
 
 mod common;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use common::announced;
 use peenpose::problem::render_warnings;
+use peenpose::problem::warning::Doubt;
 use peenpose::setup::Setup;
 use peenpose::warnings;
 
@@ -34,6 +36,19 @@ fn doubtful_files_get_the_warnings_that_their_comments_announce() {
         assert_eq!(found, announced(&text), "{}", path.display());
         assert!(!found.is_empty(), "{}", path.display());
     }
+}
+
+#[test]
+fn every_doubt_is_raised_by_a_doubtful_file() {
+    let mut raised = BTreeSet::new();
+    for path in files("tests/doubtful") {
+        let (setup, source) = Setup::load(&path).unwrap();
+        let found = warnings::of(&setup, &source);
+        raised.extend(found.into_iter().map(|warning| warning.doubt));
+    }
+    let doubts: BTreeSet<Doubt> = Doubt::ALL.iter().copied().collect();
+    let unraised: Vec<&Doubt> = doubts.difference(&raised).collect();
+    assert!(unraised.is_empty(), "no doubtful file raises {unraised:?}");
 }
 
 #[test]

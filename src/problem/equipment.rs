@@ -3,7 +3,9 @@
 use nalgebra::Vector3;
 
 use crate::impact::{Contact, Sphere};
+use crate::problem::fault::Fault;
 use crate::problem::media::{LibraryContact, Medium};
+use crate::problem::rule::Rule;
 use crate::problem::setting::Range;
 
 /// The shot: solid spheres.
@@ -159,6 +161,17 @@ pub struct SurfaceRule {
     pub roughness: f64,
     /// What a hit on it counts as.
     pub role: Role,
+}
+
+impl SurfaceRule {
+    /// What is wrong with it as the rule of the target, if anything.
+    pub(crate) fn fault_on_target(&self) -> Option<Fault> {
+        (self.role == Role::Deflector).then(|| {
+            let key = format!("surfaces.{}.role", self.surface);
+            let message = "hits on a deflector do not count, and this is the target";
+            Fault::at_key(Rule::TargetDeflects, key, message).expecting("another surface")
+        })
+    }
 }
 
 /// What a hit on a surface counts as.

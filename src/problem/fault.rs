@@ -2,9 +2,13 @@
 
 use std::fmt;
 
+use super::rule::Rule;
+
 /// One thing wrong with a problem file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
+    /// Why it is one.
+    pub rule: Rule,
     /// Key path, such as `scene.hub.keyway.width`; empty for the file as a whole.
     pub key: String,
     /// What is wrong.
@@ -32,8 +36,9 @@ pub struct Span {
 
 impl Fault {
     /// A fault of the value at `key`.
-    pub fn at_key(key: impl Into<String>, message: impl Into<String>) -> Self {
+    pub fn at_key(rule: Rule, key: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
+            rule,
             key: key.into(),
             message: message.into(),
             expected: None,
@@ -57,18 +62,28 @@ impl Fault {
     }
 }
 
-/// The name among `known` that `given` was most likely meant to be.
+/// The name among `known` that `given` was most likely meant to be, whatever the case of its
+/// letters.
 pub fn nearest_name<'a>(given: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let given = given.to_lowercase();
     known
         .into_iter()
-        .map(|name| (strsim::jaro_winkler(given, name), name))
+        .map(|name| (strsim::jaro_winkler(&given, &name.to_lowercase()), name))
         .filter(|(likeness, _)| *likeness > 0.75)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, name)| name)
 }
 
+/// Several names as alternatives: `a, b or c`.
+pub(super) fn any_of(names: &[&str]) -> String {
+    match names {
+        [before @ .., last] if !before.is_empty() => format!("{} or {last}", before.join(", ")),
+        names => names.concat(),
+    }
+}
+
 /// The names that would do, in messages.
-pub(super) fn one_of(names: &[&str]) -> String {
+pub(crate) fn one_of(names: &[&str]) -> String {
     match names {
         [single] => format!("`{single}`"),
         several => format!("one of {}", several.join(", ")),

@@ -3,8 +3,13 @@
 use std::cell::RefCell;
 use std::collections::HashSet;
 
-use super::fault::{Fault, Span, one_of};
+use super::fault::{Fault, Span, any_of, one_of};
+use super::home::homes_of;
+use super::rule::Rule;
 use super::source::{Source, child_key};
+
+/// A key that more groups have than this is at home in none of them.
+const MOST_HOMES: usize = 3;
 
 /// All faults found so far in one file.
 pub(super) struct Faults<'a> {
@@ -38,13 +43,30 @@ impl<'a> Faults<'a> {
 
     /// Records a key that is not one of the `known` keys of its group.
     pub fn push_unknown_key(&self, group: &str, name: &str, at: Span, known: &[&str]) {
-        let mut fault = Fault::at_key(child_key(group, name), "unknown key")
-            .expecting(one_of(known))
-            .nearest(name, known.iter().copied());
+        let key = child_key(group, name);
+        let homes = homes_of(name);
+        let before = self.source.text[..at.start].trim_end();
+        let is_fraction = before.ends_with(',') && name.starts_with(|c: char| c.is_ascii_digit());
+        let mut fault = if is_fraction {
+            let message = "a comma before digits begins a new key";
+            Fault::at_key(Rule::DecimalComma, key, message).expecting("a decimal point in numbers")
+        } else if homes.is_empty() || homes.len() > MOST_HOMES {
+            Fault::at_key(Rule::UnknownKey, key, "unknown key")
+                .expecting(one_of(known))
+                .nearest(name, known.iter().copied())
+        } else {
+            Fault::at_key(Rule::MisplacedKey, key, belongs_to(homes)).expecting(one_of(known))
+        };
         fault.at = Some(at);
-        if let Some(meant) = &fault.suggestion {
-            self.meant.borrow_mut().insert(child_key(group, meant));
+        let mut meant = self.meant.borrow_mut();
+        match &fault.suggestion {
+            Some(suggestion) => drop(meant.insert(child_key(group, suggestion))),
+            None if fault.rule == Rule::MisplacedKey => {
+                meant.extend(homes.iter().map(|home| child_key(home, name)));
+            }
+            None => {}
         }
+        drop(meant);
         self.push(fault);
     }
 
@@ -59,4 +81,14 @@ impl<'a> Faults<'a> {
         found.sort_by_key(|fault| fault.at.map_or((0, 0), |at| (at.start, at.end)));
         found
     }
+}
+
+/// Says which groups a key belongs to.
+fn belongs_to(homes: &[String]) -> String {
+    let shown = homes.iter().map(|home| match home.as_str() {
+        "" => "the file as a whole",
+        home => home,
+    });
+    let shown: Vec<&str> = shown.collect();
+    format!("belongs to {}", any_of(&shown))
 }

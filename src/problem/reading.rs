@@ -13,6 +13,8 @@ use super::faults::Faults;
 use super::file::ProblemFile;
 use super::part::{Part, Target};
 use super::reader::Reader;
+use super::repeated;
+use super::rule::Rule;
 use super::source::Source;
 use super::yaml::{self, Value};
 
@@ -30,6 +32,8 @@ pub struct Reading {
     pub scene: Option<Vec<Part>>,
     /// The target, whenever `target` itself is sound.
     pub target: Option<Target>,
+    /// The surfaces that the file has rules for. Those of mesh files show only when these are read.
+    pub surfaces: Vec<String>,
     /// The problem: there exactly when nothing is wrong.
     pub problem: Option<Problem>,
 }
@@ -47,7 +51,7 @@ pub fn read(path: &Path) -> Result<Reading, Box<Fault>> {
             _ => error.to_string(),
         };
         let message = format!("cannot read {}: {reason}", path.display());
-        Box::new(Fault::at_key("", message))
+        Box::new(Fault::at_key(Rule::FileUnreadable, "", message))
     };
     let mut bytes = Vec::new();
     File::open(path)
@@ -68,7 +72,7 @@ fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Box<Fault>> {
     if bytes.len() as u64 > LARGEST_FILE {
         let message = format!("{} is too large for a problem file", path.display());
         return Err(Box::new(
-            Fault::at_key("", message)
+            Fault::at_key(Rule::FileTooLarge, "", message)
                 .expecting("at most 1 MB; meshes belong into files of their own"),
         ));
     }
@@ -80,23 +84,26 @@ fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Box<Fault>> {
         Ok(text) => match yaml::parse(text) {
             Err(fault) => source.refused(*fault),
             Ok(root) if root.value == Value::Null => source.refused(empty()),
-            Ok(root) => {
+            Ok(mut root) => {
+                let repeated = repeated::take_out(&mut root);
                 source.index(&root);
-                understand(source, &root)
+                understand(source, &root, repeated)
             }
         },
     })
 }
 
-/// Reads and checks a parsed file.
-fn understand(source: Source, root: &yaml::Node) -> Reading {
+/// Reads and checks a parsed file, of which some faults are known.
+fn understand(source: Source, root: &yaml::Node, known: Vec<Fault>) -> Reading {
     let faults = Faults::new(&source);
+    known.into_iter().for_each(|fault| faults.push(fault));
     // The reader has recorded why there is no file, if there is none.
     let checked = match ProblemFile::deserialize(Reader::new(root, &faults)) {
         Ok(file) => check::check(&file, &source.path, &faults),
         Err(_) => Checked {
             scene: None,
             target: None,
+            surfaces: Vec::new(),
             problem: None,
         },
     };
@@ -106,6 +113,7 @@ fn understand(source: Source, root: &yaml::Node) -> Reading {
         faults,
         scene: checked.scene,
         target: checked.target,
+        surfaces: checked.surfaces,
         problem,
         source,
     }
@@ -119,14 +127,15 @@ impl Source {
             faults: vec![fault],
             scene: None,
             target: None,
+            surfaces: Vec::new(),
             problem: None,
         }
     }
 }
 
 fn empty() -> Fault {
-    let mut fault =
-        Fault::at_key("", "the file is empty").expecting("a problem that starts with `format: 1`");
+    let mut fault = Fault::at_key(Rule::FileEmpty, "", "the file is empty")
+        .expecting("a problem that starts with `format: 1`");
     fault.at = Some(Span {
         line: 1,
         column: 1,
@@ -140,7 +149,7 @@ fn empty() -> Fault {
 fn not_utf8(content: &[u8], valid: usize) -> Fault {
     let before = String::from_utf8_lossy(&content[..valid]);
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-    let mut fault = Fault::at_key("", "the file is not UTF-8 text")
+    let mut fault = Fault::at_key(Rule::NotUtf8, "", "the file is not UTF-8 text")
         .expecting("a text file saved with the encoding UTF-8");
     fault.at = Some(Span {
         line: before.matches('\n').count() + 1,

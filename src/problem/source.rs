@@ -113,6 +113,11 @@ impl Source {
         })
     }
 
+    /// Whether `key` stands in the text, with a value or without.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.places.contains_key(key)
+    }
+
     /// Where the last name of `key` itself stands, not its value.
     pub fn locate_name(&self, key: &str) -> Option<Span> {
         match self.places.get(key) {

@@ -1,6 +1,7 @@
 //! What parses but can hardly be meant, as far as the file alone tells.
 
 use super::Problem;
+pub use super::doubt::Doubt;
 use super::fault::Span;
 use super::source::Source;
 use crate::impact::Contact;
@@ -8,6 +9,8 @@ use crate::impact::Contact;
 /// Something in a problem file that can hardly be meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
+    /// Why it is one.
+    pub doubt: Doubt,
     /// Key path, such as `goals.rebound.allow`.
     pub key: String,
     /// What is odd about it.
@@ -21,11 +24,13 @@ pub struct Warning {
 impl Warning {
     /// A warning about the value at `key`.
     pub fn new(
+        doubt: Doubt,
         key: impl Into<String>,
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Self {
         Self {
+            doubt,
             key: key.into(),
             message: message.into(),
             help: help.into(),
@@ -82,6 +87,7 @@ fn weights(problem: &Problem) -> Option<Warning> {
         + of_surfaces.sum::<f64>();
     (sum == 0.0).then(|| {
         Warning::new(
+            Doubt::NothingWeighs,
             "goals",
             "all weights are 0: every setting is as good as any other",
             "give the goals that matter a `weight` above 0",
@@ -118,14 +124,22 @@ fn reachable_impulse(problem: &Problem) -> Option<Warning> {
         short(least * 1e6),
         short(most * 1e6),
     );
-    let message = if goal.target > most * (1.0 + goal.tolerance) {
-        "is more than the shot gives at any speed of the range"
+    let (doubt, message) = if goal.target > most * (1.0 + goal.tolerance) {
+        let message = "is more than the shot gives at any speed of the range";
+        (Doubt::ImpulseTooLarge, message)
     } else if goal.target < least * SLOWEST_SHARE {
-        "is far less than the shot gives at the lowest speed and the flattest incidence"
+        let message =
+            "is far less than the shot gives at the lowest speed and the flattest incidence";
+        (Doubt::ImpulseTooSmall, message)
     } else {
         return None;
     };
-    Some(Warning::new("goals.normal_impulse.target", message, help))
+    Some(Warning::new(
+        doubt,
+        "goals.normal_impulse.target",
+        message,
+        help,
+    ))
 }
 
 /// A curved target may be hit more flatly than the settings say, but not at any angle.
@@ -134,6 +148,7 @@ const SLOWEST_SHARE: f64 = 0.25;
 fn loose_tolerance(problem: &Problem) -> Option<Warning> {
     (problem.goals.normal_impulse.tolerance >= 1.0).then(|| {
         Warning::new(
+            Doubt::LooseTolerance,
             "goals.normal_impulse.tolerance",
             "a hit that gives nothing is within it",
             "say by how much N* may differ, such as `15 %`",
@@ -153,6 +168,7 @@ fn friction_limit(problem: &Problem) -> Option<Warning> {
     let most = friction * normal.target * (1.0 + normal.tolerance);
     (goal.limit > most).then(|| {
         Warning::new(
+            Doubt::LimitBeyondFriction,
             "goals.tangential_impulse.limit",
             format!(
                 "friction gives at most {} uN.s where N* is as wanted: nothing breaks this limit",
@@ -186,7 +202,7 @@ fn allowances(problem: &Problem) -> Vec<Warning> {
                 "is more than the target itself shall receive, {} uN.s: hardly any rebound breaks it",
                 short(wanted * 1e6)
             );
-            Warning::new(key, message, "say what the surface may take, less than what peens")
+            Warning::new(Doubt::AllowanceAboveTarget, key, message, "say what the surface may take, less than what peens")
         })
         .collect()
 }
@@ -195,6 +211,7 @@ fn unfollowed_rebounds(problem: &Problem) -> Option<Warning> {
     let limited = problem.goals.rebound.is_some();
     (limited && problem.paths.impacts == 1).then(|| {
         Warning::new(
+            Doubt::ReboundsNotFollowed,
             "paths.impacts",
             "paths end with the first hit: `goals.rebound` sees no rebound",
             "follow at least 2 impacts, or leave `goals.rebound` out",
@@ -206,6 +223,7 @@ fn density(problem: &Problem) -> Option<Warning> {
     let is_usual = (500.0..25_000.0).contains(&problem.shot.density);
     (!is_usual).then(|| {
         Warning::new(
+            Doubt::UnusualDensity,
             "shot.density",
             "no shot is made of this",
             "glass has 2500 kg/m3, ceramic 3850 kg/m3, steel 7800 kg/m3, tungsten carbide 15000 kg/m3",
@@ -216,8 +234,13 @@ fn density(problem: &Problem) -> Option<Warning> {
 fn size(problem: &Problem) -> Option<Warning> {
     let radius = problem.shot.radius;
     (!(2e-6..20e-3).contains(&radius)).then(|| {
-        let kind = if radius < 1e-3 { "dust" } else { "balls" };
+        let (doubt, kind) = if radius < 1e-3 {
+            (Doubt::Dust, "dust")
+        } else {
+            (Doubt::Balls, "balls")
+        };
         Warning::new(
+            doubt,
             "shot.radius",
             format!("these are {kind}, not shot"),
             "shot has radii from 0.01 mm to 3 mm",
@@ -229,6 +252,7 @@ fn exit(problem: &Problem) -> Option<Warning> {
     let (exit, shot) = (problem.jet.exit_diameter, 2.0 * problem.shot.radius);
     (exit > 0.0 && exit < shot).then(|| {
         Warning::new(
+            Doubt::ExitTooSmall,
             "jet.exit_diameter",
             format!(
                 "the shot, {} mm wide, does not fit through",

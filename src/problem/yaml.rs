@@ -1,11 +1,14 @@
 //! YAML text to a tree of nodes that know where they stand; the one door to the YAML crate.
 
+mod explain;
+
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
-use serde_saphyr::budget::BudgetBreach;
-use serde_saphyr::options::{MergeKeyPolicy, NonFiniteFloatPolicy};
-use serde_saphyr::{Error, Location, MessageFormatter, Options, Spanned, UserMessageFormatter};
+use serde_saphyr::options::{DuplicateKeyPolicy, MergeKeyPolicy, NonFiniteFloatPolicy};
+use serde_saphyr::{Location, Options, Spanned};
+
+use explain::explain;
 
 use super::fault::{Fault, Span};
 
@@ -67,6 +70,9 @@ fn options() -> Options {
             max_replay_stack_depth: 8,
         },
         merge_keys: MergeKeyPolicy::Error,
+        // Every entry is handed over; what stands twice is reported with all other faults.
+        duplicate_keys: DuplicateKeyPolicy::LastWins,
+        reject_unsupported_tags: true,
         strict_booleans: true,
         non_finite_float_policy: NonFiniteFloatPolicy::PassThrough,
         with_snippet: false,
@@ -223,60 +229,4 @@ fn span(text: &str, location: Location) -> Span {
         start: within(start),
         end: within(end),
     }
-}
-
-/// The YAML crate's complaint in the words of this program.
-fn explain(text: &str, error: &Error) -> Fault {
-    let file = |message: &str| Fault::at_key("", message);
-    let mut cause = error.without_snippet();
-    while let Error::AliasError { error, .. } = cause {
-        cause = error;
-    }
-    let mut fault = match cause {
-        Error::DuplicateMappingKey { key, .. } => match key {
-            Some(key) => file(&format!("`{key}` is given twice")),
-            None => file("the same key is given twice"),
-        }
-        .expecting("every key once"),
-        Error::MergeKeyNotAllowed { .. } => {
-            file("`<<` is not supported").expecting("the keys themselves, or an alias as a value")
-        }
-        Error::MultipleDocuments { .. } => {
-            file("a second document starts here").expecting("one problem in a file")
-        }
-        Error::Budget {
-            breach: BudgetBreach::Documents { .. },
-            ..
-        } => file("a second document starts here").expecting("one problem in a file"),
-        Error::Budget {
-            breach: BudgetBreach::Depth { .. },
-            ..
-        } => too_deep(),
-        Error::Budget { .. }
-        | Error::AliasReplayCounterOverflow { .. }
-        | Error::AliasReplayLimitExceeded { .. }
-        | Error::AliasExpansionLimitExceeded { .. }
-        | Error::AliasReplayStackDepthExceeded { .. } => {
-            file("the file, with its aliases written out, is too large for a problem file")
-        }
-        Error::RecursiveReferencesRequireWeakTypes { .. } => file("an alias contains itself"),
-        other => {
-            let message = UserMessageFormatter.format_message(other).into_owned();
-            if message.starts_with("tabs disallowed") {
-                file("not valid YAML: a tab is used to indent").expecting("spaces")
-            } else if message.starts_with("recursion limit") {
-                too_deep()
-            } else if message.starts_with("expected string scalar") {
-                file("not valid YAML here: a key must be a plain name")
-            } else {
-                file(&format!("not valid YAML: {message}"))
-            }
-        }
-    };
-    fault.at = error.location().map(|location| span(text, location));
-    fault
-}
-
-fn too_deep() -> Fault {
-    Fault::at_key("", "nested too deeply").expecting("at most 24 levels")
 }

@@ -27,8 +27,9 @@ use nalgebra::{Point3, Vector3};
 
 use crate::precision::{Real, along, scaled, unit};
 use crate::problem::equipment::{Body, Nozzle};
-use crate::problem::fault::Fault;
+use crate::problem::fault::{Fault, one_of};
 use crate::problem::part::Part;
+use crate::problem::rule::Rule;
 use lanes::{components, padded, put};
 use part::{BuiltPart, Fronts, Geometry};
 use ray::{Hit, Ray, Spot};
@@ -114,11 +115,10 @@ impl Scene {
     pub fn surface_named(&self, name: &str) -> Result<u32, Box<Fault>> {
         let found = self.surfaces.iter().position(|surface| surface == name);
         found.map(|index| index as u32).ok_or_else(|| {
-            let known = || self.surfaces.iter().map(String::as_str);
-            let fault = Fault::at_key("", format!("there is no surface `{name}`"))
-                .expecting(format!("one of {}", known().collect::<Vec<_>>().join(", ")))
-                .nearest(name, known());
-            Box::new(fault)
+            let known: Vec<&str> = self.surfaces.iter().map(String::as_str).collect();
+            let message = format!("there is no surface `{name}`");
+            let fault = Fault::at_key(Rule::UnknownSurface, "", message).expecting(one_of(&known));
+            Box::new(fault.nearest(name, known))
         })
     }
 

@@ -93,7 +93,11 @@ impl Geometry {
             } => {
                 let (mesh, found) =
                     mesh_file::read(path, *metres_per_unit, regions).map_err(|fault| {
-                        Fault::at_key(format!("scene.{}.mesh", part.name), fault.to_string())
+                        let key = match fault.defect.region() {
+                            Some(region) => format!("scene.{}.regions.{region}", part.name),
+                            None => format!("scene.{}.mesh", part.name),
+                        };
+                        Fault::at_key(fault.defect.rule(), key, fault.to_string())
                     })?;
                 warnings = found;
                 (mesh, None)

@@ -6,6 +6,7 @@ use super::Scene;
 use super::ray::Hit;
 use crate::problem::fault::Fault;
 use crate::problem::part::Target;
+use crate::problem::rule::Rule;
 
 /// The target of the scene.
 #[derive(Clone, Debug)]
@@ -79,7 +80,11 @@ impl Patch {
             }]
         })?;
         if scene.surface_moves_with_nozzle(surface) {
-            let fault = Fault::at_key("target.surface", "moves with the nozzle");
+            let fault = Fault::at_key(
+                Rule::TargetOnNozzle,
+                "target.surface",
+                "moves with the nozzle",
+            );
             return Err(vec![
                 fault.expecting("a surface of a part that stands in the scene"),
             ]);
@@ -92,6 +97,7 @@ impl Patch {
         let (area, centre) = area_and_centre(clipped);
         if area <= 0.0 {
             let fault = Fault::at_key(
+                Rule::TargetEmpty,
                 "target.within",
                 format!(
                     "no part of `{}` lies in this box: the target is empty",
@@ -124,6 +130,7 @@ impl Patch {
         };
         let frame = Frame::new(aim, normal, target.along).ok_or_else(|| {
             let fault = Fault::at_key(
+                Rule::AlongPerpendicular,
                 "target.along",
                 "is perpendicular to the target at the aim point",
             );
@@ -172,6 +179,7 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
     );
     match target.aim {
         Some(_) => Fault::at_key(
+            Rule::AimOffTarget,
             "target.aim",
             format!("the aim point {place} is not on the target"),
         )
@@ -180,6 +188,7 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
             target.surface
         )),
         None => Fault::at_key(
+            Rule::CentreOffTarget,
             "target",
             format!("the centre of the target, {place}, does not lie on it"),
         )

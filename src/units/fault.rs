@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Dimension, plain_spelling};
+use super::{Dimension, parse, plain_spelling};
 
 /// Why a text is not the quantity that was asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,6 +84,7 @@ impl UnitFault {
     pub fn suggestion(&self) -> Option<String> {
         match self {
             Self::MissingUnit { number, dimension } => Some(dimension.completed(number)),
+            Self::NotANumber { text, dimension } => in_plain_digits(text, *dimension),
             Self::UnknownUnit { unit, dimension } => {
                 nearest_unit(unit, *dimension).map(str::to_owned)
             }
@@ -92,13 +93,29 @@ impl UnitFault {
     }
 }
 
+/// The quantity with a point for its comma and without marks between thousands, if that is one.
+///
+/// Whether `1,000 mm` is a metre or a millimetre only its writer knows.
+fn in_plain_digits(text: &str, dimension: Dimension) -> Option<String> {
+    let (whole, rest) = text.split_once(',').unwrap_or((text, ""));
+    let fraction = rest.bytes().take_while(u8::is_ascii_digit).count();
+    let plain = match fraction {
+        0 => text.to_owned(),
+        3 => return None,
+        _ => format!("{whole}.{rest}"),
+    };
+    let plain = plain.replace(['_', '\''], "");
+    parse(dimension, &plain).is_ok().then_some(plain)
+}
+
 /// The unit that was most likely meant, whatever the case of its letters.
 fn nearest_unit(given: &str, dimension: Dimension) -> Option<&'static str> {
     let given = plain_spelling(given).to_lowercase();
     dimension
         .unit_names()
         .map(|name| (strsim::jaro_winkler(&given, &name.to_lowercase()), name))
-        .filter(|(likeness, _)| *likeness > 0.7)
+        // Every word that begins with m is a little like m.
+        .filter(|(likeness, name)| *likeness > if name.len() > 1 { 0.7 } else { 0.99 })
         // The first of equals.
         .reduce(|best, next| if next.0 > best.0 { next } else { best })
         .map(|(_, name)| name)

@@ -88,12 +88,19 @@ fn faults_say_what_to_write() {
         (
             Dimension::Length,
             "1_000 mm",
-            "`1_000 mm` is not a number with a unit; expected a length such as `0.5 mm`",
+            "`1_000 mm` is not a number with a unit; expected a length such as `0.5 mm`; \
+             did you mean `1000 mm`?",
         ),
         (
             Dimension::Length,
             "0,5 mm",
-            "`0,5 mm` is not a number with a unit; expected a length such as `0.5 mm`",
+            "`0,5 mm` is not a number with a unit; expected a length such as `0.5 mm`; \
+             did you mean `0.5 mm`?",
+        ),
+        (
+            Dimension::Length,
+            "1,000 mm",
+            "`1,000 mm` is not a number with a unit; expected a length such as `0.5 mm`",
         ),
         (
             Dimension::Length,

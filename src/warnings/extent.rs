@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::setting::{Range, Setting};
-use crate::problem::warning::{Warning, short};
+use crate::problem::warning::{Doubt, Warning, short};
 use crate::setup::Setup;
 
 /// Sizes that differ by more than this factor are not in the same unit.
@@ -69,23 +69,25 @@ fn is_targets(setup: &Setup, part: &str) -> bool {
 fn unit(setup: &Setup, part: &Bounds) -> Option<Warning> {
     let (side, shot) = (longest_side(part), 2.0 * setup.problem.shot.radius);
     let times = side / shot;
-    let message = if times < 1.0 {
-        format!(
+    let (doubt, message) = if times < 1.0 {
+        let message = format!(
             "the part with the target is {} mm long, smaller than the shot of {} mm",
             short(side * 1e3),
             short(shot * 1e3)
-        )
+        );
+        (Doubt::PartSmallerThanShot, message)
     } else if times > LONGEST_IN_SHOTS {
-        format!(
+        let message = format!(
             "the part with the target is {} mm long, {} times the diameter of the shot",
             short(side * 1e3),
             short(times)
-        )
+        );
+        (Doubt::PartFarTooLarge, message)
     } else {
         return None;
     };
     let help = "compare `lengths_in` with the drawing";
-    Some(Warning::new("lengths_in", message, help))
+    Some(Warning::new(doubt, "lengths_in", message, help))
 }
 
 fn patch_box(setup: &Setup, part: &Bounds) -> Option<Warning> {
@@ -97,7 +99,7 @@ fn patch_box(setup: &Setup, part: &Bounds) -> Option<Warning> {
             short(longest_side(&within) / side)
         );
         let help = "its corners are in `lengths_in`; leave it out if all of the surface is meant";
-        Warning::new("target.within", message, help)
+        Warning::new(Doubt::BoxTooLarge, "target.within", message, help)
     })
 }
 
@@ -121,7 +123,7 @@ fn room(setup: &Setup) -> Option<Warning> {
             short(-gap * 1e3),
         );
         let help = "take smaller shot, or aim farther away from the wall";
-        Warning::new("shot.radius", message, help)
+        Warning::new(Doubt::NoRoom, "shot.radius", message, help)
     })
 }
 
@@ -142,18 +144,19 @@ fn parts(setup: &Setup, bounds: &[(String, Bounds)], own: &Bounds) -> Vec<Warnin
                 .sup(&(own.0 - other.1))
                 .sup(&Vector3::zeros())
                 .norm();
-            let message = if !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&times) {
-                format!(
-                    "is {} times as long as the part with the target",
-                    short(times)
-                )
+            let (doubt, message) = if !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&times) {
+                let times = short(times);
+                let message = format!("is {times} times as long as the part with the target");
+                (Doubt::PartOfAnotherSize, message)
             } else if gap > ANOTHER_UNIT * side.max(longest_side(other)) {
-                format!("lies {} m away from the part with the target", short(gap))
+                let gap = short(gap);
+                let message = format!("lies {gap} m away from the part with the target");
+                (Doubt::PartFarAway, message)
             } else {
                 return None;
             };
             let help = "compare its lengths and `lengths_in`";
-            Some(Warning::new(format!("scene.{name}"), message, help))
+            Some(Warning::new(doubt, format!("scene.{name}"), message, help))
         })
         .collect()
 }
@@ -169,7 +172,7 @@ fn standoff(setup: &Setup, bounds: &[(String, Bounds)]) -> Option<Warning> {
             short(farthest / scene)
         );
         let help = "it counts from the aim point back to the exit of the nozzle";
-        Warning::new("settings.standoff", message, help)
+        Warning::new(Doubt::StandoffTooLong, "settings.standoff", message, help)
     })
 }
 
@@ -197,7 +200,8 @@ fn aims(setup: &Setup) -> Vec<Warning> {
                     short(high * 1e3)
                 );
                 let help = "shifts count from `target.aim`";
-                Warning::new(format!("settings.{}", setting.name()), message, help)
+                let key = format!("settings.{}", setting.name());
+                Warning::new(Doubt::AimOffTarget, key, message, help)
             })
         })
         .collect()

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::jet::{Samples, Stream};
 use crate::objective::Tally;
 use crate::problem::setting::Choice;
-use crate::problem::warning::Warning;
+use crate::problem::warning::{Doubt, Warning};
 use crate::setup::Setup;
 use crate::solve::{clearance_violation, spread_choices};
 
@@ -33,12 +33,14 @@ pub(super) fn warning(setup: &Setup) -> Option<Warning> {
     let fits_somewhere = choices.par_iter().any(|choice| fits(&choice));
     Some(if fits_somewhere {
         Warning::new(
+            Doubt::TargetOutOfSight,
             "target",
             format!("no shot hits it first with {tried}"),
             "compare `aim`, `along`, `facing` and the ranges of the settings",
         )
     } else {
         Warning::new(
+            Doubt::NozzleFitsNowhere,
             "settings",
             format!("the nozzle does not fit with {tried}"),
             "compare `nozzle.body`, `nozzle.clearance` and the range of `standoff`",

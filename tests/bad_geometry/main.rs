@@ -85,7 +85,7 @@ fn keyway() -> String {
 }
 
 fn mesh() -> String {
-    std::fs::read_to_string(root().join("tests/bad_geometry/mesh.yaml")).unwrap()
+    std::fs::read_to_string(root().join("tests/bad_geometry/sound/plate.yaml")).unwrap()
 }
 
 #[test]

@@ -5,6 +5,7 @@ use super::scope::Scope;
 use crate::problem::equipment::Calibration;
 use crate::problem::field::Field;
 use crate::problem::file::equipment::CalibrationEntry;
+use crate::problem::rule::Rule;
 
 const EXPECTED_ROW: &str = "`{ pressure: .., speed: .. }`";
 
@@ -19,29 +20,32 @@ pub(super) fn check(
         Field::Faulty => return None,
         Field::Present(entries) => entries,
     };
-    if entries.len() < 2 {
-        let fault = scope.own_fault("has fewer than two rows");
+    let mut sound = entries.len() >= 2;
+    if !sound {
+        let fault = scope.own_fault(Rule::WrongLength, "has fewer than two rows");
         scope.report(fault.expecting("at least two rows `{ pressure: .., speed: .. }`"));
-        return None;
     }
     let read: Vec<Option<(f64, f64)>> = entries
         .iter()
         .enumerate()
         .map(|(index, entry)| row(&scope.item(index), entry))
         .collect();
-    let mut rises = true;
     for (index, pair) in (1..).zip(read.windows(2)) {
         if let [Some(before), Some(after)] = pair {
-            rises &= rises_from(&scope.item(index), before, after);
+            sound &= rises_from(&scope.item(index), before, after);
         }
     }
     let rows = read.into_iter().collect::<Option<Vec<_>>>()?;
-    rises.then_some(Some(Calibration { rows }))
+    sound.then_some(Some(Calibration { rows }))
 }
 
 fn row(scope: &Scope<'_>, field: &Field<CalibrationEntry>) -> Option<(f64, f64)> {
     if !field.is_given() {
-        scope.report(scope.own_fault("is missing").expecting(EXPECTED_ROW));
+        scope.report(
+            scope
+                .own_fault(Rule::Missing, "is missing")
+                .expecting(EXPECTED_ROW),
+        );
     }
     let entry = field.value()?;
     let pressure = scope.needed("pressure", &entry.pressure, Limit::PRESSURE);
@@ -56,7 +60,7 @@ fn rises_from(scope: &Scope<'_>, before: &(f64, f64), after: &(f64, f64)) -> boo
         ("speed", before.1, after.1),
     ] {
         if high <= low {
-            let fault = scope.fault(name, "is not above that of the row before");
+            let fault = scope.fault(Rule::NotRising, name, "is not above that of the row before");
             scope.report(fault.expecting("rows in which pressure and speed rise"));
             sound = false;
         }

@@ -8,7 +8,9 @@ use crate::problem::equipment::ContactChoice;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
 use crate::problem::file::contact::{ContactEntry, ContactsItem, LawEntry, RestitutionEntry};
+use crate::problem::home::homes_of;
 use crate::problem::media::LibraryContact;
+use crate::problem::rule::Rule;
 use crate::problem::setting::Range;
 use crate::units::shortened;
 
@@ -37,6 +39,9 @@ impl Contacts {
 /// The key that may hold names of library contacts instead of a contact.
 const USE: &str = "use";
 
+/// The groups that hold the keys of a contact.
+const OWN: &str = "contacts.<name>";
+
 pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Contacts {
     let expected = "at least one contact, such as \
                     `dry: { mu_s: 0.30, mu_d: 0.27, restitution: 0.25 }`";
@@ -48,7 +53,7 @@ pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Co
     };
     if entries.is_empty() {
         root.report(
-            root.fault("contacts", "has no contacts")
+            root.fault(Rule::NothingListed, "contacts", "has no contacts")
                 .expecting(expected),
         );
     }
@@ -94,10 +99,21 @@ pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Co
 fn own<'f>(scope: &Scope<'_>, name: &str, item: &'f ContactsItem) -> Option<&'f ContactEntry> {
     let found = match item {
         ContactsItem::Own(entry) => return Some(entry),
+        ContactsItem::Name(_) if homes_of(name).iter().any(|home| home == OWN) => {
+            let fault = scope.fault(Rule::MisplacedKey, name, format!("belongs to {OWN}"));
+            let expected =
+                "a name first, such as `dry: { mu_s: 0.30, mu_d: 0.27, restitution: 0.25 }`";
+            scope.report_name(fault.expecting(expected));
+            return None;
+        }
         ContactsItem::Name(text) => format!("`{}` is not a contact", shortened(text)),
         ContactsItem::Names(_) => "is a list".to_owned(),
     };
-    scope.report(scope.fault(name, found).expecting("a group of keys"));
+    scope.report(
+        scope
+            .fault(Rule::WrongKind, name, found)
+            .expecting("a group of keys"),
+    );
     None
 }
 
@@ -141,11 +157,7 @@ fn choice_of(
         restitution: restitution?,
         tangential_restitution: tangential_restitution?,
     };
-    if let Err(fault) = contact.validate() {
-        // Every limit has been checked by its key; this is the last word of the model itself.
-        scope.report(scope.own_fault(fault.to_string()));
-        return None;
-    }
+    debug_assert!(contact.validate().is_ok(), "each key keeps to its limit");
     Some(ContactChoice {
         name: name.to_owned(),
         contact,
@@ -164,7 +176,11 @@ pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<ContactCh
     if !choice.static_friction.is_held() {
         scope.report(
             scope
-                .fault("mu_s", "the contact of a surface is not searched")
+                .fault(
+                    Rule::SearchedOnASurface,
+                    "mu_s",
+                    "the contact of a surface is not searched",
+                )
                 .expecting("a single number"),
         );
         return None;
@@ -198,7 +214,7 @@ fn dynamic_friction(
         if entry.mu_d.is_given() {
             scope.report_name(
                 scope
-                    .fault("mu_d_ratio", "mu_d is given as well")
+                    .fault(Rule::EitherOr, "mu_d_ratio", "mu_d is given as well")
                     .expecting("either mu_d or mu_d_ratio"),
             );
             return None;
@@ -213,7 +229,11 @@ fn dynamic_friction(
         if entry.mu_d.is_given() {
             scope.report_name(
                 scope
-                    .fault("mu_d", "cannot be held while mu_s is searched")
+                    .fault(
+                        Rule::HeldWhileSearched,
+                        "mu_d",
+                        "cannot be held while mu_s is searched",
+                    )
                     .expecting("mu_d_ratio, a number from 0 to 1"),
             );
         } else {
@@ -229,6 +249,7 @@ fn dynamic_friction(
         scope.report(
             scope
                 .fault(
+                    Rule::DynamicAboveStatic,
                     "mu_d",
                     format!(
                         "dynamic friction {value} exceeds static friction {}",

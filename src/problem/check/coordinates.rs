@@ -9,6 +9,7 @@ use super::scope::Scope;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::BoxEntry;
 use crate::problem::file::{LengthUnit, Pair, Triple};
+use crate::problem::rule::Rule;
 use crate::units::{self, Dimension};
 
 /// How bare coordinates become metres.
@@ -73,17 +74,19 @@ impl<'a> Coordinates<'a> {
         };
         let (min, max) = (corner("min", &entry.min), corner("max", &entry.max));
         let (min, max) = (min?, max?);
-        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-            if min[axis] >= max[axis] {
-                scope.report(
-                    scope
-                        .fault("max", format!("the box has no extent along {name}"))
-                        .expecting(format!("a larger {name} than in `min`")),
-                );
-                return None;
-            }
+        let axes = ["x", "y", "z"].into_iter().enumerate();
+        let flat: Vec<&str> = axes
+            .filter(|(axis, _)| min[*axis] >= max[*axis])
+            .map(|(_, name)| name)
+            .collect();
+        if flat.is_empty() {
+            return Some((min, max));
         }
-        Some((min, max))
+        let flat = flat.join(" and ");
+        let message = format!("the box has no extent along {flat}");
+        let fault = scope.fault(Rule::FlatBox, "max", message);
+        scope.report(fault.expecting(format!("a larger {flat} than in `min`")));
+        None
     }
 }
 
@@ -96,7 +99,7 @@ pub(super) fn direction(scope: &Scope<'_>, triple: &Triple) -> Option<Vector3<f6
     if unit.is_none() {
         scope.report(
             scope
-                .own_fault("is not a direction")
+                .own_fault(Rule::NotADirection, "is not a direction")
                 .expecting("a list such as `[0, 0, 1]`"),
         );
     }
@@ -120,7 +123,10 @@ fn numbers<const N: usize>(scope: &Scope<'_>, list: &[Field<f64>; N]) -> Option<
             Field::Faulty => sound = false,
             Field::Missing => {
                 let item = scope.item(index);
-                item.report(item.own_fault("is missing").expecting("a number"));
+                item.report(
+                    item.own_fault(Rule::Missing, "is missing")
+                        .expecting("a number"),
+                );
                 sound = false;
             }
         }

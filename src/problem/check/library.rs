@@ -5,6 +5,7 @@ use crate::problem::field::Field;
 use crate::problem::file::contact::{ContactEntry, ContactsItem, RestitutionEntry};
 use crate::problem::file::settings::OneOrRange;
 use crate::problem::media::{self, LibraryContact};
+use crate::problem::rule::Rule;
 use crate::units::shortened;
 
 /// What a name out of the library is expected to be.
@@ -28,7 +29,10 @@ pub(super) fn named(
     names: &[(Option<usize>, Field<String>)],
 ) -> Option<Vec<&'static LibraryContact>> {
     if names.is_empty() {
-        list.report(list.own_fault("names no contact").expecting(LISTED));
+        list.report(
+            list.own_fault(Rule::NothingListed, "names no contact")
+                .expecting(LISTED),
+        );
         return None;
     }
     let mut found: Vec<&'static LibraryContact> = Vec::new();
@@ -37,7 +41,8 @@ pub(super) fn named(
         let item = index.map_or_else(|| list.clone(), |index| list.item(index));
         match known_under(&item, name) {
             Some(known) if found.contains(&known) => {
-                let fault = item.own_fault(format!("`{}` is named twice", known.name));
+                let fault =
+                    item.own_fault(Rule::NamedTwice, format!("`{}` is named twice", known.name));
                 item.report(fault.expecting("every contact once"));
                 sound = false;
             }
@@ -50,7 +55,10 @@ pub(super) fn named(
 
 fn known_under(item: &Scope<'_>, name: &Field<String>) -> Option<&'static LibraryContact> {
     if !name.is_given() {
-        item.report(item.own_fault("is missing").expecting(LISTED));
+        item.report(
+            item.own_fault(Rule::Missing, "is missing")
+                .expecting(LISTED),
+        );
     }
     looked_up(item, name.value()?)
 }
@@ -61,7 +69,9 @@ pub(super) fn looked_up(scope: &Scope<'_>, name: &str) -> Option<&'static Librar
     if known.is_none() {
         let message = format!("the library has no contact `{}`", shortened(name));
         let names = media::contacts().iter().map(|known| known.name);
-        let fault = scope.own_fault(message).expecting(LISTED);
+        let fault = scope
+            .own_fault(Rule::NotInLibrary, message)
+            .expecting(LISTED);
         scope.report(fault.nearest(name, names));
     }
     known

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 
+use crate::problem::rule::Rule;
+
 /// An interval of allowed values in SI.
 ///
 /// The outermost ends are far beyond any workshop; they keep masses and squares computable.
@@ -73,22 +75,23 @@ impl Limit {
     pub const ACCURACY: Self = to(1e-9, 1.0, "a percentage above 0 %, up to 100 %");
     pub const DEVIATION: Self = to(0.0, 10.0, "a percentage from 0 % to 1000 %");
     pub const WEIGHT: Self = to(0.0, 1e9, "a number from 0 to 1e9");
+    pub const IMPACTS: Self = to(1.0, 1000.0, "a whole number from 1 to 1000");
     pub const FRICTION: Self = to(0.0, 10.0, "a number from 0 to 10");
     pub const FRACTION: Self = to(0.0, 1.0, "a number from 0 to 1");
     pub const SIGNED_FRACTION: Self = to(-1.0, 1.0, "a number from -1 to 1");
 
     /// What is wrong with `value`, if anything.
-    pub fn complaint(&self, value: f64) -> Option<&'static str> {
+    pub fn complaint(&self, value: f64) -> Option<(Rule, &'static str)> {
         if value >= self.min && (value < self.max || (value == self.max && !self.below)) {
             None
         } else if self.min > 0.0 && value <= 0.0 {
-            Some("must be more than 0")
+            Some((Rule::NotPositive, "must be more than 0"))
         } else if self.min == 0.0 && value < 0.0 {
-            Some("must not be negative")
+            Some((Rule::Negative, "must not be negative"))
         } else if value < self.min {
-            Some("is too small")
+            Some((Rule::TooSmall, "is too small"))
         } else {
-            Some("is too large")
+            Some((Rule::TooLarge, "is too large"))
         }
     }
 }

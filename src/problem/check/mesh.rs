@@ -8,6 +8,7 @@ use crate::problem::field::Field;
 use crate::problem::file::Named;
 use crate::problem::file::scene::PartEntry;
 use crate::problem::part::{Region, Shape};
+use crate::problem::rule::Rule;
 
 /// The mesh `file` of a part, with its unit and regions.
 pub(super) fn check(
@@ -54,9 +55,9 @@ pub(super) fn check(
 /// The mesh file within the folder of the problem file. Whether it exists shows when it is read.
 fn mesh_path(scope: &Scope<'_>, file: &str, folder: &Path) -> Option<PathBuf> {
     let complaint = if file.trim().is_empty() {
-        Some("has no value")
+        Some((Rule::EmptyText, "has no value"))
     } else if file.contains('\\') || file.contains('\0') {
-        Some("is not a portable path")
+        Some((Rule::PathNotPortable, "is not a portable path"))
     } else {
         let mut depth = 0_i32;
         Path::new(file)
@@ -70,12 +71,15 @@ fn mesh_path(scope: &Scope<'_>, file: &str, folder: &Path) -> Option<PathBuf> {
                 }
                 depth < 0
             })
-            .then_some("leaves the folder of the problem file")
+            .then_some((
+                Rule::PathLeavesFolder,
+                "leaves the folder of the problem file",
+            ))
     };
     match complaint {
         None => Some(folder.join(file)),
-        Some(complaint) => {
-            scope.report(scope.fault("mesh", complaint).expecting(
+        Some((rule, complaint)) => {
+            scope.report(scope.fault(rule, "mesh", complaint).expecting(
                 "a path relative to the problem file, in its folder, with `/` between names",
             ));
             None

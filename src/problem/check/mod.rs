@@ -32,6 +32,7 @@ use super::file::equipment::{CoverageEntry, JetEntry, PathsEntry, SpreadEntry};
 use super::file::settings::SolveEntry;
 use super::file::{FORMAT, ProblemFile};
 use super::part::{Part, Target};
+use super::rule::Rule;
 use coordinates::Coordinates;
 use limit::Limit;
 use scope::Scope;
@@ -40,6 +41,7 @@ use scope::Scope;
 pub(super) struct Checked {
     pub scene: Option<Vec<Part>>,
     pub target: Option<Target>,
+    pub surfaces: Vec<String>,
     pub problem: Option<Problem>,
 }
 
@@ -54,8 +56,12 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
             let known = **format == FORMAT;
             if !known {
                 root.report(
-                    root.fault("format", format!("format {format} is not known"))
-                        .expecting("`format: 1`"),
+                    root.fault(
+                        Rule::UnknownFormat,
+                        "format",
+                        format!("format {format} is not known"),
+                    )
+                    .expecting("`format: 1`"),
                 );
             }
             known
@@ -88,7 +94,8 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
     let goals = root
         .required("goals", &file.goals, "at least normal_impulse")
         .and_then(|entry| goals::check(&root.of("goals"), entry));
-    let surfaces = surfaces::check(&root, &file.surfaces, &scene);
+    let of_target = file.target.value().and_then(|entry| entry.surface.value());
+    let surfaces = surfaces::check(&root, &file.surfaces, &scene, of_target);
     let paths = file
         .paths
         .or(Default::default())
@@ -137,9 +144,11 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         })
     };
     let problem = assemble();
+    let rules = file.surfaces.value().into_iter().flat_map(|rules| &rules.0);
     Checked {
         scene,
         target,
+        surfaces: rules.map(|(name, _)| name.clone()).collect(),
         problem,
     }
 }
@@ -176,17 +185,8 @@ fn coverage(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<CoverageWish> {
 
 fn paths(scope: &Scope<'_>, entry: &PathsEntry) -> Option<PathLimits> {
     let impacts = entry.impacts.or(6).and_then(|impacts| {
-        let sound = usize::try_from(impacts)
-            .ok()
-            .filter(|i| (1..=1000).contains(i));
-        if sound.is_none() {
-            scope.report(
-                scope
-                    .fault("impacts", format!("`{impacts}` is out of range"))
-                    .expecting("a whole number from 1 to 1000"),
-            );
-        }
-        sound
+        scope.within("impacts", impacts as f64, Limit::IMPACTS)?;
+        usize::try_from(impacts).ok()
     });
     let least_energy = scope.optional("least_energy", &entry.least_energy, Limit::BELOW_ALL, 0.01);
     Some(PathLimits {

@@ -5,6 +5,7 @@ use crate::problem::fault::one_of;
 use crate::problem::field::Field;
 use crate::problem::file::settings::OneOrMany;
 use crate::problem::model::{Effect, Model};
+use crate::problem::rule::Rule;
 
 pub(super) fn check(root: &Scope<'_>, field: &Field<OneOrMany>) -> Option<Model> {
     let scope = root.of("model");
@@ -19,20 +20,30 @@ pub(super) fn check(root: &Scope<'_>, field: &Field<OneOrMany>) -> Option<Model>
     let mut sound = true;
     for (index, name) in names.iter().enumerate() {
         let item = scope.item(index);
-        let Field::Present(name) = name else {
-            sound = false;
-            continue;
+        let name = match name {
+            Field::Present(name) => name,
+            Field::Faulty => {
+                sound = false;
+                continue;
+            }
+            Field::Missing => {
+                let fault = item.own_fault(Rule::Missing, "is missing");
+                item.report(fault.expecting(one_of(&known)));
+                sound = false;
+                continue;
+            }
         };
         match Effect::named(name) {
             Some(effect) if effects.contains(&effect) => {
-                let fault = item.own_fault(format!("`{name}` is named twice"));
+                let fault = item.own_fault(Rule::NamedTwice, format!("`{name}` is named twice"));
                 item.report(fault.expecting("every effect once"));
                 sound = false;
             }
             Some(effect) => effects.push(effect),
             None => {
                 let shown = crate::units::shortened(name);
-                let fault = item.own_fault(format!("there is no effect `{shown}`"));
+                let fault =
+                    item.own_fault(Rule::UnknownWord, format!("there is no effect `{shown}`"));
                 let fault = fault.expecting(one_of(&known));
                 item.report(fault.nearest(name, known.iter().copied()));
                 sound = false;
@@ -48,7 +59,7 @@ fn one(scope: &Scope<'_>, name: &str) -> Option<Model> {
         "full" => Some(Model::Full),
         _ => {
             let shown = crate::units::shortened(name);
-            let fault = scope.own_fault(format!("there is no model `{shown}`"));
+            let fault = scope.own_fault(Rule::UnknownWord, format!("there is no model `{shown}`"));
             let fault = fault.expecting("`auto`, `full`, or a list of effects");
             scope.report(fault.nearest(name, ["auto", "full"]));
             None

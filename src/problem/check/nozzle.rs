@@ -7,6 +7,7 @@ use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::one_of;
 use crate::problem::field::Field;
 use crate::problem::file::equipment::{BallEntry, BodyEntry, CapsuleEntry, NozzleEntry};
+use crate::problem::rule::Rule;
 
 pub(super) fn check(scope: &Scope<'_>, entry: &NozzleEntry) -> Option<Nozzle> {
     let clearance = scope.optional("clearance", &entry.clearance, Limit::LENGTH_OR_ZERO, 0.0);
@@ -31,7 +32,11 @@ fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
         Field::Present(entry) => entry,
         Field::Faulty => return None,
         Field::Missing => {
-            scope.report(scope.own_fault("is missing").expecting(expected()));
+            scope.report(
+                scope
+                    .own_fault(Rule::Missing, "is missing")
+                    .expecting(expected()),
+            );
             return None;
         }
     };
@@ -41,14 +46,18 @@ fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
         (true, true) => {
             scope.report_name(
                 scope
-                    .fault("capsule", "is a second shape")
+                    .fault(Rule::EitherOr, "capsule", "is a second shape")
                     .expecting(expected()),
             );
             None
         }
         (false, false) => {
             if !scope.is_misspelt("ball") && !scope.is_misspelt("capsule") {
-                scope.report(scope.own_fault("has no shape").expecting(expected()));
+                scope.report(
+                    scope
+                        .own_fault(Rule::NoneOfSeveral, "has no shape")
+                        .expecting(expected()),
+                );
             }
             None
         }

@@ -9,6 +9,7 @@ use crate::problem::file::Pair;
 use crate::problem::file::scene::SegmentEntry;
 use crate::problem::name::{NAME_EXPECTED, is_name};
 use crate::problem::part::{Ends, Segment};
+use crate::problem::rule::Rule;
 
 /// Two ends nearer than this are one, m.
 const SAME_POINT: f64 = 1e-9;
@@ -25,7 +26,7 @@ pub(super) fn check(
     if entries.is_empty() {
         scope.report(
             scope
-                .own_fault("is empty")
+                .own_fault(Rule::NothingListed, "is empty")
                 .expecting("at least one line or arc"),
         );
         return None;
@@ -43,7 +44,11 @@ pub(super) fn check(
                 continue;
             }
             Field::Missing => {
-                scope.report(scope.own_fault("is missing").expecting("a line or an arc"));
+                scope.report(
+                    scope
+                        .own_fault(Rule::Missing, "is missing")
+                        .expecting("a line or an arc"),
+                );
                 previous = None;
                 segments.push(None);
                 continue;
@@ -66,7 +71,8 @@ pub(super) fn check(
     let profile: Vec<Segment> = segments.into_iter().collect::<Option<_>>()?;
     let closed = ends.is_none_or(|ends| !(ends.near_closed || ends.far_closed))
         || outlines_close(scope, &profile);
-    closed.then_some(profile)
+    let plain = no_lines_cross(scope, &profile);
+    (closed && plain).then_some(profile)
 }
 
 fn surface(scope: &Scope<'_>, entry: &SegmentEntry, caps: &[&str]) -> Option<String> {
@@ -74,7 +80,7 @@ fn surface(scope: &Scope<'_>, entry: &SegmentEntry, caps: &[&str]) -> Option<Str
     if !is_name(name) {
         scope.report(
             scope
-                .fault("surface", "cannot be used as a name")
+                .fault(Rule::UnusableName, "surface", "cannot be used as a name")
                 .expecting(NAME_EXPECTED),
         );
         return None;
@@ -82,7 +88,11 @@ fn surface(scope: &Scope<'_>, entry: &SegmentEntry, caps: &[&str]) -> Option<Str
     if caps.contains(&name.as_str()) {
         scope.report(
             scope
-                .fault("surface", format!("`{name}` is the name of a closed end"))
+                .fault(
+                    Rule::NameOfAnEnd,
+                    "surface",
+                    format!("`{name}` is the name of a closed end"),
+                )
                 .expecting("another name"),
         );
         return None;
@@ -104,7 +114,7 @@ fn path(
             if entry.via.is_given() {
                 scope.report_name(
                     scope
-                        .fault("via", "has no effect on a line")
+                        .fault(Rule::NoEffect, "via", "has no effect on a line")
                         .expecting("it beside `arc_to` only"),
                 );
             }
@@ -118,7 +128,7 @@ fn path(
         (true, true) => {
             scope.report_name(
                 scope
-                    .fault("arc_to", "a segment is a line or an arc")
+                    .fault(Rule::EitherOr, "arc_to", "a segment is a line or an arc")
                     .expecting("either line_to or arc_to"),
             );
             (None, None)
@@ -127,7 +137,7 @@ fn path(
             if !scope.is_misspelt("line_to") && !scope.is_misspelt("arc_to") {
                 scope.report(
                     scope
-                        .own_fault("leads nowhere")
+                        .own_fault(Rule::NoneOfSeveral, "leads nowhere")
                         .expecting("either line_to or arc_to"),
                 );
             }
@@ -150,18 +160,23 @@ fn segment(
         Some(via) => Some(via?),
     };
     let complaint = match via {
-        None if (to - from).norm() <= SAME_POINT => Some(("line_to", "the line has no length")),
+        None if (to - from).norm() <= SAME_POINT => {
+            Some((Rule::NoExtent, "line_to", "the line has no length"))
+        }
         Some(_) if (to - from).norm() <= SAME_POINT => Some((
+            Rule::NoExtent,
             "arc_to",
             "the arc ends where it starts; a full circle takes two arcs",
         )),
-        Some(via) if is_straight(from, via, to) => {
-            Some(("via", "the three points of the arc lie on one line"))
-        }
+        Some(via) if is_straight(from, via, to) => Some((
+            Rule::StraightArc,
+            "via",
+            "the three points of the arc lie on one line",
+        )),
         _ => None,
     };
-    if let Some((name, complaint)) = complaint {
-        scope.report(scope.fault(name, complaint));
+    if let Some((rule, name, complaint)) = complaint {
+        scope.report(scope.fault(rule, name, complaint));
         return None;
     }
     Some(Segment {
@@ -180,26 +195,64 @@ fn is_straight(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> bool {
     shortest <= SAME_POINT || ab.perp(&ac).abs() <= 1e-9 * longest * longest
 }
 
+/// Whether no straight line of an outline crosses another one of the same outline.
+fn no_lines_cross(scope: &Scope<'_>, profile: &[Segment]) -> bool {
+    let mut plain = true;
+    let mut start = 0;
+    for (index, segment) in profile.iter().enumerate() {
+        if index > 0 && !goes_on(&profile[index - 1], segment) {
+            start = index;
+        }
+        let mut earlier = profile[start..index].iter().zip(start..);
+        if let Some((_, crossed)) = earlier.find(|(other, _)| lines_cross(other, segment)) {
+            let item = scope.item(index);
+            let message = format!("crosses the line of profile[{crossed}]");
+            let fault = item.own_fault(Rule::CrossingOutline, message);
+            item.report(fault.expecting("an outline that does not cross itself"));
+            plain = false;
+        }
+    }
+    plain
+}
+
+/// Whether both segments are lines, with the ends of each on different sides of the other.
+fn lines_cross(one: &Segment, other: &Segment) -> bool {
+    let parts = |line: &Segment, by: &Segment| {
+        let along = line.to - line.from;
+        let side = |point: Point2<f64>| along.perp(&(point - line.from)) / along.norm();
+        let (from, to) = (side(by.from), side(by.to));
+        from.min(to) < -SAME_POINT && from.max(to) > SAME_POINT
+    };
+    one.via.is_none() && other.via.is_none() && parts(one, other) && parts(other, one)
+}
+
+/// Whether the second segment begins where the first one ends.
+fn goes_on(first: &Segment, second: &Segment) -> bool {
+    (second.from - first.to).norm() <= SAME_POINT
+}
+
 /// Whether every outline ends where it began.
 fn outlines_close(scope: &Scope<'_>, profile: &[Segment]) -> bool {
     let mut closed = true;
     let mut start = profile.first().map(|segment| segment.from);
     for (index, segment) in profile.iter().enumerate() {
-        let next = profile.get(index + 1).map(|next| next.from);
-        let goes_on = next.is_some_and(|next| (next - segment.to).norm() <= SAME_POINT);
-        if goes_on {
+        let next = profile.get(index + 1);
+        if next.is_some_and(|next| goes_on(segment, next)) {
             continue;
         }
         if start.is_some_and(|start| (start - segment.to).norm() > SAME_POINT) {
             scope.report(
                 scope
                     .item(index)
-                    .own_fault("the outline is not closed, so an end cannot be")
+                    .own_fault(
+                        Rule::OpenOutline,
+                        "the outline is not closed, so an end cannot be",
+                    )
                     .expecting("a last point equal to the first, or `ends: open`"),
             );
             closed = false;
         }
-        start = next;
+        start = next.map(|next| next.from);
     }
     closed
 }

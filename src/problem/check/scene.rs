@@ -13,6 +13,7 @@ use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
 use crate::problem::file::scene::{BaseEntry, MoveEntry, PartEntry, PlaceEntry};
 use crate::problem::part::{Part, Place, Shape};
+use crate::problem::rule::Rule;
 
 /// The parts of the file by name; `None` for a faulty one.
 pub(super) struct Scene {
@@ -36,60 +37,77 @@ impl Scene {
         parts.any(|part| part.on_nozzle && part.name == part_name)
     }
 
+    /// The full names of all surfaces, of which a mesh file may hold one called `surface`.
+    fn known_surfaces(&self, surface: &str) -> Vec<String> {
+        let sound = self.parts.iter().filter_map(|(_, part)| part.as_ref());
+        sound
+            .flat_map(|part| {
+                let mut names = full_names(&part.name, &part.shape);
+                if matches!(part.shape, Shape::Mesh { .. }) && !surface.is_empty() {
+                    names.push(format!("{}.{surface}", part.name));
+                }
+                names
+            })
+            .collect()
+    }
+
     /// What is wrong with `name` as the name of a surface, as far as the file alone can tell: the
     /// groups of a mesh file are not known here.
-    pub fn surface_fault(&self, key: Fault, name: &str) -> Option<Fault> {
+    pub fn surface_fault(&self, key: &str, name: &str) -> Option<Fault> {
         if !self.sound {
             return None;
+        }
+        if name.trim().is_empty() {
+            let fault = Fault::at_key(Rule::EmptyText, key, "has no value");
+            return Some(fault.expecting("the name of a surface, `part.surface`"));
         }
         let shown = crate::units::shortened(name);
         let (part_name, surface) = name.split_once('.').unwrap_or((name, ""));
         let Some((_, part)) = self.parts.iter().find(|(known, _)| known == part_name) else {
             let names: Vec<&str> = self.parts.iter().map(|(name, _)| name.as_str()).collect();
-            let corrected = crate::problem::fault::nearest_name(part_name, names.iter().copied())
-                .map(|near| format!("{near}.{surface}"));
-            let mut fault = Fault {
-                message: if surface.is_empty() {
-                    format!("`{shown}` is not a surface")
-                } else {
-                    format!("there is no part `{}`", crate::units::shortened(part_name))
-                },
-                ..key
-            }
-            .expecting(format!(
+            let (rule, message) = if surface.is_empty() {
+                (Rule::NotASurface, format!("`{shown}` is not a surface"))
+            } else {
+                let part = crate::units::shortened(part_name);
+                (Rule::UnknownPart, format!("there is no part `{part}`"))
+            };
+            let fault = Fault::at_key(rule, key, message).expecting(format!(
                 "`part.surface` with a part out of {}",
                 names.join(", ")
             ));
-            fault.suggestion = corrected.filter(|_| !surface.is_empty());
-            return Some(fault);
+            let known = self.known_surfaces(surface);
+            return Some(fault.nearest(name, known.iter().map(String::as_str)));
         };
         let shape = &part.as_ref()?.shape;
-        let full: Vec<String> = shape
-            .surface_names()
-            .into_iter()
-            .map(|surface| format!("{part_name}.{surface}"))
-            .collect();
+        let full = full_names(part_name, shape);
         let is_mesh = matches!(shape, Shape::Mesh { .. });
         if full.iter().any(|known| known == name) || (is_mesh && !surface.is_empty()) {
             return None;
         }
-        let message = if surface.is_empty() {
-            format!("`{shown}` is a part, not a surface")
+        let (rule, message) = if surface.is_empty() {
+            let message = format!("`{shown}` is a part, not a surface");
+            (Rule::NotASurface, message)
         } else {
-            format!("there is no surface `{shown}`")
+            let message = format!("there is no surface `{shown}`");
+            (Rule::UnknownSurface, message)
         };
         let expected = match (is_mesh, full.is_empty()) {
             (true, true) => format!("{part_name}.all, or a group of its mesh file"),
             (true, false) => format!("{}, or a group of its mesh file", full.join(", ")),
             _ => format!("one of {}", full.join(", ")),
         };
-        let fault = Fault { message, ..key }.expecting(expected);
+        let fault = Fault::at_key(rule, key, message).expecting(expected);
         Some(if surface.is_empty() {
             fault
         } else {
             fault.nearest(name, full.iter().map(String::as_str))
         })
     }
+}
+
+fn full_names(part: &str, shape: &Shape) -> Vec<String> {
+    let names = shape.surface_names().into_iter();
+    names.map(|surface| format!("{part}.{surface}")).collect()
 }
 
 /// Checks every part; mesh files lie in `folder` or below.
@@ -107,7 +125,10 @@ pub(super) fn check(
         };
     };
     if entries.is_empty() {
-        root.report(root.fault("scene", "has no parts").expecting(expected));
+        root.report(
+            root.fault(Rule::NothingListed, "scene", "has no parts")
+                .expecting(expected),
+        );
     }
     let scope = root.of("scene");
     let parts: Vec<_> = entries
@@ -165,13 +186,17 @@ fn part(
                 .iter()
                 .any(|shape| scope.is_misspelt(shape))
             {
-                scope.report_name(scope.own_fault(missing).expecting(expected()));
+                scope.report_name(
+                    scope
+                        .own_fault(Rule::NoneOfSeveral, missing)
+                        .expecting(expected()),
+                );
             }
         }
         [_, second, ..] => {
             scope.report_name(
                 scope
-                    .fault(second, "is a second shape")
+                    .fault(Rule::EitherOr, second, "is a second shape")
                     .expecting(expected()),
             );
         }
@@ -184,7 +209,7 @@ fn part(
             if stray {
                 scope.report_name(
                     scope
-                        .fault(key, "has no effect on this shape")
+                        .fault(Rule::NoEffect, key, "has no effect on this shape")
                         .expecting("it beside `mesh` only"),
                 );
             }
@@ -237,7 +262,10 @@ fn place(scope: &Scope<'_>, entry: &MoveEntry, coordinates: &Coordinates<'_>) ->
             let angle = |index: usize| {
                 let item = list.item(index);
                 if !angles[index].is_given() {
-                    item.report(item.own_fault("is missing").expecting(Limit::TURN.expected));
+                    item.report(
+                        item.own_fault(Rule::Missing, "is missing")
+                            .expecting(Limit::TURN.expected),
+                    );
                 }
                 item.within_own(angles[index].value()?.0, Limit::TURN)
             };

@@ -5,6 +5,7 @@ use crate::problem::faults::Faults;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Quantity;
 use crate::problem::file::settings::OneOrRange;
+use crate::problem::rule::Rule;
 use crate::problem::setting::Range;
 use crate::problem::source::{child_key, item_key};
 
@@ -44,13 +45,13 @@ impl<'a> Scope<'a> {
     }
 
     /// A fault of the key `name`, not yet on record.
-    pub fn fault(&self, name: &str, message: impl Into<String>) -> Fault {
-        Fault::at_key(child_key(&self.key, name), message)
+    pub fn fault(&self, rule: Rule, name: &str, message: impl Into<String>) -> Fault {
+        Fault::at_key(rule, child_key(&self.key, name), message)
     }
 
     /// A fault of the group itself, not yet on record.
-    pub fn own_fault(&self, message: impl Into<String>) -> Fault {
-        Fault::at_key(&self.key, message)
+    pub fn own_fault(&self, rule: Rule, message: impl Into<String>) -> Fault {
+        Fault::at_key(rule, &self.key, message)
     }
 
     /// Puts a fault on record, where the value of its key stands.
@@ -82,7 +83,10 @@ impl<'a> Scope<'a> {
     ) -> Option<&'f T> {
         // A misspelt key has been reported already, with the name that it should have.
         if !field.is_given() && !self.faults.misspelt(&self.key, name) {
-            self.report(self.fault(name, "is missing").expecting(expected));
+            let stands = self.faults.source.has(&child_key(&self.key, name));
+            let message = if stands { "has no value" } else { "is missing" };
+            let fault = self.fault(Rule::Missing, name, message);
+            self.report(fault.expecting(expected));
         }
         field.value()
     }
@@ -155,7 +159,10 @@ impl<'a> Scope<'a> {
         let end = |index: usize, field: &Field<Q>| {
             let item = ends.item(index);
             if !field.is_given() {
-                item.report(item.own_fault("is missing").expecting(limit.expected));
+                item.report(
+                    item.own_fault(Rule::Missing, "is missing")
+                        .expecting(limit.expected),
+                );
             }
             item.within_own(field.value()?.si(), limit)
         };
@@ -163,7 +170,7 @@ impl<'a> Scope<'a> {
         let (min, max) = (min?, max?);
         if min > max {
             self.report(
-                self.fault(name, "the range is upside down")
+                self.fault(Rule::UpsideDown, name, "the range is upside down")
                     .expecting("the smaller value first"),
             );
             return None;
@@ -178,14 +185,14 @@ impl<'a> Scope<'a> {
 
     /// The same for the value of this very key.
     pub fn within_own(&self, value: f64, limit: Limit) -> Option<f64> {
-        let Some(complaint) = limit.complaint(value) else {
+        let Some((rule, complaint)) = limit.complaint(value) else {
             return Some(value);
         };
         let message = match self.faults.source.written(&self.key) {
             Some(written) => format!("`{}` {complaint}", crate::units::shortened(written)),
             None => complaint.to_owned(),
         };
-        self.report(self.own_fault(message).expecting(limit.expected));
+        self.report(self.own_fault(rule, message).expecting(limit.expected));
         None
     }
 
@@ -194,7 +201,7 @@ impl<'a> Scope<'a> {
         let sound = is_name(name);
         if !sound {
             self.report_name(
-                self.fault(name, "cannot be used as a name")
+                self.fault(Rule::UnusableName, name, "cannot be used as a name")
                     .expecting(NAME_EXPECTED),
             );
         }

@@ -10,6 +10,7 @@ use crate::problem::field::{Field, Needed};
 use crate::problem::file::Length;
 use crate::problem::file::Quantity;
 use crate::problem::file::settings::{OneOrMany, OneOrRange, SettingsEntry};
+use crate::problem::rule::Rule;
 use crate::problem::setting::{Range, Settings};
 
 pub(super) fn check(
@@ -35,7 +36,11 @@ pub(super) fn check(
         if !sound {
             scope.report(
                 scope
-                    .fault("azimuth", "the range is wider than a full turn")
+                    .fault(
+                        Rule::MoreThanATurn,
+                        "azimuth",
+                        "the range is wider than a full turn",
+                    )
                     .expecting("at most 360 deg from end to end"),
             );
         }
@@ -80,6 +85,7 @@ fn shift(scope: &Scope<'_>, name: &str, field: &Field<OneOrRange<Length>>) -> Op
 /// Indices of the contacts that may be chosen, in the order of the file.
 fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> Option<Vec<usize>> {
     let known: Vec<&str> = contacts.names().collect();
+    let mut sound = true;
     let named: Vec<(Scope<'_>, &str)> = match field {
         Field::Missing => return Some((0..known.len()).collect()),
         Field::Faulty => return None,
@@ -91,27 +97,30 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
                 let item = list.item(index);
                 match name {
                     Field::Present(name) => given.push((item, name.as_str())),
-                    Field::Faulty => return None,
+                    Field::Faulty => sound = false,
                     Field::Missing => {
-                        item.report(item.own_fault("is missing").expecting("a contact"));
-                        return None;
+                        let fault = item.own_fault(Rule::Missing, "is missing");
+                        item.report(fault.expecting("a contact"));
+                        sound = false;
                     }
                 }
             }
-            if given.is_empty() {
-                list.report(list.own_fault("names no contact").expecting(one_of(&known)));
+            if names.is_empty() {
+                list.report(
+                    list.own_fault(Rule::NothingListed, "names no contact")
+                        .expecting(one_of(&known)),
+                );
                 return None;
             }
             given
         }
     };
     let mut indices = Vec::new();
-    let mut sound = true;
     for (item, name) in named {
         match known.iter().position(|known| *known == name) {
             Some(index) if indices.contains(&index) => {
                 item.report(
-                    item.own_fault(format!("`{name}` is named twice"))
+                    item.own_fault(Rule::NamedTwice, format!("`{name}` is named twice"))
                         .expecting("every contact once"),
                 );
                 sound = false;
@@ -120,10 +129,10 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
             // Without any contact there is a fault already.
             None if contacts.complete => {
                 item.report(
-                    item.own_fault(format!(
-                        "there is no contact `{}`",
-                        crate::units::shortened(name)
-                    ))
+                    item.own_fault(
+                        Rule::UnknownContact,
+                        format!("there is no contact `{}`", crate::units::shortened(name)),
+                    )
                     .expecting(one_of(&known))
                     .nearest(name, known.iter().copied()),
                 );

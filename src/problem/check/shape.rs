@@ -7,6 +7,7 @@ use super::scope::Scope;
 use crate::problem::field::Field;
 use crate::problem::file::scene::{BoreEntry, End, EndsEntry, ExtrudeEntry, KeywayEntry};
 use crate::problem::part::{Ends, Keyway, Shape};
+use crate::problem::rule::Rule;
 
 /// A bore with a groove.
 pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
@@ -24,7 +25,11 @@ pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
     if width >= bore {
         scope.report(
             scope
-                .fault("width", "the groove is as wide as the bore, or wider")
+                .fault(
+                    Rule::GrooveTooWide,
+                    "width",
+                    "the groove is as wide as the bore, or wider",
+                )
                 .expecting("a width below the diameter of the bore"),
         );
         return None;
@@ -43,7 +48,11 @@ pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
     if let Some(expected) = expected {
         scope.report(
             scope
-                .fault("root_radius", "the root does not fit into the groove")
+                .fault(
+                    Rule::RootTooLarge,
+                    "root_radius",
+                    "the root does not fit into the groove",
+                )
                 .expecting(expected),
         );
         return None;

@@ -7,13 +7,21 @@ use crate::problem::field::Field;
 use crate::problem::file::equipment::ShotEntry;
 use crate::problem::file::{Density, Length};
 use crate::problem::media::{self, Medium};
+use crate::problem::rule::Rule;
 use crate::units::shortened;
 
 pub(super) fn check(scope: &Scope<'_>, entry: &ShotEntry) -> Option<Shot> {
     let medium = match &entry.medium {
-        Field::Missing => None,
-        Field::Faulty => return None,
-        Field::Present(name) => Some(looked_up(scope, name)?),
+        Field::Missing => Some(None),
+        Field::Faulty => None,
+        Field::Present(name) => looked_up(scope, name).map(Some),
+    };
+    let size_spread = scope.optional("size_spread", &entry.size_spread, Limit::SPREAD, 0.0);
+    let Some(medium) = medium else {
+        // Nothing can be said to be missing, but what is given can be wrong.
+        scope.maybe("radius", &entry.radius, Limit::LENGTH);
+        scope.maybe("density", &entry.density, Limit::DENSITY);
+        return None;
     };
     let mut entry = entry.clone();
     if let Some(medium) = medium {
@@ -26,7 +34,6 @@ pub(super) fn check(scope: &Scope<'_>, entry: &ShotEntry) -> Option<Shot> {
     }
     let radius = scope.needed_here("radius", &entry.radius, Limit::LENGTH);
     let density = scope.needed_here("density", &entry.density, Limit::DENSITY);
-    let size_spread = scope.optional("size_spread", &entry.size_spread, Limit::SPREAD, 0.0);
     Some(Shot {
         radius: radius?,
         density: density?,
@@ -40,7 +47,7 @@ fn looked_up(scope: &Scope<'_>, name: &str) -> Option<&'static Medium> {
     let known = media::medium(name);
     if known.is_none() {
         let message = format!("the library has no shot `{}`", shortened(name));
-        let fault = scope.fault("use", message);
+        let fault = scope.fault(Rule::NotInLibrary, "use", message);
         let fault = fault.expecting("a medium that `peenpose media` lists");
         scope.report(fault.nearest(name, media::media().iter().map(|medium| medium.name)));
     }

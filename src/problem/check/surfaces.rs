@@ -8,11 +8,14 @@ use crate::problem::equipment::{Role, SurfaceRule};
 use crate::problem::field::Field;
 use crate::problem::file::Named;
 use crate::problem::file::equipment::{RoleEntry, SurfaceEntry};
+use crate::problem::rule::Rule;
+use crate::problem::source::child_key;
 
 pub(super) fn check(
     root: &Scope<'_>,
     field: &Field<Named<SurfaceEntry>>,
     scene: &Scene,
+    target: Option<&String>,
 ) -> Option<Vec<SurfaceRule>> {
     let entries = match field {
         Field::Missing => return Some(Vec::new()),
@@ -23,13 +26,21 @@ pub(super) fn check(
     let rules: Vec<Option<SurfaceRule>> = entries
         .iter()
         .map(|(name, entry)| {
-            let fault = scene.surface_fault(scope.fault(name, ""), name);
+            let fault = scene.surface_fault(&child_key("surfaces", name), name);
             let known = fault.is_none();
             if let Some(fault) = fault {
                 scope.report_name(fault);
             }
             let entry = scope.required(name, entry, "keys such as `allow`, `contact` or `role`")?;
-            rule(&scope.of(name), name, entry).filter(|_| known)
+            let rule = rule(&scope.of(name), name, entry).filter(|_| known)?;
+            let on_target = target == Some(name);
+            match rule.fault_on_target().filter(|_| on_target) {
+                Some(fault) => {
+                    scope.report(fault);
+                    None
+                }
+                None => Some(rule),
+            }
         })
         .collect();
     rules.into_iter().collect()
@@ -58,7 +69,11 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
             if given {
                 scope.report_name(
                     scope
-                        .fault(key, "has no effect on a deflector, whose hits do not count")
+                        .fault(
+                            Rule::NoEffect,
+                            key,
+                            "has no effect on a deflector, whose hits do not count",
+                        )
                         .expecting("either this key or `role: deflector`"),
                 );
             }

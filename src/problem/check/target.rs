@@ -7,6 +7,7 @@ use crate::problem::fault::Fault;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::TargetEntry;
 use crate::problem::part::Target;
+use crate::problem::rule::Rule;
 
 pub(super) fn check(
     root: &Scope<'_>,
@@ -23,7 +24,7 @@ pub(super) fn check(
             "the name of a surface, `part.surface`",
         )
         .filter(|name| {
-            let fault = surface_fault(scope.fault("surface", ""), name, scene);
+            let fault = surface_fault("target.surface", name, scene);
             let sound = fault.is_none();
             fault.into_iter().for_each(|fault| scope.report(fault));
             sound
@@ -48,12 +49,13 @@ pub(super) fn check(
 }
 
 /// What is wrong with a surface as the target.
-fn surface_fault(key: Fault, name: &str, scene: &Scene) -> Option<Fault> {
+fn surface_fault(key: &str, name: &str, scene: &Scene) -> Option<Fault> {
     if !scene.moves_with_nozzle(name) {
         return scene.surface_fault(key, name);
     }
     let message = format!("`{}` moves with the nozzle", crate::units::shortened(name));
-    Some(Fault { message, ..key }.expecting("a surface of a part that stands in the scene"))
+    let fault = Fault::at_key(Rule::TargetOnNozzle, key, message);
+    Some(fault.expecting("a surface of a part that stands in the scene"))
 }
 
 /// What `check` makes of a key that may be absent; the outer `None` stands for a fault.

@@ -3,6 +3,7 @@
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::file::settings::ToleranceEntry;
+use crate::problem::rule::Rule;
 use crate::problem::setting::{Range, Settings, Tolerance};
 
 /// Checks the half-widths; against the settings where those are sound.
@@ -66,7 +67,11 @@ fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
         if !leaves_a_choice(half_width, range) {
             scope.report(
                 scope
-                    .fault(name, "is wider than the range that is searched")
+                    .fault(
+                        Rule::ToleranceTooWide,
+                        name,
+                        "is wider than the range that is searched",
+                    )
                     .expecting(format!("less than half the range of settings.{name}")),
             );
             sound = false;
@@ -85,7 +90,11 @@ fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
         if leaves_a_choice(half_width, range) && half_width >= range.min && !may_fall {
             scope.report(
                 scope
-                    .fault(name, format!("lets the {name} fall to {reached}"))
+                    .fault(
+                        Rule::ToleranceReachesZero,
+                        name,
+                        format!("lets the {name} fall to {reached}"),
+                    )
                     .expecting(format!("less than the smallest settings.{name}")),
             );
             sound = false;

@@ -12,6 +12,7 @@
 
 mod access;
 mod error;
+mod scalar;
 
 use serde::Deserializer;
 use serde::de::{IntoDeserializer, Visitor};
@@ -22,8 +23,9 @@ use error::ReadError;
 
 use super::fault::{Fault, one_of};
 use super::faults::Faults;
+use super::rule::Rule;
 use super::yaml::{Entry, Node, Value};
-use crate::units::{self, Dimension, shortened};
+use crate::units::{Dimension, shortened};
 
 /// One node on its way to a typed value.
 pub(super) struct Reader<'a> {
@@ -38,84 +40,6 @@ impl<'a> Reader<'a> {
             node,
             key: String::new(),
             faults,
-        }
-    }
-
-    /// Records a fault of this very node.
-    fn refuse(&self, message: impl Into<String>, expected: impl Into<String>) -> ReadError {
-        self.push(Fault::at_key(&self.key, message).expecting(expected))
-    }
-
-    fn push(&self, mut fault: Fault) -> ReadError {
-        if self.key.is_empty() {
-            fault.at = Some(self.node.span);
-        }
-        self.faults.push(fault);
-        ReadError::Recorded
-    }
-
-    /// Records an error that a visitor has raised over this node.
-    fn record<T>(&self, result: Result<T, ReadError>) -> Result<T, ReadError> {
-        result.map_err(|error| match error {
-            ReadError::Recorded => ReadError::Recorded,
-            ReadError::Fresh { message, expected } => {
-                let mut fault = Fault::at_key(&self.key, message);
-                fault.expected = expected;
-                self.push(fault)
-            }
-        })
-    }
-
-    /// Refuses the kind of value that stands here.
-    fn unexpected(&self, expected: &str) -> ReadError {
-        let found = match &self.node.value {
-            Value::Null => "has no value".to_owned(),
-            Value::Number(text) => format!("`{text}` is a number"),
-            Value::Text(text) => format!("`{}` is text", shortened(text)),
-            Value::List(_) => "is a list".to_owned(),
-            Value::Map(_) => "is a group of keys".to_owned(),
-        };
-        self.refuse(found, expected)
-    }
-
-    /// A bare number.
-    fn number(&self) -> Result<f64, ReadError> {
-        const EXPECTED: &str = "a plain number such as 0.25";
-        let Value::Number(text) = &self.node.value else {
-            return Err(self.unexpected(EXPECTED));
-        };
-        match units::parse_number(text) {
-            Some(value) if value.is_finite() => Ok(value),
-            Some(_) => Err(self.refuse(format!("`{text}` is too large a number"), EXPECTED)),
-            None => Err(self.refuse(format!("`{text}` is not a plain number"), EXPECTED)),
-        }
-    }
-
-    fn whole_number(&self) -> Result<u64, ReadError> {
-        const EXPECTED: &str = "a whole number, 0 or more";
-        let Value::Number(text) = &self.node.value else {
-            return Err(self.unexpected(EXPECTED));
-        };
-        text.parse()
-            .map_err(|_| self.refuse(format!("`{text}` is not a whole number"), EXPECTED))
-    }
-
-    fn quantity(&self, dimension: Dimension) -> Result<f64, ReadError> {
-        let (Value::Text(text) | Value::Number(text)) = &self.node.value else {
-            return Err(self.unexpected(dimension.described()));
-        };
-        units::parse(dimension, text).map_err(|unit_fault| {
-            let mut fault =
-                Fault::at_key(&self.key, unit_fault.message()).expecting(unit_fault.expected());
-            fault.suggestion = unit_fault.suggestion();
-            self.push(fault)
-        })
-    }
-
-    fn text(&self) -> Result<&'a str, ReadError> {
-        match &self.node.value {
-            Value::Text(text) | Value::Number(text) => Ok(text),
-            _ => Err(self.unexpected("text")),
         }
     }
 
@@ -241,7 +165,7 @@ impl<'a> Deserializer<'a> for Reader<'a> {
         let items = self.items(expected)?;
         let found = items.rest.len();
         if found != length {
-            return Err(self.refuse(format!("is a list of {found}"), expected));
+            return Err(self.refuse(Rule::WrongLength, format!("is a list of {found}"), expected));
         }
         self.record(visitor.visit_seq(items))
     }
@@ -291,10 +215,11 @@ impl<'a> Deserializer<'a> for Reader<'a> {
         };
         match variants.iter().find(|variant| *variant == text) {
             Some(variant) => self.record(visitor.visit_enum((*variant).into_deserializer())),
+            None if text.trim().is_empty() => Err(self.no_value(&one_of(variants))),
             None => {
                 let message = format!("`{}` is not known", shortened(text));
                 Err(self.push(
-                    Fault::at_key(&self.key, message)
+                    Fault::at_key(Rule::UnknownWord, &self.key, message)
                         .expecting(one_of(variants))
                         .nearest(text, variants.iter().copied()),
                 ))

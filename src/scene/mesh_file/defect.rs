@@ -5,6 +5,7 @@ use std::fmt;
 use nalgebra::Point3;
 
 use super::warning::Coordinates;
+use crate::problem::rule::Rule;
 
 /// Bytes of the longest line that is read; a face of four thousand corners fits.
 pub(super) const LONGEST_LINE: usize = 1 << 18;
@@ -129,6 +130,41 @@ impl Defect {
             found.push_str("...");
         }
         Self::Unexpected { expected, found }
+    }
+}
+
+impl Defect {
+    /// The region of the problem file that it is about, if that is to blame.
+    pub fn region(&self) -> Option<&str> {
+        match self {
+            Self::EmptyRegion { region, .. } | Self::CoveredRegion { region } => Some(region),
+            _ => None,
+        }
+    }
+
+    /// The rule that a problem with such a mesh file breaks.
+    pub fn rule(&self) -> Rule {
+        match self {
+            Self::Missing => Rule::MeshMissing,
+            Self::Unreadable { .. } => Rule::MeshUnreadable,
+            Self::UnknownFormat { .. } => Rule::MeshFormatUnknown,
+            Self::TooLarge { .. } => Rule::MeshTooLarge,
+            Self::TooManyTriangles => Rule::MeshTooManyTriangles,
+            Self::TooManyCorners { .. } => Rule::MeshTooManyCorners,
+            Self::LineTooLong => Rule::MeshLineTooLong,
+            Self::Empty => Rule::MeshEmpty,
+            Self::NoTriangles => Rule::MeshNoTriangles,
+            Self::AllDegenerate { .. } => Rule::MeshNoArea,
+            Self::NotFinite { .. } => Rule::MeshNotFinite,
+            Self::TooFarOut { .. } => Rule::MeshTooFarOut,
+            Self::NoSuchVertex { .. } => Rule::MeshNoSuchVertex,
+            Self::WrongCount { .. } => Rule::MeshWrongCount,
+            Self::Unexpected { .. } => Rule::MeshUnexpected,
+            Self::EndsEarly { .. } => Rule::MeshEndsEarly,
+            Self::NotInHeader { .. } => Rule::MeshNotInHeader,
+            Self::EmptyRegion { .. } => Rule::RegionEmpty,
+            Self::CoveredRegion { .. } => Rule::RegionCovered,
+        }
     }
 }
 

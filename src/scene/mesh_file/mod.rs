@@ -118,7 +118,9 @@ impl Format {
             "obj" => Ok(Self::Obj),
             "ply" => Ok(Self::Ply),
             unknown => Err(Defect::UnknownFormat {
-                nearest: nearest_name(unknown, ["stl", "obj", "ply"]),
+                // Other formats, such as STEP, are no misspelt ones.
+                nearest: nearest_name(unknown, ["stl", "obj", "ply"])
+                    .filter(|near| near.len() == unknown.len()),
                 ending: ending.into_owned(),
             }),
         }

@@ -2,13 +2,13 @@
 
 use std::io::BufRead;
 
-use super::MOST_CORNERS;
 use super::assembly::{ALL, Assembly};
 use super::defect::Defect;
 use super::fault::{MeshFault, Place};
 use super::lines::Lines;
 use super::ply_header::{self, Element, Encoding, Scalar};
 use super::ply_numbers::{Binary, Numbers, Text};
+use super::{MOST_CORNERS, MOST_TRIANGLES};
 
 /// Reads a PLY file into the assembly.
 pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), MeshFault> {
@@ -26,6 +26,10 @@ pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), 
     let faces = position("face").ok_or_else(|| missing("element `face`"))?;
     if vertices > faces {
         return Err(missing("element `vertex` before the element `face`"));
+    }
+    // Each of its faces gives at least one triangle; a promise of too many need not be read.
+    if header.elements[faces].count > MOST_TRIANGLES as u64 {
+        return Err(Defect::TooManyTriangles.at(Place::File));
     }
     let plan = Plan::new(&header.elements[vertices], &header.elements[faces]).map_err(missing)?;
     let mut reader = Reader {

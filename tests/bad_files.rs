@@ -1,0 +1,110 @@
+//! Bad files: each says what its comments announce, and every rule is broken by one of them.
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+use common::announced;
+use peenpose::problem::rule::Rule;
+use peenpose::scene::mesh_file::{LARGEST_FILE, MOST_CORNERS};
+use peenpose::setup::{Rejection, Setup};
+
+/// Problem files with faults of the file, and with faults of its parts and meshes.
+const FOLDERS: [&str; 2] = ["tests/bad", "tests/bad_geometry"];
+
+fn bad_files() -> Vec<PathBuf> {
+    let entries = FOLDERS.map(|folder| fs::read_dir(folder).unwrap());
+    let paths = entries.into_iter().flatten().map(|it| it.unwrap().path());
+    let is_problem = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "yaml");
+    let mut files: Vec<PathBuf> = paths.filter(is_problem).collect();
+    files.sort();
+    files
+}
+
+fn rejection(path: &Path) -> Box<Rejection> {
+    let refused = Setup::load(path).err();
+    refused.unwrap_or_else(|| panic!("{} is sound", path.display()))
+}
+
+#[test]
+fn bad_files_say_what_their_comments_announce() {
+    for path in bad_files() {
+        let rejection = rejection(&path);
+        let found: Vec<_> = rejection
+            .faults
+            .iter()
+            .map(|fault| {
+                let at = fault.at.unwrap();
+                (at.line, at.column, fault.to_string())
+            })
+            .collect();
+        let bytes = fs::read(&path).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        let text = text.trim_start_matches('\u{feff}');
+        assert_eq!(found, announced(text), "{}", path.display());
+        assert!(!found.is_empty(), "{}", path.display());
+        // What is shown of a fault holds its place and what is wrong.
+        let shown = rejection.render(false);
+        for ((line, column, _), fault) in found.iter().zip(&rejection.faults) {
+            let place = format!("{}:{line}:{column}\n", path.display());
+            assert!(shown.contains(&place), "{place} is not in:\n{shown}");
+            assert!(
+                shown.contains(&fault.message),
+                "{fault} is not in:\n{shown}"
+            );
+        }
+    }
+}
+
+#[test]
+fn no_mistake_is_reported_twice() {
+    let mut mistakes = BTreeSet::new();
+    for path in bad_files() {
+        let mut in_file = BTreeSet::new();
+        for fault in rejection(&path).faults {
+            let place = fault.at.map(|at| (at.start, at.end));
+            let is_new = in_file.insert((fault.key.clone(), fault.rule, place));
+            assert!(is_new, "{}: {fault}", path.display());
+            mistakes.insert((fault.rule, fault.key, fault.message));
+        }
+    }
+    assert!(mistakes.len() >= 400, "{}", mistakes.len());
+}
+
+/// The rules that are broken by files too large to keep, or by none.
+fn broken_by_made_files() -> Vec<Rule> {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = fs::read_to_string("tests/bad_geometry/sound/plate.yaml").unwrap();
+    let path = folder.path().join("problem.yaml");
+    fs::write(&path, problem).unwrap();
+    let mesh = folder.path().join("plate.obj");
+    let mut broken = Vec::new();
+    let mut load = |path: &Path| broken.extend(rejection(path).faults.iter().map(|it| it.rule));
+
+    load(&folder.path().join("none.yaml"));
+    File::create(&mesh)
+        .and_then(|file| file.set_len(LARGEST_FILE + 1))
+        .unwrap();
+    load(&path);
+    fs::write(&mesh, "0".repeat(1 << 19)).unwrap();
+    load(&path);
+    let face = " 1 2 3".repeat(MOST_CORNERS);
+    fs::write(&mesh, format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{face}\n")).unwrap();
+    load(&path);
+    fs::write(&path, "#".repeat(1_000_001)).unwrap();
+    load(&path);
+    broken
+}
+
+#[test]
+fn every_rule_is_broken_by_a_bad_file() {
+    let mut broken: BTreeSet<Rule> = broken_by_made_files().into_iter().collect();
+    for path in bad_files() {
+        broken.extend(rejection(&path).faults.iter().map(|fault| fault.rule));
+    }
+    let rules: BTreeSet<Rule> = Rule::ALL.iter().copied().collect();
+    let unbroken: Vec<&Rule> = rules.difference(&broken).collect();
+    assert!(unbroken.is_empty(), "no bad file breaks {unbroken:?}");
+}
