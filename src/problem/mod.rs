@@ -26,6 +26,7 @@ pub mod media;
 pub mod model;
 pub mod part;
 pub mod setting;
+pub mod size;
 pub mod warning;
 
 mod check;

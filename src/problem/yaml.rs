@@ -8,6 +8,8 @@ use serde_saphyr::options::{MergeKeyPolicy, NonFiniteFloatPolicy};
 use serde_saphyr::{Error, Location, MessageFormatter, Options, Spanned, UserMessageFormatter};
 
 use super::fault::{Fault, Span};
+use super::size::{MOST_ALIASES, MOST_LEVELS};
+use crate::units::shortened;
 
 /// A value of the file and where it stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,13 +54,13 @@ pub(super) fn parse(text: &str) -> Result<Node, Box<Fault>> {
 fn options() -> Options {
     serde_saphyr::options! {
         budget: serde_saphyr::budget! {
-            max_depth: 24,
-            flow_nesting_limit: 24,
+            max_depth: MOST_LEVELS,
+            flow_nesting_limit: MOST_LEVELS,
             max_documents: 1,
             max_events: 500_000,
             max_nodes: 250_000,
-            max_aliases: 1_000,
-            max_anchors: 1_000,
+            max_aliases: MOST_ALIASES,
+            max_anchors: MOST_ALIASES,
             max_recorded_anchor_events: 50_000,
             max_total_scalar_bytes: 2_000_000,
         },
@@ -234,7 +236,7 @@ fn explain(text: &str, error: &Error) -> Fault {
     }
     let mut fault = match cause {
         Error::DuplicateMappingKey { key, .. } => match key {
-            Some(key) => file(&format!("`{key}` is given twice")),
+            Some(key) => file(&format!("`{}` is given twice", shortened(key))),
             None => file("the same key is given twice"),
         }
         .expecting("every key once"),
@@ -278,5 +280,5 @@ fn explain(text: &str, error: &Error) -> Fault {
 }
 
 fn too_deep() -> Fault {
-    Fault::at_key("", "nested too deeply").expecting("at most 24 levels")
+    Fault::at_key("", "nested too deeply").expecting(format!("at most {MOST_LEVELS} levels"))
 }

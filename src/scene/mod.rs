@@ -30,6 +30,7 @@ use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::Fault;
 use crate::problem::part::Part;
 use lanes::{components, padded, put};
+use mesh_file::MOST_TRIANGLES;
 use part::{BuiltPart, Fronts, Geometry};
 use ray::{Hit, Ray, Spot};
 use rays::{Hits, Rays};
@@ -70,14 +71,22 @@ impl Scene {
     /// Builds every part.
     ///
     /// # Errors
-    /// Every mesh that cannot be read.
+    /// Every mesh that cannot be read, and the part from which on there are too many triangles.
     pub fn build(parts: &[Part], walls: Walls) -> Result<Self, Vec<Fault>> {
         let mut faults = Vec::new();
-        let mut geometries = Vec::new();
+        let mut geometries: Vec<Geometry> = Vec::new();
+        let mut triangles = 0;
         for part in parts {
             match Geometry::of(part, walls) {
-                Ok(geometry) => geometries.push(geometry),
+                Ok(geometry) => {
+                    triangles += geometry.mesh.triangles.len();
+                    geometries.push(geometry);
+                }
                 Err(fault) => faults.push(*fault),
+            }
+            if triangles > MOST_TRIANGLES {
+                faults.push(too_many_triangles(part));
+                break;
             }
         }
         if !faults.is_empty() {
@@ -332,6 +341,12 @@ impl Scene {
             *front
         }
     }
+}
+
+fn too_many_triangles(part: &Part) -> Fault {
+    let message = format!("up to this part the scene has more than {MOST_TRIANGLES} triangles");
+    Fault::at_key(format!("scene.{}", part.name), message)
+        .expecting("fewer or coarser meshes, at most so many triangles together")
 }
 
 /// Longest side of the box round all corners: the scale of the shapes, wherever the scene stands.
