@@ -84,8 +84,8 @@ impl Scene {
                 }
                 Err(fault) => faults.push(*fault),
             }
-            if triangles > MOST_TRIANGLES {
-                faults.push(too_many_triangles(part));
+            if let Some(fault) = too_many_triangles(part, triangles) {
+                faults.push(fault);
                 break;
             }
         }
@@ -343,10 +343,12 @@ impl Scene {
     }
 }
 
-fn too_many_triangles(part: &Part) -> Fault {
+/// The fault of a part with which the scene gets too large.
+fn too_many_triangles(part: &Part, triangles: usize) -> Option<Fault> {
     let message = format!("up to this part the scene has more than {MOST_TRIANGLES} triangles");
-    Fault::at_key(format!("scene.{}", part.name), message)
-        .expecting("fewer or coarser meshes, at most so many triangles together")
+    let fault = Fault::at_key(format!("scene.{}", part.name), message)
+        .expecting("fewer or coarser meshes, at most so many triangles together");
+    (triangles > MOST_TRIANGLES).then_some(fault)
 }
 
 /// Longest side of the box round all corners: the scale of the shapes, wherever the scene stands.
@@ -392,4 +394,30 @@ fn spiral_direction(index: usize, count: usize) -> Vector3<f64> {
     let (sin, cos) = (GOLDEN_ANGLE * index as f64).sin_cos();
     let radius = (1.0 - z * z).sqrt();
     Vector3::new(radius * cos, radius * sin, z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::part::{Place, Shape};
+
+    #[test]
+    fn a_scene_has_no_more_triangles_than_one_mesh_may_have() {
+        let part = Part {
+            name: "hub".into(),
+            shape: Shape::Box {
+                min: Point3::origin(),
+                max: Point3::new(1.0, 1.0, 1.0),
+            },
+            place: Place::default(),
+            on_nozzle: false,
+        };
+        assert_eq!(too_many_triangles(&part, MOST_TRIANGLES), None);
+        let fault = too_many_triangles(&part, MOST_TRIANGLES + 1).expect("one too many");
+        assert_eq!(
+            fault.to_string(),
+            "scene.hub: up to this part the scene has more than 20000000 triangles; expected \
+             fewer or coarser meshes, at most so many triangles together"
+        );
+    }
 }

@@ -135,7 +135,7 @@ impl Polygon {
 mod tests {
     use super::*;
 
-    /// A star whose every corner lies between others: no ear is free.
+    /// A star that crosses itself everywhere.
     fn star(corners: u32) -> Vec<Point3<f64>> {
         let turn = std::f64::consts::TAU * f64::from(corners / 2) / f64::from(corners);
         let corner = |index: u32| {
@@ -154,6 +154,6 @@ mod tests {
             polygon.triangles(&face, &vertices).map(<[_]>::len)
         };
         assert_eq!(count(MOST_LOOKS), Some(199));
-        assert_eq!(count(201 * 201), None);
+        assert_eq!(count(1000), None);
     }
 }
