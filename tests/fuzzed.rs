@@ -5,6 +5,7 @@ use std::fs;
 use std::panic::catch_unwind;
 use std::path::Path;
 
+use peenpose::record::Record;
 use serde_json::Value;
 
 #[path = "fuzz/src/lib.rs"]
@@ -59,6 +60,19 @@ fn searches_give_results_that_can_be_read_back() {
 #[test]
 fn records_can_be_shown_whatever_they_say() {
     replay("record", targets::record::run);
+}
+
+#[test]
+fn numbers_beyond_the_precision_of_pictures_are_refused() {
+    let read = |number: f64| {
+        let mut whole = targets::record::whole();
+        let place = whole.pointer_mut("/evidence/hits/plane_m/0/0");
+        *place.expect("there are hits") = number.into();
+        Record::from_json(&whole.to_string())
+    };
+    assert!(read(1e-3).is_ok());
+    let error = read(1e300).expect_err("infinite in single precision");
+    assert!(error.to_string().contains("out of range"), "{error}");
 }
 
 #[test]

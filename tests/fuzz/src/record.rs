@@ -51,6 +51,11 @@ static WHOLE: LazyLock<Value> = LazyLock::new(|| {
     whole
 });
 
+/// A record that nothing has been done to.
+pub fn whole() -> Value {
+    WHOLE.clone()
+}
+
 /// Keeps a few items: reports of short lists are made sooner.
 fn shorten(list: &mut Value) {
     if let Some(items) = list.as_array_mut() {
@@ -63,7 +68,7 @@ pub fn run(data: &[u8]) {
     let text = if bytes.byte() < 16 {
         String::from_utf8_lossy(bytes.0).into_owned()
     } else {
-        let mut value = WHOLE.clone();
+        let mut value = whole();
         edit(&mut value, &mut bytes);
         value.to_string()
     };
