@@ -80,8 +80,9 @@ impl Coverage {
         let wish = setup.problem.coverage?;
         let fresh = Replicates::without_rim(&setup.problem, purpose::COVERAGE, SHOTS);
         let samples = fresh.sets.len();
-        let grid = Grid::of(setup);
-        let areas = grid.areas(&setup.target.cut_out(&setup.scene).0);
+        let (target, _) = setup.target.cut_out(&setup.scene);
+        let grid = Grid::of(setup, &target);
+        let areas = grid.areas(&target);
         let area: f64 = areas.values().sum();
         let (cell_at, mut cells) = grid.cells(&areas, samples);
         let hits = hits(setup, choice, &fresh.sets);
@@ -193,17 +194,21 @@ struct Grid {
 type Place = [i64; 3];
 
 impl Grid {
-    fn of(setup: &Setup) -> Self {
+    fn of(setup: &Setup, target: &[Triangle]) -> Self {
         let Frame {
             aim,
             normal,
             along,
             across,
         } = setup.target.frame;
+        let corners = target.iter().flatten();
+        let farthest = corners.map(|corner| (corner - aim).norm());
+        // However narrow the target is, there are not many more cells than in a square one.
+        let least_side = farthest.fold(0.0, f64::max) / CELLS;
         Self {
             middle: aim,
             axes: [along, across, normal],
-            side: (setup.target.area / CELLS).sqrt(),
+            side: (setup.target.area / CELLS).sqrt().max(least_side),
         }
     }
 

@@ -152,3 +152,20 @@ fn curved_targets_are_cut_into_cells_of_their_own_area() {
     );
     assert!(bore.variation < 0.05, "{bore:?}");
 }
+
+#[test]
+fn a_target_as_narrow_as_can_be_has_few_cells() {
+    let narrow = coverage(&[
+        (
+            "min: [-20, -20, -5], max: [20, 20, 0]",
+            "min: [-1e6, -20, -5], max: [1e6, 20, 0]",
+        ),
+        (
+            "min: [-1, -1, -1], max: [1, 1, 1]",
+            "min: [-1e6, -1e-6, -1], max: [1e6, 1e-6, 1]",
+        ),
+    ])
+    .unwrap();
+    // Square cells as wide as the target would be a million million.
+    assert!((64..1000).contains(&narrow.cells), "{}", narrow.cells);
+}

@@ -11,10 +11,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Commands that take minutes, each with where it is run instead.
-const LONG: [(&str, &str); 5] = [
+const LONG: [(&str, &str); 7] = [
     ("peenpose chart", "tests/chart.rs"),
     ("cargo test", "it is what runs this"),
     ("cargo install", "builds the whole program again"),
+    ("rustup", "installs another compiler"),
+    (
+        "cargo +nightly fuzz",
+        "tests/fuzzed.rs replays what it found",
+    ),
     ("cargo doc", ".ci/run"),
     ("cargo bench", "benches/ are built by .ci/run"),
 ];

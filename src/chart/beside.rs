@@ -10,6 +10,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+/// Bytes of the largest table that is read.
+pub const LARGEST_TABLE: u64 = 10_000_000;
+
 /// One run of another method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BesidePoint {

@@ -27,6 +27,7 @@ pub mod model;
 pub mod part;
 pub mod rule;
 pub mod setting;
+pub mod size;
 pub mod warning;
 
 mod check;

@@ -15,11 +15,9 @@ use super::part::{Part, Target};
 use super::reader::Reader;
 use super::repeated;
 use super::rule::Rule;
+use super::size::{self, LARGEST_FILE};
 use super::source::Source;
 use super::yaml::{self, Value};
-
-/// No honest problem file is larger; meshes have files of their own.
-const LARGEST_FILE: u64 = 1_000_000;
 
 /// What came of a problem file.
 #[derive(Clone, Debug)]
@@ -84,11 +82,14 @@ fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Box<Fault>> {
         Ok(text) => match yaml::parse(text) {
             Err(fault) => source.refused(*fault),
             Ok(root) if root.value == Value::Null => source.refused(empty()),
-            Ok(mut root) => {
-                let repeated = repeated::take_out(&mut root);
-                source.index(&root);
-                understand(source, &root, repeated)
-            }
+            Ok(mut root) => match size::fault_of(&root) {
+                Some(fault) => source.refused(fault),
+                None => {
+                    let repeated = repeated::take_out(&mut root);
+                    source.index(&root);
+                    understand(source, &root, repeated)
+                }
+            },
         },
     })
 }

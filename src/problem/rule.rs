@@ -51,6 +51,12 @@ listed! {
         NestedTooDeeply,
         /// Values or aliases beyond any need.
         TooManyValues,
+        /// A list or a group longer than any need.
+        TooManyItems,
+        /// A key longer than any need.
+        KeyTooLong,
+        /// A text longer than any need.
+        TextTooLong,
         /// An alias within what it repeats.
         AliasOfItself,
         /// An alias of a value that does not stand before it.
@@ -182,6 +188,9 @@ listed! {
         /// Azimuth 0 along the normal of the target.
         AlongPerpendicular,
 
+        /// Too many triangles of all parts together.
+        SceneTooLarge,
+
         // Mesh files, see `scene::mesh_file::Defect`.
         /// No such mesh file.
         MeshMissing,
@@ -195,6 +204,12 @@ listed! {
         MeshTooManyTriangles,
         /// A face with too many corners.
         MeshTooManyCorners,
+        /// Faces too winding to be cut into triangles.
+        MeshFacesTooWinding,
+        /// Too many groups.
+        MeshTooManySurfaces,
+        /// A name of a group that is too long.
+        MeshNameTooLong,
         /// A line too long for a text.
         MeshLineTooLong,
         /// No byte in the mesh file.

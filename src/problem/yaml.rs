@@ -11,6 +11,7 @@ use serde_saphyr::{Location, Options, Spanned};
 use explain::explain;
 
 use super::fault::{Fault, Span};
+use super::size::{MOST_ALIASES, MOST_LEVELS};
 
 /// A value of the file and where it stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,13 +56,13 @@ pub(super) fn parse(text: &str) -> Result<Node, Box<Fault>> {
 fn options() -> Options {
     serde_saphyr::options! {
         budget: serde_saphyr::budget! {
-            max_depth: 24,
-            flow_nesting_limit: 24,
+            max_depth: MOST_LEVELS,
+            flow_nesting_limit: MOST_LEVELS,
             max_documents: 1,
             max_events: 500_000,
             max_nodes: 250_000,
-            max_aliases: 1_000,
-            max_anchors: 1_000,
+            max_aliases: MOST_ALIASES,
+            max_anchors: MOST_ALIASES,
             max_recorded_anchor_events: 50_000,
             max_total_scalar_bytes: 2_000_000,
         },

@@ -92,20 +92,16 @@ impl MapRecord {
     }
 }
 
+/// In the precision of a picture; what is too large for that is the largest number there is, as JSON
+/// has no infinity.
 fn rounded(terms: &Terms) -> [f32; 4] {
-    [
+    let terms = [
         terms.normal_impulse,
         terms.tangential_impulse,
         terms.rebound,
         terms.miss,
-    ]
-    .map(kept)
-}
-
-/// A term of J as it is kept. Terms are squares: wanting far less than a shot can give is legal, and
-/// takes them beyond what is kept.
-fn kept(term: f64) -> f32 {
-    term.min(f64::from(f32::MAX)) as f32
+    ];
+    terms.map(|term| (term as f32).min(f32::MAX))
 }
 
 impl AxisRecord {
@@ -115,5 +111,20 @@ impl AxisRecord {
             setting,
             values: axis.values.iter().map(|&value| shown(value)).collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn terms_beyond_single_precision_stay_finite() {
+        let terms = Terms {
+            normal_impulse: 1e60,
+            tangential_impulse: 0.5,
+            ..Terms::default()
+        };
+        assert_eq!(rounded(&terms), [f32::MAX, 0.5, 0.0, 0.0]);
     }
 }

@@ -45,6 +45,9 @@ use crate::solve::{Answer, Ladder, Status, Window};
 use crate::unknowns::Unknowns;
 use crate::validity::Note;
 
+/// Bytes of the largest `result.json` that is read.
+pub const LARGEST_FILE: u64 = 500_000_000;
+
 /// The result of a search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Record {

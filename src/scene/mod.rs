@@ -31,6 +31,7 @@ use crate::problem::fault::{Fault, one_of};
 use crate::problem::part::Part;
 use crate::problem::rule::Rule;
 use lanes::{components, padded, put};
+use mesh_file::MOST_TRIANGLES;
 use part::{BuiltPart, Fronts, Geometry};
 use ray::{Hit, Ray, Spot};
 use rays::{Hits, Rays};
@@ -71,14 +72,22 @@ impl Scene {
     /// Builds every part.
     ///
     /// # Errors
-    /// Every mesh that cannot be read.
+    /// Every mesh that cannot be read, and the part from which on there are too many triangles.
     pub fn build(parts: &[Part], walls: Walls) -> Result<Self, Vec<Fault>> {
         let mut faults = Vec::new();
-        let mut geometries = Vec::new();
+        let mut geometries: Vec<Geometry> = Vec::new();
+        let mut triangles = 0;
         for part in parts {
             match Geometry::of(part, walls) {
-                Ok(geometry) => geometries.push(geometry),
+                Ok(geometry) => {
+                    triangles += geometry.mesh.triangles.len();
+                    geometries.push(geometry);
+                }
                 Err(fault) => faults.push(*fault),
+            }
+            if let Some(fault) = too_many_triangles(part, triangles) {
+                faults.push(fault);
+                break;
             }
         }
         if !faults.is_empty() {
@@ -334,6 +343,14 @@ impl Scene {
     }
 }
 
+/// The fault of a part with which the scene gets too large.
+fn too_many_triangles(part: &Part, triangles: usize) -> Option<Fault> {
+    let message = format!("up to this part the scene has more than {MOST_TRIANGLES} triangles");
+    let fault = Fault::at_key(Rule::SceneTooLarge, format!("scene.{}", part.name), message)
+        .expecting("fewer or coarser meshes, at most so many triangles together");
+    (triangles > MOST_TRIANGLES).then_some(fault)
+}
+
 /// Longest side of the box round all corners: the scale of the shapes, wherever the scene stands.
 fn longest_side(geometries: &[Geometry]) -> f64 {
     let bounds = geometries
@@ -377,4 +394,30 @@ fn spiral_direction(index: usize, count: usize) -> Vector3<f64> {
     let (sin, cos) = (GOLDEN_ANGLE * index as f64).sin_cos();
     let radius = (1.0 - z * z).sqrt();
     Vector3::new(radius * cos, radius * sin, z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::part::{Place, Shape};
+
+    #[test]
+    fn a_scene_has_no_more_triangles_than_one_mesh_may_have() {
+        let part = Part {
+            name: "hub".into(),
+            shape: Shape::Box {
+                min: Point3::origin(),
+                max: Point3::new(1.0, 1.0, 1.0),
+            },
+            place: Place::default(),
+            on_nozzle: false,
+        };
+        assert_eq!(too_many_triangles(&part, MOST_TRIANGLES), None);
+        let fault = too_many_triangles(&part, MOST_TRIANGLES + 1).expect("one too many");
+        assert_eq!(
+            fault.to_string(),
+            "scene.hub: up to this part the scene has more than 20000000 triangles; expected \
+             fewer or coarser meshes, at most so many triangles together"
+        );
+    }
 }

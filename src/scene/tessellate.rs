@@ -15,22 +15,22 @@ pub fn prism(profile: &Profile, length: f64, ends: Ends, chord_angle: f64) -> Me
         surfaces: profile.surfaces.clone(),
         ..Mesh::default()
     };
-    let chains = profile.chords(chord_angle);
-    for (piece, chain) in profile.pieces.iter().zip(&chains) {
+    let mut outline = Vec::new();
+    let (mut near, mut far) = (Vec::new(), Vec::new());
+    for (piece, chain) in profile.pieces.iter().zip(profile.chords(chord_angle)) {
         for pair in chain.windows(2) {
             let quad = wall(&mut mesh, pair[0], pair[1], length);
             add_quad(&mut mesh, quad, piece.surface);
+            outline.push(pair[0]);
+            near.push(quad[0]);
+            far.push(quad[1]);
         }
     }
-    let outline: Vec<Point2<f64>> = chains
-        .iter()
-        .flat_map(|chain| chain[..chain.len() - 1].iter().copied())
-        .collect();
     if ends.near_closed {
-        add_cap(&mut mesh, &outline, 0.0, true, "near");
+        add_cap(&mut mesh, &outline, &near, true, "near");
     }
     if ends.far_closed {
-        add_cap(&mut mesh, &outline, length, false, "far");
+        add_cap(&mut mesh, &outline, &far, false, "far");
     }
     mesh
 }
@@ -98,21 +98,8 @@ fn add_quad(mesh: &mut Mesh, [a, b, c, d]: [u32; 4], surface: u32) {
         .extend([[a, b, c], [a, c, d]].map(|corners| Triangle { corners, surface }));
 }
 
-fn add_cap(mesh: &mut Mesh, outline: &[Point2<f64>], z: f64, front_up: bool, name: &str) {
+fn add_cap(mesh: &mut Mesh, outline: &[Point2<f64>], corners: &[u32], front_up: bool, name: &str) {
     let surface = mesh.surface_index(name);
-    let corners: Vec<u32> = outline
-        .iter()
-        .map(|point| {
-            let wanted = Point3::new(point.x, point.y, z);
-            let known = mesh.vertices.iter().position(|vertex| {
-                vertex.z == z && (vertex - wanted).norm() <= 1e-12 * point.coords.norm()
-            });
-            known.unwrap_or_else(|| {
-                mesh.vertices.push(wanted);
-                mesh.vertices.len() - 1
-            }) as u32
-        })
-        .collect();
     let mut triangles: Vec<usize> = Vec::new();
     let points = outline.iter().map(|p| [p.x, p.y]);
     earcut::Earcut::new().earcut(points, &[], &mut triangles);

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use peenpose::chart::{BesidePoint, Control, measure};
+use peenpose::chart::{BesidePoint, Control, LARGEST_TABLE, measure};
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
 use peenpose::setup::Setup;
 
 use crate::args::ChartArgs;
-use crate::output::{self, Failure, quoted};
+use crate::output::{self, Failure, limited_text, quoted};
 use crate::progress::Watcher;
 use crate::start;
 
@@ -56,10 +56,8 @@ fn beside(paths: &[PathBuf]) -> Result<Vec<BesidePoint>, String> {
 }
 
 fn beside_table(path: &Path) -> Result<Vec<BesidePoint>, String> {
-    let shown = path.display();
-    let text =
-        std::fs::read_to_string(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
-    BesidePoint::read_all(&text).map_err(|fault| format!("{shown}:{fault}"))
+    let text = limited_text(path, LARGEST_TABLE)?;
+    BesidePoint::read_all(&text).map_err(|fault| format!("{}:{fault}", path.display()))
 }
 
 /// The command that makes the chart again.

@@ -1,11 +1,12 @@
 //! Where results and failures go.
 
-use std::io::{ErrorKind, IsTerminal, Write};
+use std::fs::File;
+use std::io::{ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
 use peenpose::problem::{Source, render_warnings};
-use peenpose::record::Record;
+use peenpose::record::{LARGEST_FILE, Record};
 use peenpose::report::figure::Figure;
 use peenpose::report::{files, sheet};
 use peenpose::setup::{Rejection, Setup};
@@ -108,12 +109,24 @@ pub fn reports(record: &Record, folder: &Path) -> Result<Vec<String>, Failure> {
 
 /// Reads a result back.
 pub fn read_record(path: &Path) -> Result<Record, Failure> {
-    let shown = path.display();
-    let text =
-        std::fs::read_to_string(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
-    let record =
-        Record::from_json(&text).map_err(|error| format!("{shown} is not a result: {error}"))?;
+    let text = limited_text(path, LARGEST_FILE)?;
+    let record = Record::from_json(&text)
+        .map_err(|error| format!("{} is not a result: {error}", path.display()))?;
     Ok(record)
+}
+
+/// Reads a text of at most so many bytes.
+pub fn limited_text(path: &Path, most_bytes: u64) -> Result<String, String> {
+    let shown = path.display();
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(most_bytes + 1).read_to_end(&mut bytes))
+        .map_err(|error| format!("cannot read {shown}: {error}"))?;
+    if bytes.len() as u64 > most_bytes {
+        let most = most_bytes / 1_000_000;
+        return Err(format!("{shown} is too large; expected at most {most} MB"));
+    }
+    String::from_utf8(bytes).map_err(|_| format!("cannot read {shown}: it is not UTF-8 text"))
 }
 
 /// Finds out before the work whether results can be written into a folder.

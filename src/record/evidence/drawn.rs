@@ -205,10 +205,24 @@ fn stepped(value: f64, steps: f64) -> f32 {
     ((value * steps).round() / steps + 0.0) as f32
 }
 
+/// What is too small for the precision is 0, and not what its digits would overflow to.
 fn impulse(newton_seconds: f64) -> f32 {
-    if newton_seconds <= 0.0 {
+    if newton_seconds < f64::from(f32::MIN_POSITIVE) {
         return 0.0;
     }
     let magnitude = newton_seconds.log10().floor() as i32;
     stepped(newton_seconds, 10_f64.powi(IMPULSE_DIGITS - 1 - magnitude))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impulses_are_finite_however_small() {
+        assert_eq!(impulse(4.123_456_7e-5), 4.1235e-5);
+        for tiny in [0.0, 5e-324, 1e-310, 1e-300, 1e-40] {
+            assert_eq!(impulse(tiny), 0.0, "{tiny}");
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use super::defect::Defect;
-use super::polygon::Polygon;
+use super::polygon::{MOST_LOOKS, Polygon};
 use super::vertex_index::VertexIndex;
 use super::{LARGEST_COORDINATE, MOST_CORNERS, MOST_TRIANGLES};
 use crate::scene::mesh::{Mesh, Triangle};
@@ -29,7 +29,7 @@ impl Assembly {
             mesh: Mesh::default(),
             vertex_index: VertexIndex::new(),
             surface_numbers: HashMap::new(),
-            polygon: Polygon::default(),
+            polygon: Polygon::new(MOST_LOOKS),
         }
     }
 
@@ -99,13 +99,14 @@ impl Assembly {
                 corners: corners.len(),
             });
         }
-        let mut polygon = std::mem::take(&mut self.polygon);
-        let added = polygon
-            .triangles(corners, &self.mesh.vertices)
-            .iter()
-            .try_for_each(|triangle| self.triangle(*triangle, surface));
-        self.polygon = polygon;
-        added
+        let cut = self.polygon.triangles(corners, &self.mesh.vertices);
+        let cut = cut.ok_or(Defect::FacesTooWinding)?;
+        if self.mesh.triangles.len() + cut.len() > MOST_TRIANGLES {
+            return Err(Defect::TooManyTriangles);
+        }
+        let triangles = cut.iter().map(|&corners| Triangle { corners, surface });
+        self.mesh.triangles.extend(triangles);
+        Ok(())
     }
 
     /// The mesh as read, not yet cleaned.

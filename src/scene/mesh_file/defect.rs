@@ -39,6 +39,18 @@ pub enum Defect {
         /// Corners of the face.
         corners: usize,
     },
+    /// Faces of many corners that wind or cross themselves.
+    FacesTooWinding,
+    /// More surfaces than [`MOST_SURFACES`](super::MOST_SURFACES).
+    TooManySurfaces {
+        /// Named groups or solids of the file.
+        surfaces: usize,
+    },
+    /// A name longer than [`LONGEST_NAME`](super::LONGEST_NAME).
+    NameTooLong {
+        /// How it starts.
+        start: String,
+    },
     /// A line so long that the file cannot be a text mesh.
     LineTooLong,
     /// The file holds nothing at all.
@@ -151,6 +163,9 @@ impl Defect {
             Self::TooLarge { .. } => Rule::MeshTooLarge,
             Self::TooManyTriangles => Rule::MeshTooManyTriangles,
             Self::TooManyCorners { .. } => Rule::MeshTooManyCorners,
+            Self::FacesTooWinding => Rule::MeshFacesTooWinding,
+            Self::TooManySurfaces { .. } => Rule::MeshTooManySurfaces,
+            Self::NameTooLong { .. } => Rule::MeshNameTooLong,
             Self::LineTooLong => Rule::MeshLineTooLong,
             Self::Empty => Rule::MeshEmpty,
             Self::NoTriangles => Rule::MeshNoTriangles,
@@ -212,6 +227,21 @@ impl fmt::Display for Defect {
                 f,
                 "a face with {corners} corners, at most {} are read; export triangles instead",
                 super::MOST_CORNERS
+            ),
+            Self::FacesTooWinding => f.write_str(
+                "the faces up to this one have so many corners and wind so much that it takes too \
+                 long to cut them into triangles; export triangles instead",
+            ),
+            Self::TooManySurfaces { surfaces } => write!(
+                f,
+                "the mesh has {surfaces} named groups, at most {} are read; export it with fewer",
+                super::MOST_SURFACES
+            ),
+            Self::NameTooLong { start } => write!(
+                f,
+                "the name of a group that starts with `{start}` has more than {} characters; export \
+                 the mesh with shorter names",
+                super::LONGEST_NAME
             ),
             Self::LineTooLong => write!(
                 f,

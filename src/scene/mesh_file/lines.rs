@@ -132,6 +132,12 @@ pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
         .filter(|word| !word.is_empty())
 }
 
+/// A name, with something visible where it would move the cursor of a terminal.
+pub(super) fn name(text: &[u8]) -> String {
+    let text = String::from_utf8_lossy(text.trim_ascii());
+    text.replace(char::is_control, "\u{fffd}")
+}
+
 /// A number in Rust's notation, which includes `nan` and `inf`: what it is worth is checked later.
 pub(super) fn number(word: &[u8]) -> Option<f64> {
     std::str::from_utf8(word).ok()?.parse().ok()

@@ -41,6 +41,10 @@ pub const LARGEST_FILE: u64 = 1_000_000_000;
 pub const MOST_TRIANGLES: usize = 20_000_000;
 /// Corners of the largest face that is read.
 pub const MOST_CORNERS: usize = 4096;
+/// Surfaces, that is named groups or solids, of the largest mesh that is read.
+pub const MOST_SURFACES: usize = 10_000;
+/// Characters of the longest name of a surface.
+pub const LONGEST_NAME: usize = 200;
 /// Coordinates further out than this, in m, are taken for damage.
 pub const LARGEST_COORDINATE: f64 = 1e6;
 
@@ -75,10 +79,27 @@ pub fn read(
     let found = || {
         let mut mesh = parse(path, metres_per_unit)?;
         let warnings = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
+        check_surfaces(&mesh.surfaces).map_err(whole)?;
         region::name_triangles(&mut mesh, metres_per_unit, regions).map_err(whole)?;
         Ok((mesh, warnings))
     };
     found().map_err(|fault: MeshFault| fault.in_file(path))
+}
+
+/// Refuses more surfaces than can be told apart, and names that nobody can read.
+fn check_surfaces(names: &[String]) -> Result<(), Defect> {
+    const SHOWN: usize = 40;
+    if names.len() > MOST_SURFACES {
+        let surfaces = names.len();
+        return Err(Defect::TooManySurfaces { surfaces });
+    }
+    let is_long = |name: &&String| name.chars().count() > LONGEST_NAME;
+    match names.iter().find(is_long) {
+        Some(name) => Err(Defect::NameTooLong {
+            start: name.chars().take(SHOWN).collect(),
+        }),
+        None => Ok(()),
+    }
 }
 
 fn parse(path: &Path, metres_per_unit: f64) -> Result<Mesh, MeshFault> {

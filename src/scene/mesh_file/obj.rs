@@ -6,7 +6,7 @@ use std::io::BufRead;
 use super::assembly::{ALL, Assembly};
 use super::defect::Defect;
 use super::fault::MeshFault;
-use super::lines::{Line, Lines, coordinates, words};
+use super::lines::{self, Line, Lines, coordinates, words};
 
 /// Reads an OBJ file into the assembly.
 pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), MeshFault> {
@@ -68,10 +68,9 @@ impl Reader<'_> {
     }
 
     fn enter(&mut self, name: &[u8]) {
-        let name = String::from_utf8_lossy(name.trim_ascii());
-        self.name = match name.as_ref() {
-            "" => ALL.to_owned(),
-            name => name.to_owned(),
+        self.name = match lines::name(name) {
+            name if name.is_empty() => ALL.to_owned(),
+            name => name,
         };
         self.surface = None;
     }

@@ -1,30 +1,52 @@
 //! Cuts faces of more than three corners into triangles.
 
+use std::cell::Cell;
+
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Height over base below which a corner counts as lying on a straight line.
 const FLAT: f64 = 1e-9;
 
+/// Looks at a corner that all faces of a file may take. Honest faces take about the square of their
+/// corners; one that winds or crosses itself as badly as can be takes the cube: with 4096 corners
+/// all of these, about a minute.
+pub(super) const MOST_LOOKS: u64 = 20_000_000_000;
+
 /// Work space for cutting a face by clipping its ears; keeps every corner, so that faces stay
 /// joined to their neighbours even where corners lie on a straight line.
-#[derive(Default)]
 pub(super) struct Polygon {
     /// The corners, laid into the plane of the face so that it runs anticlockwise.
     flat: Vec<Point2<f64>>,
     /// Positions of the corners that are left.
     left: Vec<usize>,
     triangles: Vec<[u32; 3]>,
+    /// Looks at a corner that are left for all faces to come.
+    looks_left: Cell<u64>,
 }
 
 impl Polygon {
-    /// The triangles of a face, wound as the face is.
-    pub fn triangles(&mut self, corners: &[u32], vertices: &[Point3<f64>]) -> &[[u32; 3]] {
+    /// Work space for faces that together take at most so many looks at a corner.
+    pub fn new(most_looks: u64) -> Self {
+        Self {
+            flat: Vec::new(),
+            left: Vec::new(),
+            triangles: Vec::new(),
+            looks_left: Cell::new(most_looks),
+        }
+    }
+
+    /// The triangles of a face, wound as the face is; `None` when the faces so far have taken too
+    /// long.
+    pub fn triangles(&mut self, corners: &[u32], vertices: &[Point3<f64>]) -> Option<&[[u32; 3]]> {
         self.flatten(corners, vertices);
         self.triangles.clear();
         self.left.clear();
         self.left.extend(0..corners.len());
         let mut start = 0;
         while self.left.len() > 3 {
+            if self.looks_left.get() == 0 {
+                return None;
+            }
             let ear = self.next_ear(start);
             let [before, tip, after] = self.around(ear);
             self.triangles
@@ -35,7 +57,7 @@ impl Polygon {
         if let [a, b, c] = self.left[..] {
             self.triangles.push([corners[a], corners[b], corners[c]]);
         }
-        &self.triangles
+        Some(&self.triangles)
     }
 
     /// Projects along the coordinate axis nearest to the normal (by Newell's sum).
@@ -76,7 +98,13 @@ impl Polygon {
         let triangle = self.around(ear);
         let [a, b, c] = triangle;
         let base = nalgebra::distance_squared(&self.flat[a], &self.flat[c]);
-        self.turn(triangle) > FLAT * base
+        let stands_out = self.turn(triangle) > FLAT * base;
+        if stands_out {
+            let looks = self.left.len() as u64;
+            self.looks_left
+                .set(self.looks_left.get().saturating_sub(looks));
+        }
+        stands_out
             && self.left.iter().all(|&other| {
                 let point = self.flat[other];
                 triangle.iter().any(|&corner| self.flat[corner] == point)
@@ -100,5 +128,32 @@ impl Polygon {
     fn turn(&self, [a, b, c]: [usize; 3]) -> f64 {
         let [a, b, c] = [self.flat[a], self.flat[b], self.flat[c]];
         (b - a).perp(&(c - a))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A star that crosses itself everywhere.
+    fn star(corners: u32) -> Vec<Point3<f64>> {
+        let turn = std::f64::consts::TAU * f64::from(corners / 2) / f64::from(corners);
+        let corner = |index: u32| {
+            let (sin, cos) = (turn * f64::from(index)).sin_cos();
+            Point3::new(cos, sin, 0.0)
+        };
+        (0..corners).map(corner).collect()
+    }
+
+    #[test]
+    fn faces_that_take_too_long_are_given_up() {
+        let vertices = star(201);
+        let face: Vec<u32> = (0..201).collect();
+        let count = |most_looks| {
+            let mut polygon = Polygon::new(most_looks);
+            polygon.triangles(&face, &vertices).map(<[_]>::len)
+        };
+        assert_eq!(count(MOST_LOOKS), Some(199));
+        assert_eq!(count(1000), None);
     }
 }

@@ -5,7 +5,7 @@ use std::io::BufRead;
 use super::assembly::Assembly;
 use super::defect::Defect;
 use super::fault::{MeshFault, Place};
-use super::lines::{Line, Lines, coordinates, words};
+use super::lines::{self, Line, Lines, coordinates, words};
 
 /// Reads a text STL file into the assembly.
 pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), MeshFault> {
@@ -16,7 +16,7 @@ pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), 
             continue;
         }
         let rest = statement(line, &["solid"], "`solid` and a name")?;
-        let name = String::from_utf8_lossy(rest.trim_ascii()).into_owned();
+        let name = lines::name(rest);
         // The number keeps solids apart whose names are equal, until all are known.
         let surface = assembly.surface(&format!("{} {name}", names.len()));
         names.push(name);
