@@ -211,6 +211,7 @@ impl BuiltPart {
                 continue;
             };
             hits.distance[i] = R::of(crossing.distance);
+            hits.above[i] = R::of(crossing.above);
             hits.surface[i] = crossing.surface;
             put(
                 &mut hits.normal,
