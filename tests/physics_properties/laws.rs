@@ -91,7 +91,8 @@ proptest! {
                 let way = impact.centre - at;
                 let aside = way.cross(&before.velocity.normalize()).norm();
                 prop_assert!(aside <= ROUNDING * setup.scene.size(), "{aside}");
-                prop_assert!(way.dot(&before.velocity) >= 0.0);
+                let ahead = way.dot(&before.velocity.normalize());
+                prop_assert!(ahead >= -ROUNDING * setup.scene.size(), "{ahead}");
                 // The shot touches the wall and no more.
                 let gap = (impact.centre - impact.point).dot(&impact.normal);
                 let radius = setup.problem.shot.radius * shot.size;
