@@ -8,8 +8,8 @@ use proptest::prelude::*;
 
 use crate::world::{PLAIN, held, path, world};
 
-/// Relative to the speeds of an impact.
-const ROUNDING: f64 = 1e-12;
+/// Relative to the speeds of an impact; ten times that of impacts on normals of exactly unit length.
+const ROUNDING: f64 = 1e-11;
 
 /// A shot just before an impact.
 #[derive(Clone, Copy)]
@@ -54,7 +54,8 @@ fn obeys_mechanics(
     // The impulses are what changes the velocity.
     let change = after.velocity - before.velocity;
     let across = change - normal * change.dot(normal);
-    prop_assert!((change.dot(normal) - impact.normal_impulse / mass).abs() <= off);
+    let unexplained = change.dot(normal) - impact.normal_impulse / mass;
+    prop_assert!(unexplained.abs() <= off, "{unexplained:e} {off:e}");
     prop_assert!((across.norm() - impact.tangential_impulse / mass).abs() <= off);
     prop_assert!(before.velocity.dot(normal) < 0.0 && after.velocity.dot(normal) >= -off);
     // Friction is limited, acts against the slip and does not turn it round.
