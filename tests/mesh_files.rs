@@ -546,24 +546,36 @@ fn oddities_are_reported_with_a_place() {
     assert_eq!(
         warnings(|cube| cube.triangles.truncate(11)),
         (11, vec!["3 open edges in the mesh, one of them near (1, 0, 0.5): shots can leave there; close \
-                   the mesh unless the part is meant to be open".to_owned()])
+                   the mesh, or where the part is meant to be open, give `facing` should the free \
+                   side of the target be taken for the other".to_owned()])
     );
     assert_eq!(
         warnings(|cube| cube.triangles.push([3, 2, 0])),
         (12, vec!["1 duplicate triangle is dropped, near (0.333333333, 0.666666667, 0); the first of \
-                   each kept its surface".to_owned()])
+                   each kept its surface, and the answer is the same without the others".to_owned()])
     );
     assert_eq!(
         warnings(|cube| cube.triangles.push([3, 2, 2])),
         (
             12,
-            vec!["1 triangle of zero area is dropped, near (0.333333333, 1, 0)".to_owned()]
+            vec![
+                "1 triangle of zero area is dropped, near (0.333333333, 1, 0); the answer is the \
+                 same without"
+                    .to_owned()
+            ]
         )
     );
     assert_eq!(
         warnings(|cube| cube.triangles[0].reverse()),
-        (12, vec!["3 edges are shared by triangles whose fronts look to different sides, one of them \
-                   near (0, 0.5, 0); let the CAD program or a mesh repair tool make the normals agree".to_owned()])
+        (
+            12,
+            vec![
+                "1 triangle is turned to agree with the neighbours about the front, near \
+                   (0.333333333, 0.666666667, 0); the answer is that of the mesh with fronts that \
+                   agree"
+                    .to_owned()
+            ]
+        )
     );
     assert_eq!(
         warnings(|cube| cube
@@ -574,7 +586,8 @@ fn oddities_are_reported_with_a_place() {
             12,
             vec![
                 "the fronts of the triangles look into the material (signed volume -1.000e-9 m3); \
-                   flip the normals in the CAD program or a mesh repair tool"
+                 the free side is taken to be outside all the same: give `facing` for a target \
+                 inside, or flip the normals"
                     .to_owned()
             ]
         )
@@ -585,8 +598,9 @@ fn oddities_are_reported_with_a_place() {
     });
     assert_eq!(
         fork[1],
-        "1 edge is shared by more than two triangles, near (0.5, 0, 0): bodies touch or \
-                         overlap there; export them as separate parts or unite them"
+        "1 edge is shared by more than two triangles, near (0.5, 0, 0): bodies touch or overlap \
+         there, and shots bounce off all of their faces, those inside as well; export them as \
+         separate parts or unite them"
     );
 }
 

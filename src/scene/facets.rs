@@ -4,6 +4,7 @@
 //! ray cannot be told to ignore the facet that it starts from. So the test of a triangle is ours,
 //! and so is the tree for rays, which are most of the work; distances take parry's.
 
+mod plane;
 mod touch;
 
 use std::sync::OnceLock;
@@ -15,11 +16,12 @@ use rayon::prelude::*;
 
 use super::LIFT;
 use super::bundle::{Bundle, WideShear};
-use super::mesh::{Mesh, Triangle};
+use super::mesh::Mesh;
 use super::ray::{Crossing, Ray, Spot};
 use super::start::Start;
 use super::triangle::{Shear, Weights, lies_on};
 use super::wide_tree::WideTree;
+use plane::{GRAZING, Plane};
 use touch::Plates;
 
 /// A mesh that is ready for rays.
@@ -37,8 +39,8 @@ pub struct Facets {
     corners: Vec<[u32; 3]>,
     surfaces: Vec<u32>,
     vertices: Vec<Point3<f64>>,
-    /// Unit normals on the fronts, and the distances of the planes from the origin, m.
-    planes: Vec<(Vector3<f64>, f64)>,
+    /// Unit normals on the fronts.
+    normals: Vec<Vector3<f64>>,
     slack: f64,
     /// Rounding of a plane's crossing distance stays below this for rays that do not graze it.
     doubt: f64,
@@ -78,7 +80,11 @@ impl Facets {
                 .iter()
                 .map(|t| surface_base + t.surface)
                 .collect(),
-            planes: mesh.triangles.iter().map(|t| plane(&mesh, t)).collect(),
+            normals: mesh
+                .triangles
+                .iter()
+                .map(|triangle| plane::normal(&mesh.corners(triangle)))
+                .collect(),
             vertices: mesh.vertices,
             slack,
             doubt: DOUBT * slack,
@@ -135,16 +141,17 @@ impl Facets {
         let Nearest {
             t, front, index, ..
         } = self.nearest(ray, &start, limit)?;
-        let (normal, _) = self.planes[index as usize];
-        Some((
-            Crossing {
-                distance: t,
-                front,
-                piece: index,
-                surface: self.surface(index),
-            },
-            normal,
-        ))
+        let corners = self.corners(index);
+        let plane = Plane::new(self.normals[index as usize], &corners);
+        let distance = plane.refined(t, ray, &corners);
+        let crossing = Crossing {
+            distance,
+            above: plane.above(distance, front, &ray.origin),
+            front,
+            piece: index,
+            surface: self.surface(index),
+        };
+        (distance < limit).then_some((crossing, plane.normal))
     }
 
     /// The nearest crossing of a ray within `limit`.
@@ -177,7 +184,7 @@ impl Facets {
                 let found = if near >> lane & 1 == 1 {
                     self.crossing_from_near(index, ray, &weights, start)
                 } else {
-                    self.crossing(index, &weights, start)
+                    self.crossing(index, &weights, weights.distance(), start)
                 };
                 if let Some(found) = found {
                     best.improve(found);
@@ -197,11 +204,12 @@ impl Facets {
         weights: &Weights,
         start: &Start,
     ) -> Option<Nearest> {
-        let (normal, offset) = &self.planes[index as usize];
-        let height = ray.origin.coords.dot(normal) - offset;
-        let approach = ray.direction.dot(normal);
+        let corners = self.corners(index);
+        let plane = Plane::new(self.normals[index as usize], &corners);
+        let height = plane.height(&ray.origin);
+        let approach = ray.direction.dot(&plane.normal);
         let starts_near = start.front.is_some() && height.abs() <= self.slack;
-        if starts_near && lies_on(&ray.origin, &self.corners(index), self.slack) {
+        if starts_near && lies_on(&ray.origin, &corners, self.slack) {
             return start.enters(approach).then_some(Nearest {
                 t: 0.0,
                 front: approach < 0.0,
@@ -209,23 +217,30 @@ impl Facets {
                 farther: 0.0,
             });
         }
-        let behind = approach.abs() > GRAZING && -height / approach < -self.doubt;
+        let distance = -height / approach;
+        let behind = approach.abs() > GRAZING && distance < -self.doubt;
         if (behind && !starts_near) || !weights.may_cross() {
             return None;
         }
-        self.crossing(index, weights, start)
+        // So near, the weights may put it on the wrong side of the start.
+        let is_clear = distance.is_finite() && distance.abs() > 0.0;
+        let t = if is_clear {
+            distance
+        } else {
+            weights.distance()
+        };
+        self.crossing(index, weights, t, start)
     }
 
     /// Where a ray that may cross a triangle on which it does not start does so.
     #[inline(always)]
-    fn crossing(&self, index: u32, weights: &Weights, start: &Start) -> Option<Nearest> {
+    fn crossing(&self, index: u32, weights: &Weights, t: f64, start: &Start) -> Option<Nearest> {
         let front = weights.front();
         let (margin, farther) = if start.sees(front) {
             (self.slack * LIFT, 0.0)
         } else {
             (0.0, self.slack)
         };
-        let t = weights.distance();
         (t > 0.0 && weights.crosses(|| self.corners(index), margin)).then_some(Nearest {
             t,
             front,
@@ -260,20 +275,12 @@ impl Nearest {
     }
 }
 
-/// Sine of the angle between ray and facet below which distances are left to the exact test.
-const GRAZING: f64 = 1e-3;
 /// How many slacks the distance to a plane may be off by rounding: far less, for such angles.
 const DOUBT: f64 = 16.0;
 
 /// In meshes with more triangles distances share the bundles: parry's better tree over single
 /// triangles takes time with the square of those that lie alike, as the facets of a prism do.
 const LARGE_MESH: usize = 20_000;
-
-/// The plane of a triangle: its unit normal and its distance from the origin along it.
-fn plane(mesh: &Mesh, triangle: &Triangle) -> (Vector3<f64>, f64) {
-    let normal = mesh.doubled_area(triangle).normalize();
-    (normal, mesh.centre(triangle).coords.dot(&normal))
-}
 
 #[cfg(test)]
 mod tests;

@@ -1,10 +1,16 @@
 //! Triangles with named surfaces.
 
+mod pieces;
+mod seams;
 mod smoothness;
 mod topology;
+mod winding;
 
+pub(super) use pieces::tiny_pieces;
+pub(super) use seams::rims;
 pub use topology::Topology;
-pub(super) use topology::{EdgeFinding, duplicates, examine};
+pub(super) use topology::{duplicates, examine};
+pub(super) use winding::unify;
 
 use nalgebra::{Point3, Vector3};
 

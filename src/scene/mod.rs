@@ -42,7 +42,8 @@ const SLACK: f64 = 1e-12;
 
 /// Hits are reported by this share of the slack above their surface, on the side that the ray
 /// comes from: far more than rounding errors, so that rays which leave a hit start on that side of
-/// the facets next to it, and far less than the slack.
+/// the facets next to it, and far less than the slack. What starts there already stays where it is:
+/// else a shot that bounces about in the tip of a spike would be lifted out through a wall.
 const LIFT: f64 = 1.0 / 16.0;
 
 /// The parts of a problem, ready for rays and distances.
@@ -184,7 +185,6 @@ impl Scene {
     ) -> Option<Hit> {
         let is_sphere = radius > 0.0;
         let lift = LIFT * SLACK * self.size;
-        let above = if is_sphere { -radius } else { lift };
         let mut nearest = f64::INFINITY;
         let mut hit = None;
         for (index, part) in (0..).zip(&self.parts) {
@@ -201,10 +201,10 @@ impl Scene {
             };
             nearest = crossing.distance;
             let normal: Vector3<f64> = if crossing.front { front } else { -front };
-            let normal = if is_sphere {
-                unit(normal.into()).into()
+            let (normal, above) = if is_sphere {
+                (unit(normal.into()).into(), -radius)
             } else {
-                normal
+                (normal, (lift - crossing.above).max(0.0))
             };
             hit = Some(Hit {
                 distance: crossing.distance,
@@ -226,6 +226,7 @@ impl Scene {
     pub fn first_hits<R: Real>(&self, rays: &Rays<R>, hits: &mut Hits<R>) {
         let count = padded(rays.count);
         hits.distance[..count].fill(R::INFINITY);
+        hits.above[..count].fill(R::ZERO);
         for (index, part) in (0..).zip(&self.parts) {
             if !part.on_nozzle {
                 part.cross(index, rays, hits);
@@ -366,7 +367,8 @@ fn place<R: Real, const BALLS: bool>(rays: &Rays<R>, hits: &mut Hits<R>, lift: R
     for i in 0..padded(rays.count) {
         let side = if hits.spots.front[i] { R::ONE } else { -R::ONE };
         let mut normal = scaled(components(&hits.normal, i), side);
-        let mut above = lift;
+        let missing = lift - hits.above[i];
+        let mut above = if missing > R::ZERO { missing } else { R::ZERO };
         if BALLS {
             normal = unit(normal);
             above = -rays.radius[i];

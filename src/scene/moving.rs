@@ -39,6 +39,7 @@ pub(super) fn cross<R: Real>(
     for i in (0..rays.count).filter(|&i| met.spots.part[i] == index) {
         let normal = stands.at(i).vector_back(components(&met.normal, i));
         hits.distance[i] = met.distance[i];
+        hits.above[i] = met.above[i];
         hits.surface[i] = met.surface[i];
         hits.spots.set(i, met.spots.at(i));
         put(&mut hits.normal, i, normal);

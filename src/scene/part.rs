@@ -35,7 +35,8 @@ pub(super) enum Fronts {
     Free,
     /// A closed mesh that is inside out: free space is behind.
     Solid,
-    /// An open mesh, whose winding nobody had to care about.
+    /// An open mesh, whose winding nobody had to care about, or one whose winding cannot agree. A mesh
+    /// with small holes is a closed one with damage.
     Unknown,
 }
 
@@ -44,12 +45,19 @@ impl Fronts {
         let noticed = |is: fn(&MeshWarning) -> bool| warnings.iter().any(is);
         if noticed(|warning| matches!(warning, MeshWarning::InsideOut { .. })) {
             Self::Solid
-        } else if noticed(|warning| matches!(warning, MeshWarning::OpenEdges { .. })) {
+        } else if noticed(tells_nothing_about_fronts) {
             Self::Unknown
         } else {
             Self::Free
         }
     }
+}
+
+fn tells_nothing_about_fronts(warning: &MeshWarning) -> bool {
+    matches!(
+        warning,
+        MeshWarning::OpenEdges { small: false, .. } | MeshWarning::InconsistentWinding { .. }
+    )
 }
 
 /// The geometry of a part before its surfaces are numbered.
@@ -215,6 +223,7 @@ impl BuiltPart {
                 continue;
             };
             hits.distance[i] = R::of(crossing.distance);
+            hits.above[i] = R::of(crossing.above);
             hits.surface[i] = crossing.surface;
             put(
                 &mut hits.normal,

@@ -115,6 +115,7 @@ impl Prism {
         self.cross_caps(&local, &start, &mut nearest);
         let Nearest { best, piece, cap } = nearest;
         let crossing = Crossing {
+            above: 0.0,
             distance: best.distance,
             front: best.front,
             piece: piece?,

@@ -41,6 +41,8 @@ pub struct Spot {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
     pub distance: f64,
+    /// How far the ray starts above the piece already where it is hit at once, m; 0 elsewhere.
+    pub above: f64,
     pub front: bool,
     pub piece: u32,
     pub surface: u32,

@@ -40,6 +40,8 @@ pub struct Spots {
 pub struct Hits<R> {
     /// Distances, m; infinite where nothing is met.
     pub distance: Lane<R>,
+    /// How far the rays start above what they meet at once, m; 0 elsewhere.
+    pub above: Lane<R>,
     /// The places, m.
     pub point: [Lane<R>; 3],
     /// Unit normals towards the side that the rays come from.
@@ -107,6 +109,7 @@ impl<R: Real> Hits<R> {
     pub fn none() -> Self {
         Self {
             distance: [R::INFINITY; LANES],
+            above: [R::ZERO; LANES],
             point: [[R::ZERO; LANES]; 3],
             normal: [[R::ZERO; LANES]; 3],
             surface: [0; LANES],

@@ -2,6 +2,11 @@
 
 use super::ray::Spot;
 
+/// Sine of the angle to a wall up to which a shot runs along it: some roundings, so that on ten ways
+/// through the scene it sinks by no more than [`LIFT`](super::LIFT) slacks. Impacts that lose energy leave
+/// it with no more in a crease, and it would hit both sides in turn for ever.
+const RUNS_ALONG: f64 = 6e-15;
+
 /// Where a ray starts, and what it therefore must not hit.
 ///
 /// In a corner the start of a rebound lies on more than one wall, and rounding may put it on
@@ -10,7 +15,9 @@ use super::ray::Spot;
 /// side, and not at all otherwise.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
+    /// Where it is on the part that is asked.
     pub piece: Option<u32>,
+    /// The side of the wall that it leaves, of whatever part.
     pub front: Option<bool>,
 }
 
@@ -25,16 +32,18 @@ impl Start {
     }
 
     /// Whether a wall that shows this side is one that the shot can reach without passing through
-    /// another, as far as is known.
+    /// another, as far as is known: on which side of another part a shot is, the side on which it
+    /// leaves this one does not tell.
     #[inline]
     pub fn sees(&self, front: bool) -> bool {
-        self.front.unwrap_or(true) == front
+        let known = self.front.filter(|_| self.piece.is_some());
+        known.unwrap_or(true) == front
     }
 
     /// Whether a shot heads into a wall on which it starts, given the direction's component along
     /// the wall's front normal.
     #[inline]
     pub fn enters(&self, approach: f64) -> bool {
-        approach != 0.0 && self.front == Some(approach < 0.0)
+        approach.abs() > RUNS_ALONG && self.front == Some(approach < 0.0)
     }
 }

@@ -1,4 +1,5 @@
 //! The program from outside.
+#![allow(dead_code)]
 
 use std::ffi::OsStr;
 use std::path::Path;

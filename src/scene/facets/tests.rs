@@ -2,7 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{DOUBT, Facets, GRAZING, plane};
+use super::plane::{GRAZING, Plane, normal};
+use super::{DOUBT, Facets};
 use crate::problem::part::Ends;
 use crate::scene::LIFT;
 use crate::scene::mesh::{Mesh, Triangle};
@@ -39,6 +40,7 @@ fn search(
             let surface = triangle.surface;
             let crossing = Crossing {
                 distance,
+                above: 0.0,
                 front,
                 piece,
                 surface,
@@ -46,7 +48,15 @@ fn search(
             best = Some((cost, crossing));
         }
     }
-    best.map(|(_, crossing)| crossing)
+    let (_, crossing) = best?;
+    let corners = mesh.corners(&mesh.triangles[crossing.piece as usize]);
+    let plane = Plane::new(normal(&corners), &corners);
+    let distance = plane.refined(crossing.distance, ray, &corners);
+    (distance < limit).then_some(Crossing {
+        distance,
+        above: plane.above(distance, crossing.front, &ray.origin),
+        ..crossing
+    })
 }
 
 fn crossing(
@@ -56,22 +66,35 @@ fn crossing(
     ray: &Ray,
     start: &Start,
 ) -> Option<(f64, bool)> {
-    let (normal, offset) = plane(mesh, triangle);
     let corners = mesh.corners(triangle);
-    let height = ray.origin.coords.dot(&normal) - offset;
-    let approach = ray.direction.dot(&normal);
+    let plane = Plane::new(normal(&corners), &corners);
+    let height = plane.height(&ray.origin);
+    let approach = ray.direction.dot(&plane.normal);
+    let distance = -height / approach;
     let starts_near = start.front.is_some() && height.abs() <= slack;
     if starts_near && lies_on(&ray.origin, &corners, slack) {
         return start.enters(approach).then_some((0.0, approach < 0.0));
     }
-    if !starts_near && approach.abs() > GRAZING && -height / approach < -DOUBT * slack {
+    if !starts_near && approach.abs() > GRAZING && distance < -DOUBT * slack {
         return None;
     }
     let weights = weights(&Shear::new(ray), &corners);
     let front = weights.front();
     let margin = if start.sees(front) { LIFT * slack } else { 0.0 };
+    let is_near = start.front.is_some() && in_box(&ray.origin, &corners, slack);
+    let is_clear = is_near && distance.is_finite() && distance != 0.0;
+    let t = if is_clear {
+        distance
+    } else {
+        weights.distance()
+    };
     let crosses = weights.may_cross() && weights.crosses(|| corners, margin);
-    (crosses && weights.distance() > 0.0).then_some((weights.distance(), front))
+    (crosses && t > 0.0).then_some((t, front))
+}
+
+fn in_box(point: &Point3<f64>, [a, b, c]: &[Point3<f64>; 3], slack: f64) -> bool {
+    let (low, high) = (a.inf(b).inf(c), a.sup(b).sup(c));
+    (0..3).all(|axis| point[axis] >= low[axis] - slack && point[axis] <= high[axis] + slack)
 }
 
 fn weights(shear: &Shear, corners: &[Point3<f64>; 3]) -> Weights {

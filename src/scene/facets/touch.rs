@@ -53,6 +53,7 @@ impl Facets {
         first.map(|Found { touch, index }| {
             let crossing = Crossing {
                 distance: touch.distance,
+                above: 0.0,
                 front: touch.front,
                 piece: index,
                 surface: self.surface(index),

@@ -34,10 +34,9 @@ impl Topology {
     }
 }
 
-/// A topology together with one place for each thing that is wrong.
+/// A topology together with places of what is wrong.
 pub(in crate::scene) struct Findings {
     pub topology: Topology,
-    pub open: EdgeFinding,
     pub non_manifold: EdgeFinding,
     pub inconsistent: EdgeFinding,
 }
@@ -94,11 +93,12 @@ impl DirectedEdge {
 
 /// Examines every edge of a mesh; by sorting, which needs 24 bytes a triangle and no hash table.
 pub(in crate::scene) fn examine(mesh: &Mesh) -> Findings {
-    let (mut open, mut non_manifold, mut inconsistent) = Default::default();
+    let mut open_edges = 0;
+    let (mut non_manifold, mut inconsistent) = Default::default();
     let edges = sorted_edges(mesh);
     for uses in edges.chunk_by(DirectedEdge::joins_the_same) {
         match *uses {
-            [only] => EdgeFinding::add(&mut open, only),
+            [_] => open_edges += 1,
             [one, other] if one.backwards() == other.backwards() => {
                 EdgeFinding::add(&mut inconsistent, one);
             }
@@ -108,7 +108,7 @@ pub(in crate::scene) fn examine(mesh: &Mesh) -> Findings {
     }
     drop(edges);
     let topology = Topology {
-        open_edges: open.count,
+        open_edges,
         non_manifold_edges: non_manifold.count,
         inconsistent_edges: inconsistent.count,
         duplicate_triangles: duplicates(mesh).len(),
@@ -116,10 +116,17 @@ pub(in crate::scene) fn examine(mesh: &Mesh) -> Findings {
     };
     Findings {
         topology,
-        open,
         non_manifold,
         inconsistent,
     }
+}
+
+/// The edges of one triangle only.
+pub(super) fn open_edges(mesh: &Mesh) -> Vec<[u32; 2]> {
+    let edges = sorted_edges(mesh);
+    let uses = edges.chunk_by(DirectedEdge::joins_the_same);
+    let open = uses.filter(|uses| uses.len() == 1);
+    open.map(|uses| uses[0].ends()).collect()
 }
 
 fn sorted_edges(mesh: &Mesh) -> Vec<DirectedEdge> {

@@ -1,10 +1,10 @@
 //! Takes out of a mesh what no ray can use, and reports what is odd about the rest.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, center, distance};
 
 use super::defect::Defect;
 use super::warning::MeshWarning;
-use crate::scene::mesh::{EdgeFinding, Mesh, Triangle, duplicates, examine};
+use crate::scene::mesh::{Mesh, Triangle, duplicates, examine, rims, tiny_pieces, unify};
 
 /// Height over longest edge below which a triangle has no area: some thousand roundings.
 const NO_HEIGHT: f64 = 1e-12;
@@ -12,24 +12,27 @@ const NO_HEIGHT: f64 = 1e-12;
 /// Marks a vertex or surface that nothing uses.
 const UNUSED: u32 = u32::MAX;
 
-/// Drops triangles without area, duplicates and unused vertices; gives the warnings.
+/// Open edges that together are shorter than this share of the mesh's diagonal are taken for damage
+/// to a closed mesh.
+const SMALL_HOLES: f64 = 0.1;
+
+/// Drops triangles without area, duplicates and unused vertices, turns triangles that disagree with
+/// their neighbours; gives the warnings.
 pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWarning>, Defect> {
     let read = mesh.triangles.len();
-    let mut degenerate = Dropped::default();
+    let mut degenerate = Noticed::default();
     degenerate.drop_where(mesh, |_, triangle| {
         let [a, b, c] = triangle.corners;
         a == b || b == c || c == a
     });
-    let mut duplicate = Dropped::default();
+    let mut duplicate = Noticed::default();
     duplicate.drop_duplicates(mesh);
     // Edges are examined before flat triangles go: those join their neighbours all the same.
-    let findings = examine(mesh);
-    let edges = [
-        &findings.open,
-        &findings.non_manifold,
-        &findings.inconsistent,
-    ]
-    .map(|finding: &EdgeFinding| Some((finding.count, finding.middle(mesh)?)));
+    let mut turned = Noticed::default();
+    if !examine(mesh).topology.is_consistently_wound() {
+        turned.turn(mesh);
+    }
+    let edges = edge_warnings(mesh);
     degenerate.drop_where(mesh, has_no_area);
     if mesh.triangles.is_empty() {
         return Err(Defect::AllDegenerate { triangles: read });
@@ -38,10 +41,9 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
     mesh.triangles.shrink_to_fit();
     mesh.vertices.shrink_to_fit();
 
-    let [open, non_manifold, inconsistent] = edges;
     let mut warnings = Vec::new();
     let mut warn = |finding: Option<(usize, Point3<f64>)>, warning: fn(_, _) -> MeshWarning| {
-        warnings.extend(finding.map(|(count, near)| warning(count, near / metres_per_unit)));
+        warnings.extend(finding.map(|(count, near)| warning(count, near)));
     };
     warn(degenerate.finding(), |count, near| {
         MeshWarning::DegenerateTriangles { count, near }
@@ -49,31 +51,74 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
     warn(duplicate.finding(), |count, near| {
         MeshWarning::DuplicateTriangles { count, near }
     });
-    warn(open, |count, near| MeshWarning::OpenEdges { count, near });
-    warn(non_manifold, |count, near| MeshWarning::NonManifoldEdges {
-        count,
-        near,
+    warn(turned.finding(), |count, near| {
+        MeshWarning::TurnedTriangles { count, near }
     });
-    warn(inconsistent, |count, near| {
-        MeshWarning::InconsistentWinding { count, near }
-    });
-    let topology = findings.topology;
-    if topology.is_closed() && topology.is_consistently_wound() && topology.signed_volume < 0.0 {
-        warnings.push(MeshWarning::InsideOut {
-            signed_volume: topology.signed_volume,
-        });
+    warnings.extend(edges);
+    let pieces = tiny_pieces(mesh);
+    warnings.extend(pieces.map(|(count, near)| MeshWarning::TinyPieces { count, near }));
+    for warning in &mut warnings {
+        warning.put_in_unit(metres_per_unit);
     }
     Ok(warnings)
 }
 
-/// How many triangles were dropped, and the centre of the first.
+/// What is odd about the edges of a mesh, and about the side to which its fronts look.
+fn edge_warnings(mesh: &Mesh) -> Vec<MeshWarning> {
+    let findings = examine(mesh);
+    let topology = findings.topology;
+    let mut warnings = Vec::new();
+    let mut is_closed = topology.non_manifold_edges == 0 && topology.is_consistently_wound();
+    if topology.open_edges > 0 {
+        let rims = rims(mesh);
+        if let Some(&[from, to]) = rims.holes.first() {
+            let lengths = rims.holes.iter().map(|[a, b]| distance(a, b));
+            let diagonal = mesh
+                .bounds()
+                .map_or(0.0, |(low, high)| distance(&low, &high));
+            let small = lengths.sum::<f64>() < SMALL_HOLES * diagonal;
+            is_closed &= small;
+            warnings.push(MeshWarning::OpenEdges {
+                count: rims.holes.len(),
+                near: center(&from, &to),
+                small,
+            });
+        }
+        if let Some(&[from, to]) = rims.seams.first() {
+            warnings.push(MeshWarning::Seams {
+                count: rims.seams.len(),
+                near: center(&from, &to),
+            });
+        }
+    }
+    if let Some(near) = findings.non_manifold.middle(mesh) {
+        warnings.push(MeshWarning::NonManifoldEdges {
+            count: findings.non_manifold.count,
+            near,
+        });
+    }
+    if let Some(near) = findings.inconsistent.middle(mesh) {
+        warnings.push(MeshWarning::InconsistentWinding {
+            count: findings.inconsistent.count,
+            near,
+        });
+    }
+    if is_closed && topology.signed_volume < 0.0 {
+        warnings.push(MeshWarning::InsideOut {
+            signed_volume: topology.signed_volume,
+        });
+    }
+    warnings
+}
+
+/// How many triangles were treated, and the centre of the first.
 #[derive(Default)]
-struct Dropped {
+struct Noticed {
     count: usize,
     first: Option<Point3<f64>>,
 }
 
-impl Dropped {
+impl Noticed {
     fn drop_where(&mut self, mesh: &mut Mesh, unwanted: fn(&Mesh, &Triangle) -> bool) {
         let mut triangles = std::mem::take(&mut mesh.triangles);
         triangles.retain(|triangle| {
@@ -99,6 +144,13 @@ impl Dropped {
             !drop
         });
         mesh.triangles = triangles;
+    }
+
+    fn turn(&mut self, mesh: &mut Mesh) {
+        for position in unify(mesh) {
+            let triangle = mesh.triangles[position as usize];
+            self.add(mesh, &triangle);
+        }
     }
 
     fn add(&mut self, mesh: &Mesh, triangle: &Triangle) {

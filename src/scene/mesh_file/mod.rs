@@ -60,7 +60,8 @@ enum Format {
 /// hold, a later region before an earlier one.
 ///
 /// Every vertex of the mesh belongs to a triangle, every triangle has an area, no two triangles have
-/// the same corners, and every surface has a triangle.
+/// the same corners, the two at an edge agree on which side is the front wherever that is possible, and
+/// every surface has a triangle.
 ///
 /// Warnings about edges refer to the mesh before triangles of zero area are dropped: where such a
 /// triangle fills the gap between neighbours, no ray can pass, although [`Mesh::topology`] of what is

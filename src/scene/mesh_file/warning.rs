@@ -21,8 +21,24 @@ pub enum MeshWarning {
         /// Centre of the first.
         near: Point3<f64>,
     },
-    /// Edges of one triangle only.
+    /// Triangles that disagreed with most of their neighbours about the front were turned.
+    TurnedTriangles {
+        /// How many.
+        count: usize,
+        /// Centre of the first.
+        near: Point3<f64>,
+    },
+    /// Edges of one triangle only: the rims of holes.
     OpenEdges {
+        /// How many.
+        count: usize,
+        /// Middle of one.
+        near: Point3<f64>,
+        /// Whether the holes are so small beside the part that it was surely meant to be closed.
+        small: bool,
+    },
+    /// Edges along which other triangles go on without sharing the corners, as at T-junctions.
+    Seams {
         /// How many.
         count: usize,
         /// Middle of one.
@@ -35,11 +51,19 @@ pub enum MeshWarning {
         /// Middle of one.
         near: Point3<f64>,
     },
-    /// Edges along which the fronts of two triangles look to different sides.
+    /// Edges along which the fronts of two triangles look to different sides, and cannot be made to
+    /// agree.
     InconsistentWinding {
         /// How many.
         count: usize,
         /// Middle of one.
+        near: Point3<f64>,
+    },
+    /// Pieces that do not hang together with the rest, and are a hundred times smaller.
+    TinyPieces {
+        /// How many.
+        count: usize,
+        /// A corner of one.
         near: Point3<f64>,
     },
     /// A closed mesh whose triangles' fronts look inwards.
@@ -47,6 +71,23 @@ pub enum MeshWarning {
         /// The enclosed volume, m3; negative.
         signed_volume: f64,
     },
+}
+
+impl MeshWarning {
+    /// Puts its place, in m until then, in the file's unit.
+    pub(super) fn put_in_unit(&mut self, metres_per_unit: f64) {
+        match self {
+            Self::DegenerateTriangles { near, .. }
+            | Self::DuplicateTriangles { near, .. }
+            | Self::TurnedTriangles { near, .. }
+            | Self::OpenEdges { near, .. }
+            | Self::Seams { near, .. }
+            | Self::NonManifoldEdges { near, .. }
+            | Self::InconsistentWinding { near, .. }
+            | Self::TinyPieces { near, .. } => *near /= metres_per_unit,
+            Self::InsideOut { .. } => {}
+        }
+    }
 }
 
 /// A point as an engineer writes it: without the last digits that a change of units leaves behind.
@@ -69,22 +110,51 @@ impl fmt::Display for MeshWarning {
             Self::DegenerateTriangles { count, near } => {
                 let (verb, one) =
                     number(f, *count, "triangle of zero area", "triangles of zero area")?;
-                write!(f, "{verb} dropped{one} near {}", Coordinates(near))
+                write!(
+                    f,
+                    "{verb} dropped{one} near {}; the answer is the same without",
+                    Coordinates(near)
+                )
             }
             Self::DuplicateTriangles { count, near } => {
                 let (verb, one) = number(f, *count, "duplicate triangle", "duplicate triangles")?;
                 write!(
                     f,
-                    "{verb} dropped{one} near {}; the first of each kept its surface",
+                    "{verb} dropped{one} near {}; the first of each kept its surface, and the answer is \
+                     the same without the others",
                     Coordinates(near)
                 )
             }
-            Self::OpenEdges { count, near } => {
+            Self::TurnedTriangles { count, near } => {
+                let (verb, one) = number(f, *count, "triangle", "triangles")?;
+                write!(
+                    f,
+                    "{verb} turned to agree with the neighbours about the front{one} near {}; the answer \
+                     is that of the mesh with fronts that agree",
+                    Coordinates(near)
+                )
+            }
+            Self::OpenEdges { count, near, small } => {
                 let (_, one) = number(f, *count, "open edge", "open edges")?;
                 write!(
                     f,
-                    "in the mesh{one} near {}: shots can leave there; close the mesh unless the \
-                     part is meant to be open",
+                    "in the mesh{one} near {}: shots can leave there; ",
+                    Coordinates(near)
+                )?;
+                f.write_str(if *small {
+                    "the holes are small, and only shots that meet one go wrong; close the mesh"
+                } else {
+                    "close the mesh, or where the part is meant to be open, give `facing` should the \
+                     free side of the target be taken for the other"
+                })
+            }
+            Self::Seams { count, near } => {
+                let (_, one) = number(f, *count, "edge", "edges")?;
+                write!(
+                    f,
+                    "in the mesh, where triangles meet without sharing their corners{one} near {}: the \
+                     cracks there are narrower than a millionth of the part, and so is the share of the \
+                     shots that leave through them",
                     Coordinates(near)
                 )
             }
@@ -93,7 +163,8 @@ impl fmt::Display for MeshWarning {
                 write!(
                     f,
                     "{verb} shared by more than two triangles{one} near {}: bodies touch or overlap \
-                     there; export them as separate parts or unite them",
+                     there, and shots bounce off all of their faces, those inside as well; export them \
+                     as separate parts or unite them",
                     Coordinates(near)
                 )
             }
@@ -101,15 +172,26 @@ impl fmt::Display for MeshWarning {
                 let (verb, one) = number(f, *count, "edge", "edges")?;
                 write!(
                     f,
-                    "{verb} shared by triangles whose fronts look to different sides{one} near {}; \
-                     let the CAD program or a mesh repair tool make the normals agree",
+                    "{verb} shared by triangles whose fronts look to different sides{one} near {}; shots \
+                     bounce off either side, but the free side of a target may be taken for the other: \
+                     give `facing`, or let a mesh repair tool make the normals agree",
+                    Coordinates(near)
+                )
+            }
+            Self::TinyPieces { count, near } => {
+                let (verb, one) = number(f, *count, "piece", "pieces")?;
+                write!(
+                    f,
+                    "{verb} not joined to the rest and less than a hundredth of its size{one} near {}: \
+                     shots bounce off them as well; delete them if they are left over from modelling",
                     Coordinates(near)
                 )
             }
             Self::InsideOut { signed_volume } => write!(
                 f,
                 "the fronts of the triangles look into the material (signed volume {signed_volume:.3e} \
-                 m3); flip the normals in the CAD program or a mesh repair tool"
+                 m3); the free side is taken to be outside all the same: give `facing` for a target \
+                 inside, or flip the normals"
             ),
         }
     }

@@ -176,6 +176,7 @@ impl Prism {
             } else {
                 hits.distance[i]
             };
+            hits.above[i] = if met { R::ZERO } else { hits.above[i] };
             hits.normal[0][i] = if met { new[0] } else { old[0] };
             hits.normal[1][i] = if met { new[1] } else { old[1] };
             hits.normal[2][i] = if met { new[2] } else { old[2] };

@@ -41,6 +41,7 @@ impl Prism {
         self.touch_ends(&local, radius, &start, &mut nearest);
         let Nearest { best, piece, cap } = nearest;
         let crossing = Crossing {
+            above: 0.0,
             distance: best.distance,
             front: best.front,
             piece: piece?,

@@ -255,8 +255,15 @@ impl<'a> Sphere<'a> {
         if !heads_in {
             return None;
         }
-        let distance = distance + gap / sinking;
-        let normal = at(distance).normalize();
+        let corrected = distance + gap / sinking;
+        let normal = at(corrected).normalize();
+        // A sphere that only brushes the place is past it then.
+        let still_heads_in = self.ray.direction.dot(&normal) < -HEADING_IN;
+        let (distance, normal) = if still_heads_in {
+            (corrected, normal)
+        } else {
+            (distance, there.normalize())
+        };
         (distance >= 0.0).then_some((distance, normal))
     }
 }
