@@ -77,7 +77,7 @@ impl Contact {
 
     /// Whether paths stay the same when every speed is multiplied by one factor.
     pub fn is_scale_free(&self) -> bool {
-        matches!(self.restitution, Restitution::Constant(_))
+        self.restitution.is_constant()
     }
 
     /// The steepness tan(theta) from which a flat impact without spin sticks:
