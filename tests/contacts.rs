@@ -1,6 +1,6 @@
 //! Contacts by themselves: what they may be, and how restitution depends on speed.
 
-use peenpose::impact::{Contact, ContactFault, Law, Restitution};
+use peenpose::impact::{Contact, ContactFault, Law, Regime, Restitution};
 
 fn steel() -> Contact {
     Contact::new(0.3, 0.27, 0.25).unwrap()
@@ -168,4 +168,17 @@ fn the_speed_of_an_impulse_gives_that_impulse() {
             assert!(error.abs() < 1e-14, "{restitution:?} {impulse}: {error}");
         }
     }
+}
+
+#[test]
+fn laws_and_regimes_have_the_names_that_files_use() {
+    let laws = Law::ALL.map(Law::name);
+    assert_eq!(
+        laws,
+        ["stick_slip", "kinetic", "irrotational", "always_slip"]
+    );
+    assert_eq!(
+        [Regime::Stick, Regime::Slip].map(Regime::name),
+        ["stick", "slip"]
+    );
 }
