@@ -1,6 +1,6 @@
 //! Contacts by themselves: what they may be, and how restitution depends on speed.
 
-use peenpose::impact::{Contact, ContactFault, Law, Regime, Restitution};
+use peenpose::impact::{Contact, ContactFault, Law, Oblique, Regime, Restitution, Sphere};
 
 fn steel() -> Contact {
     Contact::new(0.3, 0.27, 0.25).unwrap()
@@ -181,4 +181,30 @@ fn laws_and_regimes_have_the_names_that_files_use() {
         [Regime::Stick, Regime::Slip].map(Regime::name),
         ["stick", "slip"]
     );
+}
+
+#[test]
+fn the_angle_of_sticking_is_that_of_the_normal_speed() {
+    let arriving = |contact: Contact| Oblique {
+        sphere: Sphere {
+            radius: 0.5e-3,
+            density: 7000.0,
+        },
+        contact,
+        speed: 80.0,
+        angle: 30_f64.to_radians(),
+        spin: 0.0,
+    };
+    let angle = arriving(steel()).stick_angle().unwrap();
+    assert!((angle.tan() - 2.0 / (7.0 * 0.3 * 1.25)).abs() < 1e-14);
+    let falls = falling(0.5, 2.5, 0.25);
+    let angle = arriving(falls).stick_angle().unwrap();
+    assert!((angle.tan() - 2.0 / (7.0 * 0.3 * 1.25)).abs() < 1e-14);
+    let never = Contact {
+        law: Law::AlwaysSlip,
+        ..steel()
+    };
+    assert_eq!(arriving(never).stick_angle(), None);
+    let smooth = Contact::new(0.0, 0.0, 0.25).unwrap();
+    assert_eq!(arriving(smooth).stick_angle(), None);
 }
