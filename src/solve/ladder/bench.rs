@@ -127,13 +127,14 @@ impl<'a> Bench<'a> {
         polish(&space, &judge, start, DESCENT_SIZE, settled).choice
     }
 
-    /// A difference of J relative to J; none where it is within rounding.
+    /// A difference of J relative to J; none where it is within rounding. Where J is 0 it is beyond
+    /// every number, and as JSON has no infinity, the largest there is.
     fn relative(&self, difference: f64, objective: f64) -> f64 {
         let rounding = rounding_of_objective(&self.setup.problem.goals);
         if difference.abs() <= rounding {
             0.0
         } else {
-            difference / objective.max(rounding)
+            (difference / objective.max(rounding)).clamp(-f64::MAX, f64::MAX)
         }
     }
 
