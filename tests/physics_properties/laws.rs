@@ -6,7 +6,8 @@ use peenpose::jet::{Samples, Stream};
 use peenpose::trace::{PathImpact, Tracer};
 use proptest::prelude::*;
 
-use crate::world::{PLAIN, held, path, world};
+use crate::held::held;
+use crate::world::{PLAIN, path, world};
 
 /// Relative to the speeds of an impact; ten times that of impacts on normals of exactly unit length.
 const ROUNDING: f64 = 1e-11;

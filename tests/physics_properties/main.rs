@@ -5,6 +5,8 @@
 //! Rounding grows from impact to impact: a flight of length L after a wall of radius R multiplies it by
 //! 1 + 2 L/R. Round pins of 0.3 mm and flights of 10 mm make it up to 100 times larger each time.
 
+#[path = "../common/held.rs"]
+mod held;
 mod laws;
 mod views;
 mod world;

@@ -8,8 +8,9 @@ use peenpose::setup::Setup;
 use peenpose::trace::PathImpact;
 use proptest::prelude::*;
 
+use crate::held::held;
 use crate::rounding;
-use crate::world::{PLAIN, View, World, held, path, world};
+use crate::world::{PLAIN, View, World, path, world};
 
 fn shots(setup: &Setup, count: usize) -> Vec<Deviate> {
     Samples::new(&setup.problem, Stream::Search, count).deviates

@@ -7,11 +7,12 @@ use std::path::Path;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use peenpose::jet::Deviate;
 use peenpose::problem;
-use peenpose::problem::setting::Choice;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::trace::{PathImpact, Tracer};
 use proptest::prelude::*;
+
+use crate::held::held;
 
 /// Lengths in mm, angles in degrees.
 #[derive(Clone, Copy, Debug)]
@@ -346,23 +347,6 @@ impl View {
         };
         problem.paths.shot_size = world.shots_have_size;
         Setup::new(problem, Walls::Exact).unwrap_or_else(|faults| panic!("{text}\n{faults:?}"))
-    }
-}
-
-/// The settings that a world holds.
-pub fn held(setup: &Setup) -> Choice {
-    let settings = &setup.problem.settings;
-    let contact = settings.contact[0];
-    Choice {
-        incidence: settings.incidence.min,
-        azimuth: settings.azimuth.min,
-        standoff: settings.standoff.min,
-        speed: settings.speed.min,
-        aim_along: settings.aim_along.min,
-        aim_across: settings.aim_across.min,
-        aim_above: settings.aim_above.min,
-        contact,
-        static_friction: setup.problem.contacts[contact].static_friction.min,
     }
 }
 

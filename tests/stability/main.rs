@@ -15,6 +15,8 @@
 mod corners;
 mod edges;
 mod far_away;
+#[path = "../common/held.rs"]
+mod held;
 mod landscapes;
 mod limits;
 mod odd_questions;
@@ -32,6 +34,8 @@ use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::solve::{Control, Solution, solve};
 use peenpose::trace::{End, PathImpact, Tracer};
+
+use held::held;
 
 /// A plate under a parallel jet from a point; every setting is held.
 const PLATE: &str = "
@@ -77,23 +81,6 @@ fn setup_beside(folder: &Path, text: &str, walls: Walls) -> Setup {
         );
     };
     Setup::new(problem, walls).unwrap_or_else(|faults| panic!("{faults:?}"))
-}
-
-/// The choice that a problem leaves when everything is held: the lower end of every range.
-fn held(setup: &Setup) -> Choice {
-    let settings = &setup.problem.settings;
-    let contact = settings.contact[0];
-    Choice {
-        incidence: settings.incidence.min,
-        azimuth: settings.azimuth.min,
-        standoff: settings.standoff.min,
-        speed: settings.speed.min,
-        aim_along: settings.aim_along.min,
-        aim_across: settings.aim_across.min,
-        aim_above: settings.aim_above.min,
-        contact,
-        static_friction: setup.problem.contacts[contact].static_friction.min,
-    }
 }
 
 /// The terms of a choice at its own speed, on the first shots of the search.
