@@ -2,6 +2,8 @@
 //! answer; and shots fly as in the sound mesh, but for those that meet a hole.
 
 mod block;
+#[path = "../common/held.rs"]
+mod held;
 #[path = "../common/program.rs"]
 mod program;
 
@@ -9,9 +11,9 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use block::{Block, CELLS};
+use held::held;
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::problem::setting::Choice;
 use peenpose::setup::Setup;
 use tempfile::TempDir;
 
@@ -59,18 +61,7 @@ impl Case {
     fn tally(&self, shots_have_size: bool) -> Tally {
         let (mut setup, _) = Setup::load(&self.folder.path().join("block.yaml")).unwrap();
         setup.problem.paths.shot_size = shots_have_size;
-        let settings = &setup.problem.settings;
-        let choice = Choice {
-            incidence: settings.incidence.min,
-            azimuth: settings.azimuth.min,
-            standoff: settings.standoff.min,
-            speed: settings.speed.min,
-            aim_along: 0.0,
-            aim_across: 0.0,
-            aim_above: 0.0,
-            contact: 0,
-            static_friction: 0.15,
-        };
+        let choice = held(&setup);
         let shots = Samples::new(&setup.problem, Stream::Search, 4000).deviates;
         Tally::trace(&setup, &choice, choice.speed, &shots)
     }
