@@ -1,9 +1,13 @@
 //! The notes on validity against calculations by hand.
 
+#[path = "common/held.rs"]
+mod held;
+
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::path::Path;
 
+use held::held;
 use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::jet::Replicates;
 use peenpose::problem;
@@ -43,32 +47,16 @@ fn setup(changes: &[(&str, &str)]) -> Setup {
     setup_in(Path::new(""), changes)
 }
 
-/// The settings of a problem that holds them all.
-fn choice(setup: &Setup) -> Choice {
-    let settings = &setup.problem.settings;
-    Choice {
-        incidence: settings.incidence.min,
-        azimuth: settings.azimuth.min,
-        standoff: settings.standoff.min,
-        speed: settings.speed.min,
-        aim_along: 0.0,
-        aim_across: 0.0,
-        aim_above: 0.0,
-        contact: 0,
-        static_friction: 0.0,
-    }
-}
-
 fn evaluated(setup: &Setup) -> Evaluation {
     evaluate(
         setup,
-        &choice(setup),
+        &held(setup),
         &Replicates::new(&setup.problem, 0, 4096),
     )
 }
 
 fn notes(setup: &Setup) -> Vec<Note> {
-    validity::notes(setup, &choice(setup), None)
+    validity::notes(setup, &held(setup), None)
 }
 
 fn find(notes: &[Note], name: &str) -> Option<Note> {
@@ -257,7 +245,7 @@ fn interference_grows_with_the_bounces_in_a_closed_scene() {
     // Mirrors lose nothing and nothing gets out: six impacts for every shot.
     let evaluation = evaluated(&closed);
     assert_eq!(evaluation.impacts_per_shot, 6.0);
-    let all = validity::notes(&closed, &choice(&closed), Some(&evaluation));
+    let all = validity::notes(&closed, &held(&closed), Some(&evaluation));
     let of_one = value(&closed, "interference");
     let of_all = all
         .iter()
@@ -267,7 +255,7 @@ fn interference_grows_with_the_bounces_in_a_closed_scene() {
     let open = setup(&[("divergence: 4 deg", "divergence: 4 deg, mass_flow: 6 g/min")]);
     let evaluation = evaluated(&open);
     assert_eq!(evaluation.impacts_per_shot, 1.0);
-    let noted = validity::notes(&open, &choice(&open), Some(&evaluation));
+    let noted = validity::notes(&open, &held(&open), Some(&evaluation));
     assert_eq!(
         find(&noted, "interference").unwrap().value,
         value(&open, "interference")
@@ -449,7 +437,7 @@ fn restitution_is_compared_with_the_speed_at_which_it_was_measured() {
         ("divergence: 4 deg", "divergence: 0 deg"),
     ]);
     let evaluation = evaluated(&falling);
-    let noted = validity::notes(&falling, &choice(&falling), Some(&evaluation));
+    let noted = validity::notes(&falling, &held(&falling), Some(&evaluation));
     // 10 m/s at 30 deg arrive with 5 m/s.
     let note = find(&noted, "restitution_speed").unwrap();
     assert_close(note.value, 5.0 / 4.0, 1e-9);
@@ -469,7 +457,7 @@ fn restitution_is_compared_with_the_speed_at_which_it_was_measured() {
         ),
         ("divergence: 4 deg", "divergence: 0 deg"),
     ]);
-    let noted = validity::notes(&far, &choice(&far), Some(&evaluated(&far)));
+    let noted = validity::notes(&far, &held(&far), Some(&evaluated(&far)));
     let note = find(&noted, "restitution_speed").unwrap();
     assert_close(note.value, 10.0, 1e-9);
     assert!(note.text.contains("measure it nearer"), "{}", note.text);
