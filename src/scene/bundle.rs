@@ -69,11 +69,12 @@ impl Bundle {
         &self.triangles[..self.count]
     }
 
-    /// How a ray's line passes each triangle, and a bit for each that it may cross.
+    /// How a ray's line passes each triangle, and a bit for each that it
+    /// [may cross](Weights::may_cross).
     ///
     /// The same arithmetic as [`Weights`] of a single triangle, to the last bit.
     #[inline(always)]
-    pub fn weights(&self, shear: &WideShear) -> (WideWeights, u32) {
+    pub fn weights(&self, shear: &WideShear, doubt: f64) -> (WideWeights, u32) {
         let [a, b, c] = self.corners.each_ref().map(|corner| shear.apply(corner));
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
@@ -84,7 +85,7 @@ impl Bundle {
         let least = determinant
             .simd_gt(zero)
             .select(u.fast_min(v).fast_min(w), -u.fast_max(v).fast_max(w));
-        let bound = determinant.abs() * f64x4::splat(CLEARLY_OUTSIDE);
+        let bound = determinant.abs() * f64x4::splat(CLEARLY_OUTSIDE) - f64x4::splat(doubt);
         let may_cross = least.simd_ge(bound) & determinant.simd_ne(zero);
         let weights = WideWeights([u, v, w, determinant, depth].map(f64x4::to_array));
         (weights, may_cross.to_bitmask() & self.occupied())

@@ -19,7 +19,7 @@ use super::bundle::{Bundle, WideShear};
 use super::mesh::Mesh;
 use super::ray::{Crossing, Ray, Spot};
 use super::start::Start;
-use super::triangle::{Shear, Weights, lies_on};
+use super::triangle::{Shear, Weights, lies_on, passes_over};
 use super::wide_tree::WideTree;
 use plane::{GRAZING, Plane};
 use touch::Plates;
@@ -44,6 +44,8 @@ pub struct Facets {
     slack: f64,
     /// Rounding of a plane's crossing distance stays below this for rays that do not graze it.
     doubt: f64,
+    /// What a weight may lose to an edge that a ray passes by a lift, m².
+    doubtful_weight: f64,
 }
 
 impl Facets {
@@ -85,6 +87,7 @@ impl Facets {
                 .iter()
                 .map(|triangle| plane::normal(&mesh.corners(triangle)))
                 .collect(),
+            doubtful_weight: doubtful_weight(&mesh.vertices, slack),
             vertices: mesh.vertices,
             slack,
             doubt: DOUBT * slack,
@@ -166,7 +169,7 @@ impl Facets {
         };
         self.tree.walk(ray, limit, |leaf, starts_inside| {
             let bundle = &self.bundles[leaf as usize];
-            let (weights, crossed) = bundle.weights(&shear);
+            let (weights, crossed) = bundle.weights(&shear, self.doubtful_weight);
             let near = if starts_inside && start.front.is_some() {
                 bundle.near(&ray.origin, self.slack)
             } else {
@@ -184,7 +187,7 @@ impl Facets {
                 let found = if near >> lane & 1 == 1 {
                     self.crossing_from_near(index, ray, &weights, start)
                 } else {
-                    self.crossing(index, &weights, weights.distance(), start)
+                    self.crossing(index, ray, &weights, weights.distance(), start)
                 };
                 if let Some(found) = found {
                     best.improve(found);
@@ -219,7 +222,7 @@ impl Facets {
         }
         let distance = -height / approach;
         let behind = approach.abs() > GRAZING && distance < -self.doubt;
-        if (behind && !starts_near) || !weights.may_cross() {
+        if (behind && !starts_near) || !weights.may_cross(self.doubtful_weight) {
             return None;
         }
         // So near, the weights may put it on the wrong side of the start.
@@ -229,25 +232,54 @@ impl Facets {
         } else {
             weights.distance()
         };
-        self.crossing(index, weights, t, start)
+        self.crossing(index, ray, weights, t, start)
     }
 
     /// Where a ray that may cross a triangle on which it does not start does so.
     #[inline(always)]
-    fn crossing(&self, index: u32, weights: &Weights, t: f64, start: &Start) -> Option<Nearest> {
+    fn crossing(
+        &self,
+        index: u32,
+        ray: &Ray,
+        weights: &Weights,
+        t: f64,
+        start: &Start,
+    ) -> Option<Nearest> {
         let front = weights.front();
         let (margin, farther) = if start.sees(front) {
             (self.slack * LIFT, 0.0)
         } else {
             (0.0, self.slack)
         };
-        (t > 0.0 && weights.crosses(|| self.corners(index), margin)).then_some(Nearest {
+        let crosses = || weights.crosses(|| self.corners(index), margin);
+        let normal = self.normals[index as usize];
+        let approach = ray.direction.dot(&normal);
+        let t = if approach.abs() <= GRAZING {
+            let corners = self.corners(index);
+            let may_pass_over = margin > 0.0 && !Start::runs_along(approach);
+            let passes_over = || may_pass_over && passes_over(ray, &corners, front, margin);
+            let over = || Plane::new(normal, &corners).over_triangle(t, ray, &corners);
+            (crosses() || passes_over()).then(over)?
+        } else {
+            crosses().then_some(t)?
+        };
+        (t > 0.0).then_some(Nearest {
             t,
             front,
             index,
             farther,
         })
     }
+}
+
+/// What the weights of a triangle among these vertices may lose, m², to an edge that a ray passes by a
+/// lift: edges as the ray sees them are at most twice as long as they are.
+fn doubtful_weight(vertices: &[Point3<f64>], slack: f64) -> f64 {
+    let first = vertices.first().copied().unwrap_or_default();
+    let (low, high) = vertices.iter().fold((first, first), |(low, high), vertex| {
+        (low.inf(vertex), high.sup(vertex))
+    });
+    2.0 * (high - low).norm() * LIFT * slack
 }
 
 struct Nearest {

@@ -40,10 +40,16 @@ impl Start {
         known.unwrap_or(true) == front
     }
 
+    /// Whether a ray runs along a wall, given the direction's component along the wall's normal.
+    #[inline]
+    pub fn runs_along(approach: f64) -> bool {
+        approach.abs() <= RUNS_ALONG
+    }
+
     /// Whether a shot heads into a wall on which it starts, given the direction's component along
     /// the wall's front normal.
     #[inline]
     pub fn enters(&self, approach: f64) -> bool {
-        approach.abs() > RUNS_ALONG && self.front == Some(approach < 0.0)
+        !Self::runs_along(approach) && self.front == Some(approach < 0.0)
     }
 }

@@ -92,10 +92,11 @@ impl Weights {
         }
     }
 
-    /// Whether the line crosses the triangle or does not clearly pass it by.
+    /// Whether the line crosses the triangle or does not clearly pass it by: weights below 0 by
+    /// `doubt` (m²) may be so by rounding.
     #[inline(always)]
-    pub fn may_cross(&self) -> bool {
-        self.determinant != 0.0 && self.least() >= CLEARLY_OUTSIDE * self.determinant.abs()
+    pub fn may_cross(&self, doubt: f64) -> bool {
+        self.determinant != 0.0 && self.least() >= CLEARLY_OUTSIDE * self.determinant.abs() - doubt
     }
 
     /// Signed distance to the plane of the triangle along the ray.
@@ -121,6 +122,22 @@ impl Weights {
 /// Barycentric coordinate of a point that lies beyond an edge by more than the margin of any triangle
 /// that is higher than a million margins.
 pub(super) const CLEARLY_OUTSIDE: f64 = -1e-6;
+
+/// Whether the line of a ray crosses the triangle or passes its edges by at most `margin`, both
+/// seen along the ray.
+pub(super) fn passes_over(
+    ray: &Ray,
+    corners: &[Point3<f64>; 3],
+    is_front: bool,
+    margin: f64,
+) -> bool {
+    let inwards = if is_front { 1.0 } else { -1.0 };
+    (0..3).all(|corner| {
+        let from = corners[corner];
+        let across = (corners[(corner + 1) % 3] - from).cross(&ray.direction) * inwards;
+        (ray.origin - from).dot(&across) >= -margin * across.norm()
+    })
+}
 
 /// Whether a point of a triangle's plane, given by its barycentric coordinates times
 /// `determinant`, lies beyond an edge by more than `margin`.

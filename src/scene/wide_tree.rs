@@ -175,8 +175,9 @@ impl Node {
             let origin = ray.origins[if GROWN { end } else { 0 }][axis];
             (self.sides[ray.sides[end][axis]] - origin) * ray.inverse[end][axis]
         };
-        let near = side(0, 0).fast_max(side(0, 1));
-        let near = near.fast_max(side(0, 2)).fast_max(f32x8::ZERO);
+        // In this order a ray that is not a number enters nothing.
+        let near = f32x8::ZERO.fast_max(side(0, 0));
+        let near = near.fast_max(side(0, 1)).fast_max(side(0, 2));
         let far = side(1, 0).fast_min(side(1, 1));
         let far = far.fast_min(side(1, 2)).fast_min(f32x8::splat(limit));
         (near.to_array(), near.simd_le(far).to_bitmask())

@@ -1,5 +1,6 @@
 //! Closed meshes with room inside.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
@@ -16,6 +17,8 @@ pub struct Room {
     pub name: &'static str,
     pub scene: Scene,
     pub triangles: Vec<Triangle>,
+    /// The triangles round each vertex.
+    round_vertices: HashMap<[u64; 3], Vec<usize>>,
     pub inside: Point3<f64>,
     /// Of the shot, m.
     pub radius: f64,
@@ -29,6 +32,15 @@ impl Room {
     pub fn shows(&self, spot: &Spot) -> bool {
         spot.front == (spot.part == 0)
     }
+
+    /// The triangles round a corner of a triangle.
+    pub fn round(&self, corner: &Point3<f64>) -> &[usize] {
+        &self.round_vertices[&bits(corner)]
+    }
+}
+
+fn bits(point: &Point3<f64>) -> [u64; 3] {
+    point.coords.map(f64::to_bits).into()
 }
 
 /// What a room is made of, before it is turned and moved: in lengths of `unit`, m.
@@ -90,10 +102,19 @@ impl Plan {
         let odd = odd.find(|warning| !warning.contains("look into the material"));
         assert_eq!(odd, None, "{}", self.name);
         let surfaces = 0..scene.surfaces().len() as u32;
-        let triangles = surfaces.flat_map(|surface| scene.surface_triangles(surface));
+        let triangles: Vec<Triangle> = surfaces
+            .flat_map(|surface| scene.surface_triangles(surface))
+            .collect();
+        let mut round_vertices = HashMap::<_, Vec<_>>::new();
+        for (index, corners) in triangles.iter().enumerate() {
+            for corner in corners {
+                round_vertices.entry(bits(corner)).or_default().push(index);
+            }
+        }
         Room {
             name: self.name,
-            triangles: triangles.collect(),
+            triangles,
+            round_vertices,
             inside: self.place.rotation * (Point3::from(self.inside) * self.unit)
                 + self.place.shift,
             radius: self.radius * self.unit,

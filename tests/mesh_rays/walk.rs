@@ -68,11 +68,17 @@ const REBOUNDS: [Rebounds; 4] = [
 /// along a wall that is too flat to count as heading in, 1e-12 of its length.
 const SINKS: f64 = 4.0;
 
+/// Rays that rise from a facet by no more than this angle run along it.
+const ALONG: f64 = 1e-12;
+
 /// Casts before the next aim.
 const CASTS_OF_A_PATH: usize = 20;
 /// In a wedge of 1 deg a mirrored shot hits 180 times before it comes out; out of the tip of a spike,
-/// one random direction among a thousand leads.
-const MOST_HITS_IN_A_CORNER: usize = 20_000;
+/// one random direction among many thousands leads.
+const MOST_HITS_IN_A_CORNER: usize = 1_000_000;
+/// Shots that lose speed with every impact rest below this share of it: in the tip of a spike they may
+/// hit its sides in turn for ever.
+const RESTS: f64 = 1e-6;
 
 /// One shot after another in a room, each from where the one before has been.
 pub struct Walk<'a> {
@@ -83,6 +89,8 @@ pub struct Walk<'a> {
     contact: Contact,
     /// The centre of the shot, as a nozzle would have it: distances are asked for with it.
     shot: Nozzle,
+    /// The triangle last aimed at.
+    aimed_at: usize,
     pub count: Count,
 }
 
@@ -104,6 +112,7 @@ impl<'a> Walk<'a> {
                 body: vec![Body::Ball { radius }],
                 clearance: 0.0,
             },
+            aimed_at: 0,
             count: Count::default(),
         }
     }
@@ -125,11 +134,19 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// A direction to set out in: at vertices, edges, along planes and axes, and anywhere.
+    /// A direction to set out in: at vertices, edges and close to them, along planes and axes, and
+    /// anywhere. From beside an edge often at what is next to it, so that shots graze that.
     fn aim(&mut self, start: &Start) -> Vector3<f64> {
-        let [a, b, c] = *self.random.of(&self.room.triangles);
+        let triangles = &self.room.triangles;
+        self.aimed_at = if self.random.bits().is_multiple_of(4) {
+            let corner = self.random.of(&triangles[self.aimed_at]);
+            *self.random.of(self.room.round(corner))
+        } else {
+            self.random.bits() as usize % triangles.len()
+        };
+        let [a, b, c] = triangles[self.aimed_at];
         let (share, other) = (self.random.uniform(), self.random.uniform());
-        let towards = match self.random.bits() % 8 {
+        let towards = match self.random.bits() % 9 {
             0 => a - start.at,
             1 => a + (b - a) * share - start.at,
             2 => nalgebra::center(&a, &b) - start.at,
@@ -137,17 +154,18 @@ impl<'a> Walk<'a> {
             4 => b - a,
             5 => Vector3::ith((self.random.bits() % 3) as usize, share - 0.5),
             6 => a + (b - a + (c - a) * share) * (other / 2.0) - start.at,
+            7 => a + (b - a) * share + (c - a) * 10_f64.powf(-3.0 - 10.0 * other) - start.at,
             _ => self.random.direction(),
         };
         let towards = towards.try_normalize(0.0);
         let towards = towards.unwrap_or_else(|| self.random.direction());
         match &start.left {
-            Some(left) if towards.dot(&left.normal) <= 1e-12 => self.random.off(&left.normal),
+            Some(left) if towards.dot(&left.normal) <= ALONG => self.random.off(&left.normal),
             _ => towards,
         }
     }
 
-    /// Follows one shot; gives the start of the next one, unless this one went wrong.
+    /// Follows one shot; gives the start of the next one, unless this one went wrong or came to rest.
     fn follow(
         &mut self,
         start: Start,
@@ -187,6 +205,9 @@ impl<'a> Walk<'a> {
                 return Some(self.start_again(&ray, hit, centre));
             }
             (velocity, rolling) = self.leave(&ray, &hit, rebounds, (velocity, rolling));
+            if velocity.norm() < RESTS {
+                return None;
+            }
             ray = Ray {
                 origin: centre,
                 direction: velocity.normalize(),
@@ -230,9 +251,7 @@ impl<'a> Walk<'a> {
             Rebounds::Grazing => (self.random.grazing(&hit.normal), still),
             Rebounds::Impact => {
                 let after = rebound(&self.contact, &velocity, &rolling, &hit.normal);
-                let after = after.expect("the shot comes from the side that it sees");
-                let speed = after.velocity.norm();
-                (after.velocity / speed, after.rolling / speed)
+                after.map_or((velocity, rolling), |after| (after.velocity, after.rolling))
             }
         }
     }
@@ -245,7 +264,7 @@ impl<'a> Walk<'a> {
             return true;
         };
         let at_once = left.is_some() && hit.distance <= self.slack;
-        if at_once && left.is_some_and(|left| hits_again(left, hit)) {
+        if at_once && left.is_some_and(|left| self.hits_again(left, hit)) {
             self.count.self_hits += 1;
             self.note("hits what it left", ray, left, found);
             return true;
@@ -255,7 +274,7 @@ impl<'a> Walk<'a> {
         } else {
             !self.room.shows(&hit.spot)
         };
-        if outside || ray.direction.dot(&hit.normal) >= 0.0 {
+        if outside || ray.direction.dot(&hit.normal) > ALONG {
             self.count.leaks += 1;
             self.note("gets outside", ray, left, found);
             return true;
@@ -294,9 +313,12 @@ impl<'a> Walk<'a> {
             self.slack
         ));
     }
-}
 
-/// Whether a hit is on the piece that the shot left, or from behind on its plane.
-fn hits_again(left: &Hit, hit: &Hit) -> bool {
-    left.spot == hit.spot || (left.normal + hit.normal).norm() < 1e-6
+    /// Whether a hit is where the shot left, or from behind on its plane. A sphere may leave the edge of
+    /// a piece and hit its face.
+    fn hits_again(&self, left: &Hit, hit: &Hit) -> bool {
+        let turned = (left.normal - hit.normal).norm() * self.radius;
+        let same_place = left.spot == hit.spot && turned <= 1e-3 * self.slack;
+        same_place || (left.normal + hit.normal).norm() < 1e-6
+    }
 }

@@ -78,9 +78,12 @@ impl Plane {
         }
     }
 
-    /// The distance nearest to `t` at which a ray that hardly rises is over the triangle.
-    fn over_triangle(&self, t: f64, ray: &Ray, corners: &[Point3<f64>; 3]) -> f64 {
+    /// The distance nearest to `t` at which a ray that hardly rises is over the triangle: rounding moves
+    /// its crossing with the plane along it, past edges and corners where it meets other triangles.
+    #[inline(never)]
+    pub fn over_triangle(&self, t: f64, ray: &Ray, corners: &[Point3<f64>; 3]) -> f64 {
         let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+        let (mut nearest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY);
         for (corner, from) in corners.iter().enumerate() {
             let inwards = self.normal.cross(&(corners[(corner + 1) % 3] - from));
             let speed = ray.direction.dot(&inwards);
@@ -90,11 +93,15 @@ impl Plane {
             } else if speed < 0.0 {
                 leaves = passes.min(leaves);
             }
+            let along = ray.direction.dot(&(from - ray.origin));
+            nearest = along.min(nearest);
+            farthest = along.max(farthest);
         }
-        if enters < leaves {
-            t.max(enters).min(leaves)
-        } else {
-            f64::NAN
-        }
+        // A corner that it passes by less than rounding, it may seem to leave before it gets there. Edges
+        // along the ray do not tell well where it crosses them, but the corners do.
+        t.max(enters.min(leaves))
+            .min(enters.max(leaves))
+            .max(nearest)
+            .min(farthest)
     }
 }

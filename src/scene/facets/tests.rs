@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::plane::{GRAZING, Plane, normal};
-use super::{DOUBT, Facets};
+use super::{DOUBT, Facets, doubtful_weight};
 use crate::problem::part::Ends;
 use crate::scene::LIFT;
 use crate::scene::mesh::{Mesh, Triangle};
@@ -11,7 +11,7 @@ use crate::scene::profile::Profile;
 use crate::scene::ray::{Crossing, Ray, Spot};
 use crate::scene::start::Start;
 use crate::scene::tessellate;
-use crate::scene::triangle::{Shear, Weights, lies_on};
+use crate::scene::triangle::{Shear, Weights, lies_on, passes_over};
 
 /// The first crossing with the lowest index, found without a tree and one triangle at a time.
 fn search(
@@ -88,8 +88,17 @@ fn crossing(
     } else {
         weights.distance()
     };
-    let crosses = weights.may_cross() && weights.crosses(|| corners, margin);
-    (crosses && t > 0.0).then_some((t, front))
+    if !weights.may_cross(doubtful_weight(&mesh.vertices, slack)) {
+        return None;
+    }
+    let crosses = weights.crosses(|| corners, margin);
+    if approach.abs() > GRAZING {
+        return (crosses && t > 0.0).then_some((t, front));
+    }
+    let may_pass_over = margin > 0.0 && !Start::runs_along(approach);
+    let passes = crosses || (may_pass_over && passes_over(ray, &corners, front, margin));
+    let t = plane.over_triangle(t, ray, &corners);
+    (passes && t > 0.0).then_some((t, front))
 }
 
 fn in_box(point: &Point3<f64>, [a, b, c]: &[Point3<f64>; 3], slack: f64) -> bool {
@@ -297,4 +306,25 @@ fn an_empty_mesh_is_never_hit() {
     };
     let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
     assert!(found.is_none());
+}
+
+#[test]
+fn a_ray_that_is_not_a_number_hits_nothing() {
+    let facets = Facets::new(room(0.01), 0, 1e-12);
+    for [origin, direction] in [[f64::NAN, 1.0], [0.0, f64::NAN], [f64::NAN, f64::NAN]] {
+        let ray = Ray {
+            origin: Point3::new(origin, origin, origin),
+            direction: Vector3::new(direction, 0.0 * direction, 0.0 * direction),
+        };
+        assert!(
+            facets
+                .first_crossing(&ray, None, false, f64::INFINITY)
+                .is_none()
+        );
+        assert!(
+            facets
+                .first_touch(&ray, 0.1, None, false, f64::INFINITY)
+                .is_none()
+        );
+    }
 }

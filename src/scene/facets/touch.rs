@@ -24,7 +24,8 @@ impl Facets {
     ///
     /// A triangle that the sphere touches or overlaps at its start is hit at once if the centre
     /// heads towards it, and never otherwise: the distance to it, a convex body, then only grows.
-    /// The piece of `leaving`, if it is `on_this_part`, is not hit at all.
+    /// The piece of `leaving`, if it is `on_this_part`, is not hit, unless it was left at an edge and the
+    /// sphere heads into the face beside that.
     pub fn first_touch(
         &self,
         ray: &Ray,
@@ -164,7 +165,10 @@ impl Search<'_> {
         };
         self.overlaps |= matches!(placed, Placed::Overlapping);
         if self.left == Some(index) {
-            return None;
+            return match placed {
+                Placed::Touching(touch) => touch.filter(|touch| self.sphere.is_another(touch)),
+                Placed::Apart | Placed::Overlapping => None,
+            };
         }
         match placed {
             Placed::Apart => self.sphere.touch(&plate, folds, limit),

@@ -103,6 +103,13 @@ impl<'a> Sphere<'a> {
         }))
     }
 
+    /// Whether a touch of the triangle that the sphere has just left is at another place of it: where
+    /// it left, it heads in by rounding of the place at most.
+    pub fn is_another(&self, touch: &Touch) -> bool {
+        let sinking = -self.ray.direction.dot(&touch.normal);
+        sinking * self.radius > LIFT * LIFT * self.slack
+    }
+
     /// Where the sphere, which starts apart from it, touches a triangle; it may miss touches beyond
     /// `limit`.
     #[inline(always)]

@@ -76,7 +76,7 @@ fn in_a_corner_the_wall_that_the_sphere_heads_into_is_touched_at_once() {
     };
     let (wall, normal) = touch(-1.0, 1.0, None).unwrap();
     assert_eq!((wall.distance, normal), (0.0, Vector3::x()));
-    let (wall, normal) = touch(-1.0, -0.5, Some(spot(&wall))).unwrap();
+    let (wall, normal) = touch(0.5, -1.0, Some(spot(&wall))).unwrap();
     assert_eq!((wall.distance, normal), (0.0, Vector3::y()));
     let (wall, normal) = touch(1.0, 0.5, Some(spot(&wall))).unwrap();
     assert!((wall.distance - 0.5 * 1.25_f64.sqrt()).abs() < 1e-14);
