@@ -118,11 +118,12 @@ pub(crate) struct Page<'a> {
 
 impl Page<'_> {
     /// The outcome of work on a choice of settings: from the file, or else done and written down.
-    pub fn recall_or<T>(&self, choice: &Choice, work: impl FnOnce() -> T) -> T
+    /// `beside` is what else it depends on.
+    pub fn recall_or<T>(&self, choice: &Choice, beside: &[f64], work: impl FnOnce() -> T) -> T
     where
         T: Serialize + DeserializeOwned,
     {
-        let key = self.key(choice);
+        let key = self.key(choice, beside);
         self.checkpoint.recall(&key).unwrap_or_else(|| {
             let outcome = work();
             self.checkpoint.keep(&key, &outcome);
@@ -130,9 +131,10 @@ impl Page<'_> {
         })
     }
 
-    fn key(&self, choice: &Choice) -> Key {
+    fn key(&self, choice: &Choice, beside: &[f64]) -> Key {
         let mut hash = self.hash.clone();
         add(&mut hash, &choice.numbers());
+        add(&mut hash, beside);
         hash.update(choice.contact.to_le_bytes());
         let mut key = Key::default();
         key.copy_from_slice(&hash.finalize()[..16]);

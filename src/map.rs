@@ -102,7 +102,7 @@ impl Map {
         let cells_of = |group: Vec<usize>| {
             let work = || cells_on_one_path(setup, &group, place, &deviates);
             match (&page, group.first()) {
-                (Some(page), Some(&first)) => page.recall_or(&place(first), work),
+                (Some(page), Some(&first)) => page.recall_or(&place(first), &[], work),
                 _ => work(),
             }
         };

@@ -131,10 +131,18 @@ impl<'a> Judge<'a> {
     }
 
     /// The standing of a choice, and the choice with the best speed for it.
-    pub fn judge(&self, choice: &Choice) -> (Choice, Standing) {
+    ///
+    /// Where the first shots alone prove J to be above `best`, they are all that is traced, and J is
+    /// what it is on them: far above.
+    pub(super) fn judge(&self, choice: &Choice, best: f64) -> (Choice, Standing) {
+        // A pose that is hopeless with some factors on the weights may be the best with others.
+        let best = match self.archive {
+            Some(_) => f64::INFINITY,
+            None => best,
+        };
         let judged = match &self.page {
-            Some(page) => page.recall_or(choice, || self.judge_anew(choice)),
-            None => self.judge_anew(choice),
+            Some(page) => page.recall_or(choice, &[best], || self.judge_anew(choice, best)),
+            None => self.judge_anew(choice, best),
         };
         self.effort.add(1, judged.rays);
         let choice = Choice {
@@ -149,7 +157,7 @@ impl<'a> Judge<'a> {
         (choice, judged.standing)
     }
 
-    fn judge_anew(&self, choice: &Choice) -> Judged {
+    fn judge_anew(&self, choice: &Choice, best: f64) -> Judged {
         if let Some(violation) = clearance_violation(self.setup, choice) {
             return Judged {
                 speed: choice.speed,
@@ -157,34 +165,61 @@ impl<'a> Judge<'a> {
                 rays: 0,
             };
         }
-        let goals = &self.setup.problem.goals;
-        let (tally, speed) = if speed_scales_out(self.setup, choice.contact) {
-            // Paths do not depend on the speed; any will do to trace them.
-            let tally = self.trace(choice, 1.0);
-            let speed = tally.best_speed(goals, self.setup.problem.settings.speed);
-            (tally, speed)
+        let first = (self.shots.len() / SHARES).max(FEWEST);
+        if first >= self.shots.len() {
+            return self.judged(choice, &self.trace(choice, self.shots));
+        }
+        let (first, rest) = self.shots.split_at(first);
+        let few = self.trace(choice, first);
+        if best < f64::INFINITY {
+            let judged = self.judged(choice, &few);
+            if judged.standing.rank() > SHARES as f64 * best {
+                return judged;
+            }
+        }
+        let all = Tally::join(vec![few, self.trace(choice, rest)]);
+        self.judged(choice, &all)
+    }
+
+    fn judged(&self, choice: &Choice, tally: &Tally) -> Judged {
+        let problem = &self.setup.problem;
+        let speed = if speed_scales_out(self.setup, choice.contact) {
+            tally.best_speed(&problem.goals, problem.settings.speed)
         } else {
-            (self.trace(choice, choice.speed), choice.speed)
+            choice.speed
         };
         Judged {
             speed,
-            standing: Standing::Feasible(tally.terms(goals, speed)),
+            standing: Standing::Feasible(tally.terms(&problem.goals, speed)),
             rays: tally.rays,
         }
     }
 
-    /// Traces the shots, many of them on all threads.
-    fn trace(&self, choice: &Choice, speed: f64) -> Tally {
+    /// Traces shots, on all threads where they are some of many.
+    fn trace(&self, choice: &Choice, shots: &[Deviate]) -> Tally {
+        let speed = if speed_scales_out(self.setup, choice.contact) {
+            // Paths do not depend on the speed; any will do to trace them.
+            1.0
+        } else {
+            choice.speed
+        };
         let tally = |shots: &[Deviate]| Tally::trace(self.setup, choice, speed, shots);
-        if self.shots.len() <= SHARE {
-            return tally(self.shots);
+        if self.shots.len() <= MOST_ALONE {
+            return tally(shots);
         }
-        Tally::join(self.shots.par_chunks(SHARE).map(tally).collect())
+        Tally::join(shots.par_chunks(CHUNK).map(tally).collect())
     }
 }
 
-/// Shots that one thread traces at a time.
-const SHARE: usize = 2048;
+/// One of so many shares of the shots is traced first. Where J is as many times above the best on
+/// them, it is above the best on all, even if the rest did no harm.
+const SHARES: usize = 8;
+/// Shots that are traced first at least.
+const FEWEST: usize = 64;
+/// Up to so many shots one thread traces alone.
+const MOST_ALONE: usize = 2048;
+/// Shots of more than those that one thread traces at a time.
+const CHUNK: usize = 256;
 
 /// Whether the paths stay the same when every speed is multiplied by one factor.
 pub fn speed_scales_out(setup: &Setup, contact: usize) -> bool {

@@ -23,7 +23,12 @@ pub struct Candidate {
 impl Candidate {
     /// Judges a point.
     pub fn at(space: &Space, judge: &Judge, point: &[f64]) -> Self {
-        let (choice, standing) = judge.judge(&space.choice(point));
+        Self::beside(f64::INFINITY, space, judge, point)
+    }
+
+    /// Judges a point, roughly where it is far above the best J so far.
+    fn beside(best: f64, space: &Space, judge: &Judge, point: &[f64]) -> Self {
+        let (choice, standing) = judge.judge(&space.choice(point), best);
         Self {
             point: point.to_vec(),
             choice,
@@ -41,14 +46,15 @@ impl Candidate {
     }
 }
 
-/// The cost function that argmin sees. It keeps the best point itself: argmin loses it when a run
+/// The cost function that argmin sees. It keeps the best points itself: argmin loses them when a run
 /// ends early.
 struct Descent<'a> {
     space: &'a Space,
     judge: &'a Judge<'a>,
     /// The first simplex: argmin asks for its corners again.
     corners: &'a [Candidate],
-    best: RefCell<Candidate>,
+    /// As many points as a simplex has, the best one first.
+    leading: RefCell<Vec<Candidate>>,
 }
 
 impl CostFunction for &Descent<'_> {
@@ -63,17 +69,20 @@ impl CostFunction for &Descent<'_> {
         if let Some(corner) = self.corners.iter().find(|corner| corner.point == *point) {
             return Ok(corner.standing.rank());
         }
-        let candidate = Candidate::at(self.space, self.judge, point);
+        let mut leading = self.leading.borrow_mut();
+        let best = leading[0].standing.rank();
+        let candidate = Candidate::beside(best, self.space, self.judge, point);
         let rank = candidate.standing.rank();
-        if rank < self.best.borrow().standing.rank() {
-            self.best.replace(candidate);
-        }
+        let place = leading.partition_point(|other| other.standing.rank() <= rank);
+        leading.insert(place, candidate);
+        leading.truncate(self.corners.len());
         Ok(rank)
     }
 }
 
 /// The best point found downhill from `start`, until the values at the corners of the simplex
-/// differ by less than `accuracy`, relative to the best.
+/// differ by less than `accuracy`, relative to the best, and it is no better in their middle: round a
+/// valley the values may be alike on both sides.
 pub fn polish(
     space: &Space,
     judge: &Judge,
@@ -85,27 +94,69 @@ pub fn polish(
         return start;
     }
     let start = best_bound(space, judge, start);
+    let mut leading = descend(space, judge, start, size, accuracy);
+    for _ in 0..MOST_DESCENTS {
+        let middle = Candidate::at(space, judge, &middle(&leading));
+        let best = &leading[0];
+        if middle.standing.rank() >= best.standing.rank() * (1.0 - accuracy) {
+            return best.clone().or_better(middle);
+        }
+        leading = descend(space, judge, middle, 0.5 * extent(&leading), accuracy);
+    }
+    leading.swap_remove(0)
+}
+
+/// The best points found downhill from `start`, the very best one first.
+fn descend(
+    space: &Space,
+    judge: &Judge,
+    start: Candidate,
+    size: f64,
+    accuracy: f64,
+) -> Vec<Candidate> {
     let scale = start.standing.rank().max(f64::MIN_POSITIVE);
     let corners = first_simplex(space, judge, &start, size);
-    let better = |best: Candidate, corner: &Candidate| best.or_better(corner.clone());
-    let best = corners.iter().fold(start, better);
+    let mut leading = corners.clone();
+    leading.sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
     let descent = Descent {
         space,
         judge,
         corners: &corners,
-        best: RefCell::new(best),
+        leading: RefCell::new(leading),
     };
     let simplex = corners.iter().map(|corner| corner.point.clone()).collect();
     if let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(accuracy * scale) {
         let most = ITERATIONS_PER_DIMENSION * space.dimensions() as u64;
         let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
-        // The best point is kept by the cost function; how the run ended does not matter.
+        // The best points are kept by the cost function; how the run ended does not matter.
         drop(executor.run());
     }
-    descent.best.into_inner()
+    descent.leading.into_inner()
+}
+
+fn middle(candidates: &[Candidate]) -> Vec<f64> {
+    let mean = |axis: usize| {
+        let sum: f64 = candidates.iter().map(|it| it.point[axis]).sum();
+        sum / candidates.len() as f64
+    };
+    (0..candidates[0].point.len()).map(mean).collect()
+}
+
+/// The longest edge of the box round candidates.
+fn extent(candidates: &[Candidate]) -> f64 {
+    let along = |axis: usize| {
+        let coordinates = candidates.iter().map(|it| it.point[axis]);
+        let least = coordinates.clone().fold(f64::INFINITY, f64::min);
+        coordinates.fold(f64::NEG_INFINITY, f64::max) - least
+    };
+    (0..candidates[0].point.len())
+        .map(along)
+        .fold(0.0, f64::max)
 }
 
 const ITERATIONS_PER_DIMENSION: u64 = 40;
+/// Descents after the first one, each from the middle of where the one before ended.
+const MOST_DESCENTS: usize = 3;
 
 /// The start, or a better point where one coordinate is on a bound: that is where the best value of
 /// a setting often is, and from afar a descent creeps towards it.
@@ -118,7 +169,8 @@ fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
             }
             let mut point = best.point.clone();
             point[axis] = bound;
-            best = best.or_better(Candidate::at(space, judge, &point));
+            let rank = best.standing.rank();
+            best = best.or_better(Candidate::beside(rank, space, judge, &point));
         }
     }
     best
@@ -128,7 +180,7 @@ fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
 /// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
 /// into a narrow valley loses sight of the valley's length.
 fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> Vec<Candidate> {
-    let limit = start.standing.rank() * (1.0 + STEEPEST_EDGE);
+    let rank = start.standing.rank();
     let corner = |axis: usize| {
         // Inwards, so that a start on a bound does not make a flat simplex.
         let towards_middle = if start.point[axis] > 0.5 { -1.0 } else { 1.0 };
@@ -136,12 +188,12 @@ fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> 
         loop {
             let mut point = start.point.clone();
             point[axis] += towards_middle * edge;
-            let corner = Candidate::at(space, judge, &point);
-            let is_shortest = edge <= SHORTEST_EDGE * size;
-            if is_shortest || corner.standing.rank() <= limit {
+            let corner = Candidate::beside(rank, space, judge, &point);
+            let rise = corner.standing.rank() / rank - 1.0;
+            if edge <= SHORTEST_EDGE * size || rise <= STEEPEST_EDGE {
                 return corner;
             }
-            edge *= 0.5;
+            edge *= if rise > FAR_TOO_STEEP { 0.25 } else { 0.5 };
         }
     };
     let mut simplex = vec![start.clone()];
@@ -151,5 +203,7 @@ fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> 
 
 /// By what share J may rise along an edge of a first simplex.
 const STEEPEST_EDGE: f64 = 0.3;
+/// Where it rises by more than this share, an edge is quartered instead of halved.
+const FAR_TOO_STEEP: f64 = 3.0;
 /// No edge is shortened to less than this share.
 const SHORTEST_EDGE: f64 = 1.0 / 64.0;
