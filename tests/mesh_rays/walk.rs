@@ -217,20 +217,22 @@ impl<'a> Walk<'a> {
         unreachable!("shots come out of corners or get stuck there")
     }
 
-    /// In the middle of a long flight, or at its end.
+    /// In the middle of a long flight, or at its end. In the middle, next to no wall: of a start nearer than
+    /// rounding, nobody knows the side.
     fn start_again(&mut self, ray: &Ray, hit: Hit, centre: Point3<f64>) -> Start {
         let is_long = hit.distance > 1e3 * self.slack;
         if is_long && self.random.bits().is_multiple_of(2) {
             let share = 0.1 + 0.8 * self.random.uniform();
-            Start {
-                at: ray.origin + ray.direction * (hit.distance * share),
-                left: None,
+            let at = ray.origin + ray.direction * (hit.distance * share);
+            let scene = &self.room.scene;
+            let wall = scene.clearance(&self.shot, &at, &Vector3::x(), self.slack);
+            if wall.is_none() {
+                return Start { at, left: None };
             }
-        } else {
-            Start {
-                at: centre,
-                left: Some(hit),
-            }
+        }
+        Start {
+            at: centre,
+            left: Some(hit),
         }
     }
 
