@@ -77,7 +77,7 @@ pub(super) fn rounding_of_objective(goals: &Goals) -> f64 {
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Share of the accuracy that the gap may reach. A search that ends in a hollow of its sample beside the
 /// least value there shows less of a gap than its settings are worse, and the error of the gap hides
-/// as much as it feigns: with 0.7 and the error on top, up to 4 of 100 seeds were beyond 1 %; with half, none.
+/// as much as it feigns: with 0.7 and the error on top, up to 4 of 100 seeds were beyond 1 %; with half, at most one.
 const TOLERABLE: f64 = 0.5;
 /// Share of the accuracy above which an error is too large for the gap to say much.
 const VAGUE: f64 = 0.25;
