@@ -85,3 +85,6 @@ impl Sums {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

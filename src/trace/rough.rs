@@ -51,3 +51,6 @@ fn tilted<R: Real>(normal: Triple<R>, [a, b]: [f64; 2]) -> Option<Triple<R>> {
     let tilted = along(along(normal, first, R::of(a)), second, R::of(b));
     Some(unit(tilted))
 }
+
+#[cfg(test)]
+mod tests;

@@ -286,3 +286,34 @@ surfaces:
         );
     }
 }
+
+#[test]
+fn energy_of_a_rolling_sphere() {
+    // 1/2 v^2 and 1/5 (R w)^2, per unit mass.
+    assert_eq!(energy([1.0, 2.0, 2.0], [0.0; 3]), 4.5);
+    assert!((energy([0.0; 3], [1.0, 2.0, 2.0]) - 1.8_f64).abs() < 1e-15);
+    assert!((energy([3.0, 0.0, 0.0], [0.0, 2.0, 0.0]) - 5.3_f64).abs() < 1e-15);
+}
+
+#[test]
+fn deviates_change_restitution_and_friction_of_a_contact() {
+    let contact = Contact::new(0.3, 0.24, 0.5).unwrap();
+    assert_eq!(perturbed(contact, &Deviate::NONE), contact);
+    let rougher = Deviate {
+        friction: 1.5,
+        ..Deviate::NONE
+    };
+    let met = perturbed(contact, &rougher);
+    assert_eq!(met.static_friction, 0.3 * 1.5);
+    assert_eq!(met.dynamic_friction, 0.24 * 1.5);
+    assert_eq!(met.restitution, contact.restitution);
+    let livelier = Deviate {
+        restitution: 0.1,
+        ..Deviate::NONE
+    };
+    let met = perturbed(contact, &livelier);
+    assert_eq!(met.restitution, contact.restitution.shifted(0.1));
+    assert_ne!(met.restitution, contact.restitution);
+    assert_eq!(met.static_friction, 0.3);
+    assert_eq!(met.dynamic_friction, 0.24);
+}
