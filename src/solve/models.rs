@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::accuracy::{Claim, is_in_reach, least_objective};
+use super::accuracy::{Claim, is_in_reach, least_objective, rounding_of_objective};
 use super::control::Control;
 use super::judge::Effort;
 use super::ladder::{Ladder, fewer, objective};
@@ -64,10 +64,12 @@ impl<'a> Models<'a> {
     ) -> bool {
         let least = least_objective(searches);
         let accuracy = self.asked.problem.accuracy;
+        let rounding = rounding_of_objective(&self.asked.problem.goals);
+        let differs = |(searched, asked): (f64, f64)| {
+            (asked - searched).abs() > (accuracy * asked).max(rounding)
+        };
         let disagrees = |(search, claim): (&Search, &Claim)| {
-            is_in_reach(search, least)
-                && claim
-                    .is_some_and(|(searched, asked)| (asked - searched).abs() > accuracy * asked)
+            is_in_reach(search, least) && claim.is_some_and(differs)
         };
         let must = searches.iter().zip(claims).any(disagrees);
         if must {
