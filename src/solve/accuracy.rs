@@ -58,7 +58,9 @@ pub(super) fn unsettled(
         let gap = found - claimed;
         let wanted = (problem.accuracy * found).max(rounding);
         let is_vague = error > VAGUE * wanted && shots < fresh_shots;
-        Some(in_reach && (is_vague || gap > TOLERABLE * wanted))
+        // A search with as many shots as the figures cannot tell a gap from their error any better.
+        let noise = if shots < fresh_shots { 0.0 } else { error };
+        Some(in_reach && (is_vague || gap > TOLERABLE * wanted + noise))
     };
     let pairs = claims.iter().zip(answers).enumerate();
     pairs
