@@ -198,14 +198,19 @@ impl Settings {
 
     /// The middle of all ranges, with the first contact.
     pub fn middle(&self) -> Choice {
+        self.at(0.5)
+    }
+
+    /// The point at this share of all ranges, 0 to 1, with the first contact.
+    pub fn at(&self, share: f64) -> Choice {
         Choice {
-            incidence: self.incidence.at(0.5),
-            azimuth: self.azimuth.at(0.5),
-            standoff: self.standoff.at(0.5),
-            speed: self.speed.at(0.5),
-            aim_along: self.aim_along.at(0.5),
-            aim_across: self.aim_across.at(0.5),
-            aim_above: self.aim_above.at(0.5),
+            incidence: self.incidence.at(share),
+            azimuth: self.azimuth.at(share),
+            standoff: self.standoff.at(share),
+            speed: self.speed.at(share),
+            aim_along: self.aim_along.at(share),
+            aim_across: self.aim_across.at(share),
+            aim_above: self.aim_above.at(share),
             contact: self.contact.first().copied().unwrap_or_default(),
             static_friction: 0.0,
         }

@@ -24,15 +24,9 @@ impl Space {
         let settings = &problem.settings;
         let friction = problem.contacts[contact].static_friction;
         let base = Choice {
-            incidence: settings.incidence.min,
-            azimuth: settings.azimuth.min,
-            standoff: settings.standoff.min,
-            speed: settings.speed.min,
-            aim_along: settings.aim_along.min,
-            aim_across: settings.aim_across.min,
-            aim_above: settings.aim_above.min,
             contact,
             static_friction: friction.min,
+            ..settings.at(0.0)
         };
         let of_the_nozzle = Setting::OF_THE_NOZZLE
             .into_iter()
