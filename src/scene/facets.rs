@@ -87,7 +87,7 @@ impl Facets {
                 .iter()
                 .map(|triangle| plane::normal(&mesh.corners(triangle)))
                 .collect(),
-            doubtful_weight: doubtful_weight(&mesh.vertices, slack),
+            doubtful_weight: doubtful_weight(&mesh, slack),
             vertices: mesh.vertices,
             slack,
             doubt: DOUBT * slack,
@@ -254,16 +254,18 @@ impl Facets {
         let crosses = || weights.crosses(|| self.corners(index), margin);
         let normal = self.normals[index as usize];
         let approach = ray.direction.dot(&normal);
-        let t = if approach.abs() <= GRAZING {
+        let (t, meets) = if approach.abs() <= GRAZING {
             let corners = self.corners(index);
-            let may_pass_over = margin > 0.0 && !Start::runs_along(approach);
-            let passes_over = || may_pass_over && passes_over(ray, &corners, front, margin);
-            let over = || Plane::new(normal, &corners).over_triangle(t, ray, &corners);
-            (crosses() || passes_over()).then(over)?
+            let meets = crosses()
+                || (margin > 0.0
+                    && !Start::runs_along(approach)
+                    && passes_over(ray, &corners, front, margin));
+            let t = Plane::new(normal, &corners).over_triangle(t, ray, &corners);
+            (t, meets && t > 0.0)
         } else {
-            crosses().then_some(t)?
+            (t, t > 0.0 && crosses())
         };
-        (t > 0.0).then_some(Nearest {
+        meets.then_some(Nearest {
             t,
             front,
             index,
@@ -272,14 +274,11 @@ impl Facets {
     }
 }
 
-/// What the weights of a triangle among these vertices may lose, m², to an edge that a ray passes by a
+/// What the weights of a triangle of this mesh may lose, m², to an edge that a ray passes by a
 /// lift: edges as the ray sees them are at most twice as long as they are.
-fn doubtful_weight(vertices: &[Point3<f64>], slack: f64) -> f64 {
-    let first = vertices.first().copied().unwrap_or_default();
-    let (low, high) = vertices.iter().fold((first, first), |(low, high), vertex| {
-        (low.inf(vertex), high.sup(vertex))
-    });
-    2.0 * (high - low).norm() * LIFT * slack
+fn doubtful_weight(mesh: &Mesh, slack: f64) -> f64 {
+    let longest = mesh.bounds().map_or(0.0, |(low, high)| (high - low).norm());
+    2.0 * longest * LIFT * slack
 }
 
 struct Nearest {

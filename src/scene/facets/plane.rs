@@ -80,7 +80,6 @@ impl Plane {
 
     /// The distance nearest to `t` at which a ray that hardly rises is over the triangle: rounding moves
     /// its crossing with the plane along it, past edges and corners where it meets other triangles.
-    #[inline(never)]
     pub fn over_triangle(&self, t: f64, ray: &Ray, corners: &[Point3<f64>; 3]) -> f64 {
         let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut nearest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -88,7 +88,7 @@ fn crossing(
     } else {
         weights.distance()
     };
-    if !weights.may_cross(doubtful_weight(&mesh.vertices, slack)) {
+    if !weights.may_cross(doubtful_weight(mesh, slack)) {
         return None;
     }
     let crosses = weights.crosses(|| corners, margin);
