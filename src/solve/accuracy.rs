@@ -25,7 +25,7 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 
 /// The searches that could still change the answer: among the contacts within reach of the best,
 /// those whose J on fresh shots is above what is claimed for the shots of the search by more than a
-/// part of the accuracy asked for.
+/// part of the accuracy asked for, and by more than its error where that cannot be told any better.
 ///
 /// The least J on any set of shots is on average below the least true J, and the true J of the
 /// settings found is above it. So the gap between the two bounds how far these settings are from
@@ -58,7 +58,6 @@ pub(super) fn unsettled(
         let gap = found - claimed;
         let wanted = (problem.accuracy * found).max(rounding);
         let is_vague = error > VAGUE * wanted && shots < fresh_shots;
-        // A search with as many shots as the figures cannot tell a gap from their error any better.
         let noise = if shots < fresh_shots { 0.0 } else { error };
         Some(in_reach && (is_vague || gap > TOLERABLE * wanted + noise))
     };

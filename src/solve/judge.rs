@@ -132,8 +132,8 @@ impl<'a> Judge<'a> {
 
     /// The standing of a choice, and the choice with the best speed for it.
     ///
-    /// Where the first shots alone prove J to be above `best`, they are all that is traced, and J is
-    /// what it is on them: far above.
+    /// Where J on the first shots alone is so far above `best` that the rest could not bring it below,
+    /// they are all that is traced, and J is what it is on them.
     pub(super) fn judge(&self, choice: &Choice, best: f64) -> (Choice, Standing) {
         // A pose that is hopeless with some factors on the weights may be the best with others.
         let best = match self.archive {
@@ -212,7 +212,8 @@ impl<'a> Judge<'a> {
 }
 
 /// One of so many shares of the shots is traced first. Where J is as many times above the best on
-/// them, it is above the best on all, even if the rest did no harm.
+/// them, it is above the best on all, even if the rest did no harm; unless the first hits on target,
+/// over which two of the terms are means, are a still smaller share of all such hits.
 const SHARES: usize = 8;
 /// Shots that are traced first at least.
 const FEWEST: usize = 64;
