@@ -5,6 +5,7 @@
 //! and so is the tree for rays, which are most of the work; distances take parry's.
 
 mod plane;
+mod slide;
 mod touch;
 
 use std::sync::OnceLock;
@@ -251,19 +252,27 @@ impl Facets {
         } else {
             (0.0, self.slack)
         };
+        let is_seen = margin > 0.0;
         let crosses = || weights.crosses(|| self.corners(index), margin);
         let normal = self.normals[index as usize];
         let approach = ray.direction.dot(&normal);
         let (t, meets) = if approach.abs() <= GRAZING {
             let corners = self.corners(index);
-            let meets = crosses()
-                || (margin > 0.0
-                    && !Start::runs_along(approach)
-                    && passes_over(ray, &corners, front, margin));
+            let runs_along = Start::runs_along(approach);
+            let meets = if is_seen {
+                crosses() || (!runs_along && passes_over(ray, &corners, front, margin))
+            } else {
+                !runs_along && crosses()
+            };
             let t = Plane::new(normal, &corners).over_triangle(t, ray, &corners);
             (t, meets && t > 0.0)
         } else {
-            (t, t > 0.0 && crosses())
+            let meets = t > 0.0 && crosses();
+            let may_slide_off = meets && !is_seen && weights.is_near_edge();
+            (
+                t,
+                meets && !(may_slide_off && self.slides_off(index, ray, t)),
+            )
         };
         meets.then_some(Nearest {
             t,

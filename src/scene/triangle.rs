@@ -99,6 +99,12 @@ impl Weights {
         self.determinant != 0.0 && self.least() >= CLEARLY_OUTSIDE * self.determinant.abs() - doubt
     }
 
+    /// Whether a line that crosses the triangle does so so near to an edge that it may be within a margin.
+    #[inline(always)]
+    pub fn is_near_edge(&self) -> bool {
+        self.least() <= -CLEARLY_OUTSIDE * self.determinant.abs()
+    }
+
     /// Signed distance to the plane of the triangle along the ray.
     #[inline(always)]
     pub fn distance(&self) -> f64 {

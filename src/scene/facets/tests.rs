@@ -92,13 +92,33 @@ fn crossing(
         return None;
     }
     let crosses = weights.crosses(|| corners, margin);
+    let is_seen = margin > 0.0;
     if approach.abs() > GRAZING {
-        return (crosses && t > 0.0).then_some((t, front));
+        let meets = crosses && t > 0.0;
+        let at_edge = !is_seen && weights.is_near_edge();
+        return (meets && !(at_edge && slides(mesh, triangle, slack, ray, t)))
+            .then_some((t, front));
     }
-    let may_pass_over = margin > 0.0 && !Start::runs_along(approach);
-    let passes = crosses || (may_pass_over && passes_over(ray, &corners, front, margin));
+    let runs_along = Start::runs_along(approach);
+    let may_pass_over = is_seen && !runs_along;
+    let passes = (crosses && (is_seen || !runs_along))
+        || (may_pass_over && passes_over(ray, &corners, front, margin));
     let t = plane.over_triangle(t, ray, &corners);
     (passes && t > 0.0).then_some((t, front))
+}
+
+/// Whether a ray comes to where it crosses a triangle along another one.
+fn slides(mesh: &Mesh, triangle: &Triangle, slack: f64, ray: &Ray, t: f64) -> bool {
+    let at = ray.origin + ray.direction * t;
+    let mut others = mesh.triangles.iter();
+    others.any(|other| {
+        let corners = mesh.corners(other);
+        let least = corners.map(|corner| (corner - at).dot(&ray.direction));
+        !std::ptr::eq(other, triangle)
+            && Start::runs_along(ray.direction.dot(&normal(&corners)))
+            && least.into_iter().fold(f64::INFINITY, f64::min) < -LIFT * slack
+            && lies_on(&at, &corners, LIFT * slack)
+    })
 }
 
 fn in_box(point: &Point3<f64>, [a, b, c]: &[Point3<f64>; 3], slack: f64) -> bool {
