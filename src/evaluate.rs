@@ -1,6 +1,9 @@
 //! What a choice of settings does, measured on shots that nothing was tuned on.
 
+mod counts;
 mod ledger;
+
+pub use counts::Counts;
 
 use std::collections::BTreeMap;
 

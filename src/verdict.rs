@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::evaluate::Evaluation;
+use crate::evaluate::{Counts, Evaluation};
 use crate::setup::Setup;
 
 /// What a verdict is about.
@@ -31,39 +31,6 @@ pub struct Verdict {
     pub allowed: f64,
     /// Whether all shots are the same, so that the share has no error.
     pub is_exact: bool,
-}
-
-/// How many shots break what: all that verdicts are given on.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Counts {
-    /// Shots of the jet.
-    pub shots: usize,
-    /// Whether all of them are the same.
-    pub is_exact: bool,
-    /// First hits on target.
-    pub hits: usize,
-    /// Those off the wanted normal impulse by more than the tolerance.
-    pub off_target: usize,
-    /// Those over the tangential limit.
-    pub over_limit: usize,
-    /// For each surface of the scene, shots with an impact over what it may take.
-    pub over: Vec<usize>,
-}
-
-impl Counts {
-    /// What was counted in an evaluation.
-    pub fn of(evaluation: &Evaluation) -> Self {
-        let target = &evaluation.target;
-        let receipts = evaluation.surfaces.iter();
-        Self {
-            shots: evaluation.shots,
-            is_exact: evaluation.is_exact,
-            hits: target.hits,
-            off_target: target.off_target,
-            over_limit: target.over_limit,
-            over: receipts.map(|receipt| receipt.over).collect(),
-        }
-    }
 }
 
 impl Verdict {
@@ -132,18 +99,22 @@ impl Verdict {
 
     /// 95 % interval of the share: Wilson's, or 0 to 3/n where no shot broke the goal.
     pub fn interval(&self) -> [f64; 2] {
+        if self.broken == 0 && self.counted > 0 && !self.is_exact {
+            return [0.0, (3.0 / self.counted as f64).min(1.0)];
+        }
+        const NORMAL_QUANTILE: f64 = 1.959_963_985;
+        self.wilson(NORMAL_QUANTILE)
+    }
+
+    /// Wilson's interval of the share, so many standard errors to both sides.
+    fn wilson(&self, standard_errors: f64) -> [f64; 2] {
         if self.is_exact {
             return [self.share(); 2];
         }
-        let n = self.counted as f64;
         if self.counted == 0 {
             return [0.0, 1.0];
         }
-        if self.broken == 0 {
-            return [0.0, (3.0 / n).min(1.0)];
-        }
-        const NORMAL_QUANTILE: f64 = 1.959_963_985;
-        let z2 = NORMAL_QUANTILE * NORMAL_QUANTILE / n;
+        let z2 = standard_errors * standard_errors / self.counted as f64;
         let share = self.share();
         let centre = share + z2 / 2.0;
         let half = (z2 * (share * (1.0 - share) + z2 / 4.0)).sqrt();
@@ -156,6 +127,12 @@ impl Verdict {
     /// Whether the interval lies on one side of what is allowed.
     pub fn is_certain(&self) -> bool {
         let [low, high] = self.interval();
+        high <= self.allowed || low > self.allowed
+    }
+
+    /// Whether more shots of the same kind would not turn it: they had to be four standard errors off.
+    pub fn is_beyond_doubt(&self) -> bool {
+        let [low, high] = self.wilson(4.0);
         high <= self.allowed || low > self.allowed
     }
 

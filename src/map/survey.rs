@@ -1,13 +1,14 @@
 //! What the shots of one pose do, kept so that verdicts can be given at any launch speed.
 
 use super::Cell;
+use crate::evaluate::Counts;
 use crate::jet::Deviate;
 use crate::objective::{Score, Tally};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::LANES;
 use crate::setup::Setup;
 use crate::trace::{End, Tracer, Volley, Witness};
-use crate::verdict::{Counts, Verdict};
+use crate::verdict::Verdict;
 
 /// The impacts of some shots, per unit of launch speed.
 #[derive(Default)]

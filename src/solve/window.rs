@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::Solution;
 use super::judge::clearance_violation;
-use crate::evaluate::evaluate;
+use crate::evaluate::Counts;
 use crate::jet::{Replicates, purpose};
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
@@ -64,7 +64,7 @@ pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
     windows(setup, &best.choice, &passing, &fresh)
 }
 
-/// Shots behind each verdict of a window.
+/// Shots behind each verdict of a window at most.
 const WINDOW_SHOTS: usize = 4096;
 
 /// The windows of all settings that have a range, each as far as its range goes.
@@ -147,15 +147,33 @@ fn drift(
     }
 }
 
-/// What turns at a choice among the verdicts that passed: the one that is exceeded most.
+/// What turns at a choice among the verdicts that passed: the one that is exceeded most, on no more
+/// shots than it takes to tell.
 fn turned(setup: &Setup, choice: &Choice, passing: &[Subject], fresh: &Replicates) -> Option<Turn> {
     if clearance_violation(setup, choice).is_some() {
         return Some(Turn::Clearance);
     }
-    let evaluation = evaluate(setup, choice, fresh);
-    Verdict::all(setup, &evaluation)
-        .into_iter()
-        .filter(|verdict| !verdict.passes() && passing.contains(&verdict.subject))
-        .max_by(|a, b| a.load().total_cmp(&b.load()))
-        .map(|verdict| Turn::Verdict(verdict.subject))
+    let mut counts = Counts::none(setup);
+    let mut turn = None;
+    for sets in fresh.sets.chunks(SETS) {
+        counts = counts.plus(&Counts::on(setup, choice, sets));
+        let verdicts: Vec<Verdict> = Verdict::on(setup, &counts)
+            .into_iter()
+            .filter(|verdict| passing.contains(&verdict.subject))
+            .collect();
+        let failing = verdicts.iter().filter(|verdict| !verdict.passes());
+        let worst = failing.max_by(|a, b| a.load().total_cmp(&b.load()));
+        turn = worst.map(|verdict| Turn::Verdict(verdict.subject));
+        let is_clear = match worst {
+            Some(worst) => worst.is_beyond_doubt(),
+            None => verdicts.iter().all(Verdict::is_beyond_doubt),
+        };
+        if is_clear {
+            break;
+        }
+    }
+    turn
 }
+
+/// Scramblings that are fired together.
+const SETS: usize = 8;

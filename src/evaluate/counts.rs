@@ -1,0 +1,90 @@
+//! How many shots break goals and limits.
+
+use rayon::prelude::*;
+
+use super::Evaluation;
+use super::ledger::Ledger;
+use crate::jet::Replicate;
+use crate::problem::setting::Choice;
+use crate::setup::Setup;
+
+/// How many shots break what: all that verdicts are given on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// Shots of the jet.
+    pub shots: usize,
+    /// Whether all of them are the same.
+    pub is_exact: bool,
+    /// First hits on target.
+    pub hits: usize,
+    /// Those off the wanted normal impulse by more than the tolerance.
+    pub off_target: usize,
+    /// Those over the tangential limit.
+    pub over_limit: usize,
+    /// For each surface of the scene, shots with an impact over what it may take.
+    pub over: Vec<usize>,
+}
+
+impl Counts {
+    /// What was counted in both sets of shots.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        let over = self.over.iter().zip(&other.over);
+        Self {
+            shots: self.shots + other.shots,
+            is_exact: self.is_exact,
+            hits: self.hits + other.hits,
+            off_target: self.off_target + other.off_target,
+            over_limit: self.over_limit + other.over_limit,
+            over: over.map(|(a, b)| a + b).collect(),
+        }
+    }
+
+    /// Of no shots.
+    pub fn none(setup: &Setup) -> Self {
+        Self {
+            shots: 0,
+            is_exact: setup.problem.has_one_ray(),
+            hits: 0,
+            off_target: 0,
+            over_limit: 0,
+            over: vec![0; setup.surfaces.len()],
+        }
+    }
+
+    /// Fires sets of fresh shots and measures nothing else.
+    pub fn on(setup: &Setup, choice: &Choice, sets: &[Replicate]) -> Self {
+        let of_set =
+            |set: &Replicate| Self::of_ledger(setup, choice, &Ledger::of(setup, choice, set));
+        let each: Vec<Self> = sets.par_iter().map(of_set).collect();
+        each.iter()
+            .fold(Self::none(setup), |all, one| all.plus(one))
+    }
+
+    fn of_ledger(setup: &Setup, choice: &Choice, ledger: &Ledger) -> Self {
+        let goals = &setup.problem.goals;
+        let hits = &ledger.tally.hits;
+        Self {
+            shots: ledger.tally.shots,
+            is_exact: setup.problem.has_one_ray(),
+            hits: hits.len(),
+            off_target: hits.off_target(goals, choice.speed),
+            over_limit: hits.over_limit(goals, choice.speed),
+            over: ledger.surfaces.iter().map(|sums| sums.over).collect(),
+        }
+    }
+
+    /// What was counted in an evaluation.
+    pub fn of(evaluation: &Evaluation) -> Self {
+        let target = &evaluation.target;
+        let receipts = evaluation.surfaces.iter();
+        Self {
+            shots: evaluation.shots,
+            is_exact: evaluation.is_exact,
+            hits: target.hits,
+            off_target: target.off_target,
+            over_limit: target.over_limit,
+            over: receipts.map(|receipt| receipt.over).collect(),
+        }
+    }
+}
