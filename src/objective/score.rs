@@ -195,7 +195,7 @@ impl<R: Real> Witness<R> for Score<R> {
 
 /// The largest of the first `count` numbers, which are not negative.
 #[inline(always)]
-fn largest<R: Real>(values: &Lane<R>, count: usize) -> f64 {
+pub(super) fn largest<R: Real>(values: &Lane<R>, count: usize) -> f64 {
     let mut largest = R::ZERO;
     for &value in &values[..count] {
         largest = if value > largest { value } else { largest };

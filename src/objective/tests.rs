@@ -1,7 +1,10 @@
 //! Terms worked out by hand.
 
+use super::score::largest;
 use super::*;
 use crate::problem::goal::{Miss, NormalImpulse, TangentialImpulse};
+use crate::problem::setting::Range;
+use crate::scene::lanes::LANES;
 
 /// Whose rebounds have no goal of their own: their weight is in their sum.
 const GOALS: Goals = Goals {
@@ -88,4 +91,104 @@ fn one_more_of_the_worst_adds_its_part_over_all_shots() {
         ..Terms::default()
     };
     assert_eq!(OTHER.one_more_of_the_worst(&GOALS), other);
+}
+
+/// Three hits, the second one for half a shot.
+fn hits() -> Hits {
+    Hits {
+        normal: vec![0.5, 0.25, 0.375],
+        tangential: vec![0.125, 0.5, 0.25],
+        weight: vec![1.0, 0.5, 1.0],
+    }
+}
+
+#[test]
+fn hits_off_the_wanted_impulse_and_over_the_limit_are_counted() {
+    // At 2 m/s normal impulses are 1, 0.5 and 0.75 where 1 is wanted, and tangential ones 0.25, 1 and 0.5.
+    assert_eq!(hits().off_target(&GOALS, 2.0), 2);
+    assert_eq!(hits().over_limit(&GOALS, 2.0), 0);
+    assert_eq!(hits().over_limit(&GOALS, 2.5), 1);
+    assert_eq!(hits().over_limit(&GOALS, 5.0), 2);
+    let only = |tolerance| Goals {
+        normal_impulse: NormalImpulse {
+            tolerance,
+            ..GOALS.normal_impulse
+        },
+        tangential_impulse: None,
+        ..GOALS
+    };
+    assert_eq!(hits().off_target(&only(0.25), 2.0), 1);
+    assert_eq!(hits().off_target(&only(0.5), 2.0), 0);
+    assert_eq!(hits().over_limit(&only(0.25), 100.0), 0);
+    assert_eq!(hits().most_tangential(), 0.5);
+    assert_eq!(Hits::default().most_tangential(), 0.0);
+}
+
+#[test]
+fn tallies_add_up_and_sums_go_with_the_square_of_the_speed() {
+    let tally = Tally {
+        shots: 4,
+        weight: 3.5,
+        missed: 1.0,
+        hits: hits(),
+        rebound: 6.0,
+        worst_miss: 1.0,
+        worst_rebound: 5.0,
+        rays: 9,
+    };
+    let other = Tally {
+        shots: 3,
+        rays: 4,
+        worst_rebound: 7.0,
+        ..tally.clone()
+    };
+    let sums = tally.sums(&GOALS, 4.0);
+    let by_hand = Sums {
+        weight: 3.5,
+        missed: 1.0,
+        // Impulses of 2, 1 and 1.5 where 1 is wanted; 0.5, 2 and 1 where 1 is allowed.
+        normal: 1.0 + 0.5 * 0.0 + 0.25,
+        tangential: 0.5 * 1.0,
+        rebound: 96.0,
+        worst_miss: 1.0,
+        worst_rebound: 80.0,
+    };
+    assert_eq!(sums, by_hand);
+    let both = Tally::join(vec![tally.clone(), other]);
+    assert_eq!((both.shots, both.rays, both.hits.len()), (7, 13, 6));
+    assert_eq!(both.worst_rebound, 7.0);
+    let twice = Sums {
+        worst_rebound: 7.0 * 16.0,
+        ..sums.plus(&sums)
+    };
+    assert_eq!(both.sums(&GOALS, 4.0), twice);
+}
+
+#[test]
+fn the_best_speed_is_where_j_is_least() {
+    let tally = Tally {
+        shots: 4,
+        weight: 3.5,
+        missed: 1.0,
+        hits: hits(),
+        rebound: 0.25,
+        ..Tally::default()
+    };
+    let objective = |speed: f64| tally.terms(&GOALS, speed).total();
+    for (min, max) in [(0.5, 20.0), (0.5, 1.0), (4.0, 20.0), (2.0, 2.0)] {
+        let best = tally.best_speed(&GOALS, Range { min, max });
+        let steps = (0..=4000).map(|step| min + (max - min) * f64::from(step) / 4000.0);
+        let least = steps.map(objective).fold(f64::INFINITY, f64::min);
+        assert!((min..=max).contains(&best), "{best}");
+        assert!(objective(best) <= least * (1.0 + 1e-12), "{best}");
+    }
+}
+
+#[test]
+fn the_largest_of_a_row_is_sought_as_far_as_it_is_filled() {
+    let mut row = [0.0; LANES];
+    row[..4].copy_from_slice(&[0.5, 3.0, 2.0, 7.0]);
+    assert_eq!(largest(&row, 3), 3.0);
+    assert_eq!(largest(&row, 4), 7.0);
+    assert_eq!(largest(&row, 0), 0.0);
 }
