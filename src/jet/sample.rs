@@ -269,11 +269,9 @@ fn weighted(
 ) -> Deviate {
     let mut point = Point::new(problem.seed, stream, index, on_rim);
     point.keeps_account = rim_share > 0.0;
-    let deviate = deviate(problem, &mut point);
-    Deviate {
-        weight: 1.0 / (1.0 - rim_share + rim_share * point.rim_density),
-        ..deviate
-    }
+    let mut deviate = deviate(problem, &mut point);
+    deviate.weight = 1.0 / (1.0 - rim_share + rim_share * point.rim_density);
+    deviate
 }
 
 fn deviate(problem: &Problem, point: &mut Point) -> Deviate {

@@ -23,13 +23,14 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
     objective.is_none_or(|objective| objective <= least * (1.0 + IN_REACH))
 }
 
-/// The searches that could still change the answer: among the contacts within reach of the best,
-/// those whose J on fresh shots is above what is claimed for the shots of the search by more than a
+/// The searches that could still change the answer: among the contacts that could win, those whose J
+/// on fresh shots is above what is claimed for the shots of the search by more than a
 /// part of the accuracy asked for, and by more than its error where that cannot be told any better.
 ///
 /// The least J on any set of shots is on average below the least true J, and the true J of the
 /// settings found is above it. So the gap between the two bounds how far these settings are from
-/// the best ones.
+/// the best ones; and a contact cannot win where even what is claimed, less its error, is above what another
+/// one was found to reach.
 ///
 /// Where the error is too large for that gap to say much, the search goes on as well, until it has
 /// seen as many shots as stand behind the figures. What is left of J where every goal is reached is
@@ -41,25 +42,22 @@ pub(super) fn unsettled(
     shots: usize,
     fresh_shots: usize,
 ) -> Vec<usize> {
-    let fresh = |answer: &Answer| {
-        Some((
-            answer.evaluation.as_ref()?.terms.total(),
-            answer.standard_error(),
-        ))
-    };
+    let found = |answer: &Answer| Some(answer.evaluation.as_ref()?.terms.total());
     let least = answers
         .iter()
-        .filter_map(|answer| Some(fresh(answer)?.0))
+        .filter_map(found)
         .fold(f64::INFINITY, f64::min);
     let rounding = rounding_of_objective(&problem.goals);
     let is_unsettled = |claim: &Claim, answer: &Answer| {
-        let ((_, claimed), (found, error)) = claim.zip(fresh(answer))?;
-        let in_reach = found - CONFIDENCE * error <= least * (1.0 + IN_REACH);
-        let gap = found - claimed;
+        let (_, claimed) = (*claim)?;
+        let found = found(answer)?;
         let wanted = (problem.accuracy * found).max(rounding);
+        let error = answer.standard_error();
+        let lowest = claimed - CONFIDENCE * answer.standard_error_on(shots);
+        let could_win = found <= least || lowest <= least - TOLERABLE * problem.accuracy * least;
         let is_vague = error > VAGUE * wanted && shots < fresh_shots;
         let noise = if shots < fresh_shots { 0.0 } else { error };
-        Some(in_reach && (is_vague || gap > TOLERABLE * wanted + noise))
+        Some(could_win && (is_vague || found - claimed > TOLERABLE * wanted + noise))
     };
     let pairs = claims.iter().zip(answers).enumerate();
     pairs

@@ -36,6 +36,15 @@ impl Answer {
             .map_or(0.0, |evaluation| evaluation.standard_error)
     }
 
+    /// The standard error that J would have on so many shots, if these are fewer.
+    pub(super) fn standard_error_on(&self, shots: usize) -> f64 {
+        self.evaluation.as_ref().map_or(0.0, |evaluation| {
+            let seen = evaluation.shots + evaluation.rim_shots;
+            let times = (seen as f64 / shots as f64).max(1.0);
+            evaluation.standard_error * times.sqrt()
+        })
+    }
+
     /// Whether the nozzle fits and every verdict passes.
     pub fn passes(&self) -> bool {
         self.violation <= 0.0

@@ -78,9 +78,11 @@ pub fn spread_choices(setup: &Setup, contact: usize, count: usize) -> Vec<Choice
 pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let effort = Effort::default();
     let mut models = Models::new(setup);
-    let (mut searches, mut shots) = descend(&mut models, control, &effort);
-    let fresh = Replicates::new(&models.asked.problem, purpose::ANSWERS, control.fresh_shots);
     let asked = models.asked.clone();
+    let ((mut searches, mut shots), fresh) = rayon::join(
+        || descend(&mut models, control, &effort),
+        || Replicates::new(&asked.problem, purpose::ANSWERS, control.fresh_shots),
+    );
     let answer = |search: &Search| Answer::of(&asked, search.best(), &fresh, &effort);
     let (mut claims, _) = agree(&mut models, &mut searches, shots, control, &effort);
     let mut answers: Vec<Answer> = searches.par_iter().map(answer).collect();
@@ -195,9 +197,17 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
             refine_in_turn(&mut searches, &open, &judge, stage, accuracy);
         }
         tell(control, effort, &searches);
-        if index == 0 && !control.is_stopped() {
+        if control.is_stopped() {
+            continue;
+        }
+        if index == 0 {
             models.climb(&mut searches, effort, control);
             samples = draw(&models.searched);
+        } else if stage.shots < most_shots {
+            let claims = models.claims(&searches, stage.shots);
+            if models.put_back(&mut searches, &claims, effort, control) {
+                samples = draw(&models.searched);
+            }
         }
     }
     (searches, most_shots)
