@@ -317,3 +317,36 @@ fn deviates_change_restitution_and_friction_of_a_contact() {
     assert_eq!(met.static_friction, 0.3);
     assert_eq!(met.dynamic_friction, 0.24);
 }
+
+#[test]
+fn friction_that_scatters() {
+    let setup = pot("", "tolerance: { restitution: 0.1, friction: 30 % }");
+    let samples = Samples::new(&setup.problem, Stream::Search, 100);
+    for choice in poses(&setup, 10) {
+        same_paths(&setup, &choice, &samples.deviates);
+    }
+}
+
+/// In a cage of lossless deflectors nothing else would ever end a path.
+#[test]
+fn deflections_end_a_path_when_they_are_very_many() {
+    let cage = "
+  cage:
+    bore: { diameter: 300 mm, length: 300 mm, ends: closed }
+    place: { at: [0, 0, -150] }
+";
+    let mut setup = pot(cage, "");
+    for limits in &mut setup.surfaces {
+        limits.deflector = true;
+        limits.contact = Some(Contact::new(0.0, 0.0, 1.0).expect("a legal contact"));
+    }
+    let samples = Samples::new(&setup.problem, Stream::Search, 20);
+    for choice in poses(&setup, 5) {
+        same_paths(&setup, &choice, &samples.deviates);
+        let tracer = Tracer::new(&setup, &choice, choice.speed);
+        for deviate in &samples.deviates {
+            let end = tracer.follow(deviate, |_| ());
+            assert_eq!(end, (End::Limit, MOST_DEFLECTIONS as usize));
+        }
+    }
+}
