@@ -263,6 +263,11 @@ tolerance: { incidence: 2 deg, azimuth: 3 deg, standoff: 1 mm, aim_along: 0.5 mm
 
 #[test]
 fn rough_surfaces() {
+    let of_one_contact = pot("", "surfaces: { pot.wall: { roughness: 15 deg } }");
+    let samples = Samples::new(&of_one_contact.problem, Stream::Search, 100);
+    for choice in poses(&of_one_contact, 10) {
+        same_paths(&of_one_contact, &choice, &samples.deviates);
+    }
     let rough = "
 surfaces:
   pot.far: { roughness: 3 deg }
