@@ -95,7 +95,8 @@ pub(super) fn direction(scope: &Scope<'_>, triple: &Triple) -> Option<Vector3<f6
     let vector = Vector3::from(numbers(scope, triple)?);
     let unit = vector
         .try_normalize(f64::MIN_POSITIVE)
-        .filter(|unit| unit.iter().all(|c| c.is_finite()) && unit.norm() > 0.5);
+        // The square of a very long or very short vector is no number to divide by.
+        .filter(|unit| (unit.norm() - 1.0).abs() < 1e-9);
     if unit.is_none() {
         scope.report(
             scope
