@@ -7,7 +7,9 @@ use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use peenpose::impact::{Contact, Law, Restitution};
 use peenpose::problem::equipment::{Body, Jet, Nozzle, PathLimits, Role, Shot, Spread};
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
+use peenpose::problem::model::{Effect, Model};
 use peenpose::problem::part::{Ends, Keyway, Part, Place, Shape, Target};
+use peenpose::problem::rule::Rule;
 use peenpose::problem::setting::{Range, Tolerance};
 use peenpose::problem::{self, Problem, Reading};
 use proptest::prelude::*;
@@ -446,6 +448,59 @@ fn every_other_key_is_read() {
 }
 
 #[test]
+fn a_root_may_reach_up_to_the_round_of_the_bore() {
+    // The groove leaves the bore at sqrt(15^2 - 9^2) = 12 mm; its floor is at 15 mm + 3.3 mm.
+    let groove = "width: 18 mm, depth: 3.3 mm, root_radius: 6.3 mm";
+    let text = KEYWAY.replace("width: 8 mm, depth: 3.3 mm", groove);
+    let problem = sound(&text);
+    assert!(matches!(
+        problem.parts[0].shape,
+        Shape::Keyway(Keyway {
+            root_radius: 0.0063,
+            ..
+        })
+    ));
+}
+
+#[test]
+fn a_root_may_be_half_as_wide_as_the_groove() {
+    let groove = "width: 8 mm, depth: 6 mm, root_radius: 4 mm";
+    sound(&KEYWAY.replace("width: 8 mm, depth: 3.3 mm", groove));
+}
+
+#[test]
+fn a_range_may_be_a_single_value() {
+    let text = KEYWAY.replace("speed: [5 m/s, 40 m/s]", "speed: [10 m/s, 10 m/s]");
+    assert_eq!(sound(&text).settings.speed, Range::held(10.0));
+}
+
+#[test]
+fn the_path_of_a_mesh_may_lead_up_within_the_folder() {
+    sound(&EVERYTHING_ELSE.replace("parts/mask.obj", "parts/../parts/mask.obj"));
+}
+
+#[test]
+fn a_model_is_chosen_or_searched() {
+    let model = |text: &str| sound(&format!("{KEYWAY}model: {text}\n")).model;
+    assert_eq!(model("auto"), Model::Auto);
+    assert_eq!(model("full"), Model::Full);
+    assert_eq!(
+        model("[spin, rebounds]"),
+        Model::Only(vec![Effect::Spin, Effect::Rebounds])
+    );
+}
+
+#[test]
+fn an_empty_text_is_not_taken_for_a_bad_number() {
+    for (radius, rule) in [("''", Rule::EmptyText), ("'wide'", Rule::NotAQuantity)] {
+        let text = KEYWAY.replace("radius: 0.5 mm", &format!("radius: {radius}"));
+        let faults = reading(&text).faults;
+        let found: Vec<_> = faults.iter().map(|it| (it.key.as_str(), it.rule)).collect();
+        assert_eq!(found, [("shot.radius", rule)]);
+    }
+}
+
+#[test]
 fn line_ends_and_a_byte_order_mark_change_nothing() {
     let plain = format!("{:?}", sound(KEYWAY));
     let windows = format!("\u{feff}{}", KEYWAY.replace('\n', "\r\n"));
@@ -521,7 +576,11 @@ fn unreadable_files_are_faults() {
         missing.to_string(),
         "cannot read problems/no such.yaml: there is no such file"
     );
-    assert!(problem::read(Path::new("problems")).is_err());
+    let folder = problem::read(Path::new("problems")).unwrap_err();
+    assert_eq!(
+        folder.to_string(),
+        "cannot read problems: it is a folder, not a file"
+    );
     let huge = "#".repeat(1_000_001);
     let fault = problem::read_text(&huge, Path::new("huge.yaml")).unwrap_err();
     assert_eq!(
@@ -529,6 +588,10 @@ fn unreadable_files_are_faults() {
         "huge.yaml is too large for a problem file; \
          expected at most 1 MB; meshes belong into files of their own"
     );
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), &huge).unwrap();
+    let fault = problem::read(file.path()).unwrap_err();
+    assert_eq!(fault.rule, Rule::FileTooLarge);
 }
 
 #[test]

@@ -11,6 +11,7 @@ fn every_unit_leads_to_si() {
         (Dimension::Length, "0.5mm", 0.0005),
         (Dimension::Length, "1e-3 mm", 1e-6),
         (Dimension::Length, "1e-3mm", 1e-6),
+        (Dimension::Length, "1e-9999999999 mm", 0.0),
         (Dimension::Length, "+.5 cm", 0.005),
         (Dimension::Length, "-5. m", -5.0),
         (Dimension::Length, "1 in", 0.0254),
@@ -43,6 +44,8 @@ fn every_unit_leads_to_si() {
         (Dimension::Pressure, "250 kPa", 250e3),
         (Dimension::Pressure, "0.25 MPa", 250e3),
         (Dimension::Pressure, "3 Pa", 3.0),
+        // A pound-force, 4.448 221 615 260 5 N, on 645.16 mm2.
+        (Dimension::Pressure, "1 psi", 6_894.757_293_168_361),
         (Dimension::Fraction, "5 %", 0.05),
         (Dimension::Fraction, "0.1%", 0.001),
     ];
@@ -73,6 +76,11 @@ fn faults_say_what_to_write() {
             Dimension::Fraction,
             "5",
             "`5` has no unit; expected a percentage such as `5 %`; did you mean `5 %`?",
+        ),
+        (
+            Dimension::Fraction,
+            "1",
+            "`1` has no unit; expected a percentage such as `5 %`; did you mean `1 %`?",
         ),
         (
             Dimension::Angle,
@@ -122,6 +130,17 @@ fn faults_say_what_to_write() {
         let fault = parse(dimension, text).unwrap_err();
         assert_eq!(fault.to_string(), message, "{text}");
     }
+}
+
+#[test]
+fn angles_come_back_as_they_were_written() {
+    assert_eq!(degrees(std::f64::consts::PI), 180.0);
+    for written in [0.0, 0.1, 60.0, -33.3, 359.999_999_999_9] {
+        let radians = parse(Dimension::Angle, &format!("{written} deg")).unwrap();
+        assert_eq!(degrees(radians), written);
+    }
+    assert_eq!(degrees(1.234e-11_f64.to_radians()), 0.0);
+    assert_eq!(degrees(-6e-11_f64.to_radians()), -1e-10);
 }
 
 #[test]
