@@ -196,3 +196,28 @@ pub struct PathLimits {
     /// Whether a shot takes its spin from one impact to the next.
     pub spin: bool,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tuned_friction_keeps_its_ratio_and_held_friction_its_values() {
+        let contact = Contact::new(0.1, 0.05, 0.25).expect("it is sound");
+        let mut choice = ContactChoice {
+            name: "any".to_owned(),
+            contact,
+            static_friction: Range { min: 0.1, max: 0.4 },
+            dynamic_ratio: Some(0.5),
+            library: None,
+        };
+        let tuned = choice.at(0.25);
+        assert_eq!(
+            (tuned.static_friction, tuned.dynamic_friction),
+            (0.25, 0.125)
+        );
+        assert_eq!(tuned.restitution, contact.restitution);
+        choice.dynamic_ratio = None;
+        assert_eq!(choice.at(0.25), contact);
+    }
+}

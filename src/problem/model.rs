@@ -186,3 +186,139 @@ impl Problem {
         self.tolerance == Tolerance::default() && !scatters.iter().any(|effect| effect.is_in(self))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::impact::Contact;
+    use crate::problem::equipment::{Role, SurfaceRule};
+
+    fn keyway() -> Problem {
+        let text = include_str!("../../problems/keyway.yaml");
+        let reading = crate::problem::read_text(text, Path::new("keyway.yaml"));
+        let reading = reading.expect("it is short enough");
+        reading.problem.expect("it is sound")
+    }
+
+    /// The keyway with what it lacks: sizes that scatter, restitution that falls, a rough wall.
+    fn with_everything() -> Problem {
+        let mut problem = keyway();
+        problem.shot.size_spread = 0.05;
+        problem.contacts[1].contact.restitution = FALLING;
+        problem.surfaces = vec![SurfaceRule {
+            surface: "hub.bore".to_owned(),
+            allow: None,
+            share: None,
+            weight: None,
+            contact: None,
+            library: None,
+            roughness: 0.1,
+            role: Role::Part,
+        }];
+        problem
+    }
+
+    const FALLING: Restitution = Restitution::Falling {
+        reference: 0.5,
+        speed: 10.0,
+        exponent: 0.25,
+    };
+
+    #[test]
+    fn a_problem_has_the_effects_that_its_numbers_give() {
+        use Effect::*;
+
+        let mut problem = keyway();
+        let usual = [ShotSize, Rebounds, LaterRebounds, Spin];
+        assert_eq!(
+            problem.effects(),
+            [&usual[..], &[ExitWidth, Divergence, SpeedScatter]].concat()
+        );
+        assert_eq!(with_everything().effects(), Effect::ALL);
+
+        problem.jet.exit_diameter = 0.0;
+        problem.jet.divergence = 0.0;
+        problem.jet.speed_spread = 0.0;
+        assert_eq!(problem.effects(), usual);
+        // The second impact is a rebound, and only the third a later one.
+        problem.paths.impacts = 2;
+        assert_eq!(problem.effects(), [ShotSize, Rebounds, Spin]);
+        problem.paths.impacts = 1;
+        assert_eq!(problem.effects(), [ShotSize]);
+    }
+
+    #[test]
+    fn an_effect_that_is_taken_out_takes_no_other_with_it() {
+        for effect in Effect::ALL {
+            let mut problem = with_everything();
+            effect.remove_from(&mut problem, 5.0);
+            let left = problem.effects();
+            let kept = |other: &Effect| match effect {
+                // Without rebounds there is nothing to spin for.
+                Effect::Rebounds => !matches!(
+                    other,
+                    Effect::Rebounds | Effect::LaterRebounds | Effect::Spin
+                ),
+                effect => *other != effect,
+            };
+            let expected: Vec<Effect> = Effect::ALL.into_iter().filter(kept).collect();
+            assert_eq!(left, expected, "{effect:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_taken_out_leaves_the_rest_as_it_was() {
+        let mut problem = with_everything();
+        let rule = problem.surfaces[0].clone();
+        let own = problem.contacts[0].contact;
+        problem.surfaces.push(SurfaceRule {
+            contact: Some(Contact {
+                restitution: FALLING,
+                ..own
+            }),
+            ..rule
+        });
+        Effect::LaterRebounds.remove_from(&mut problem, 5.0);
+        assert_eq!(problem.paths.impacts, 2);
+        problem.paths.impacts = 1;
+        Effect::LaterRebounds.remove_from(&mut problem, 5.0);
+        assert_eq!(problem.paths.impacts, 1);
+
+        // 0.5 (5 / 10)^-0.25
+        let held = 0.594_603_557_501_360_5;
+        Effect::FallingRestitution.remove_from(&mut problem, 5.0);
+        let of_contacts = problem.contacts.iter().map(|choice| choice.contact);
+        let of_contacts: Vec<f64> = of_contacts.map(|it| it.restitution.at(99.0)).collect();
+        assert_eq!(of_contacts, [0.25, held, 0.25]);
+        let own = problem.surfaces[1].contact.expect("it was given");
+        assert_eq!(own.restitution.at(99.0), held);
+    }
+
+    #[test]
+    fn one_ray_is_enough_where_nothing_scatters_or_is_tolerated() {
+        let mut single = keyway();
+        assert!(!single.has_one_ray());
+        single.tolerance = Tolerance::default();
+        assert!(!single.has_one_ray());
+        single.jet.exit_diameter = 0.0;
+        single.jet.divergence = 0.0;
+        single.jet.speed_spread = 0.0;
+        assert!(single.has_one_ray());
+
+        let scatters: [fn(&mut Problem); 6] = [
+            |problem| problem.jet.exit_diameter = 1e-3,
+            |problem| problem.jet.divergence = 0.1,
+            |problem| problem.jet.speed_spread = 0.1,
+            |problem| problem.shot.size_spread = 0.1,
+            |problem| problem.surfaces = with_everything().surfaces,
+            |problem| problem.tolerance.standoff = 1e-3,
+        ];
+        for (index, scatter) in scatters.into_iter().enumerate() {
+            let mut problem = single.clone();
+            scatter(&mut problem);
+            assert!(!problem.has_one_ray(), "{index}");
+        }
+    }
+}

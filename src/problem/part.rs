@@ -189,3 +189,27 @@ impl Ends {
         near.into_iter().chain(far).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_groove_has_roots_where_they_are_round() {
+        let names = |root_radius: f64| {
+            let shape = Shape::Keyway(Keyway {
+                bore: 30e-3,
+                width: 8e-3,
+                depth: 3.3e-3,
+                length: 40e-3,
+                root_radius,
+            });
+            shape.surface_names().join(" ")
+        };
+        assert_eq!(names(0.0), "floor wall_neg wall_pos bore");
+        assert_eq!(
+            names(1e-3),
+            "floor wall_neg wall_pos bore root_neg root_pos"
+        );
+    }
+}

@@ -160,3 +160,22 @@ fn not_utf8(content: &[u8], valid: usize) -> Fault {
     });
     fault
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_byte_that_is_not_text_is_shown_in_its_place() {
+        let content = "a: 1\nbö: ".as_bytes();
+        let fault = not_utf8(&[content, b"\xff\n"].concat(), content.len());
+        // The byte becomes a replacement character of three bytes.
+        let expected = Span {
+            line: 2,
+            column: 5,
+            start: 10,
+            end: 13,
+        };
+        assert_eq!(fault.at, Some(expected));
+    }
+}

@@ -113,3 +113,29 @@ pub fn one_line(source: &Source, fault: &Fault) -> String {
     // Names out of the file must not move the cursor of a terminal.
     line.replace(char::is_control, "\u{fffd}")
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::problem::rule::Rule;
+
+    #[test]
+    fn of_very_many_faults_the_rest_is_counted() {
+        let shown = |count: usize| {
+            let reading = crate::problem::read_text("format: 2", Path::new("any.yaml"));
+            let source = reading.expect("it is short enough").source;
+            let fault = Fault::at_key(Rule::UnknownFormat, "format", "wrong");
+            render(&source, &vec![fault; count], false)
+        };
+        for count in [1, MOST_SHOWN] {
+            let text = shown(count);
+            assert_eq!(text.matches("format: wrong").count(), count);
+            assert!(!text.contains("more faults"), "{count}");
+        }
+        let text = shown(MOST_SHOWN + 7);
+        assert_eq!(text.matches("format: wrong").count(), MOST_SHOWN);
+        assert!(text.ends_with("... and 7 more faults\n"));
+    }
+}

@@ -231,3 +231,34 @@ fn span(text: &str, location: Location) -> Span {
         end: within(end),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the value of the only key of `text` covers.
+    fn extent(text: &str) -> &str {
+        let root = parse(text).unwrap();
+        let Value::Map(entries) = root.value else {
+            panic!("{text} is a map");
+        };
+        let span = entries[0].node.span;
+        &text[span.start..span.end]
+    }
+
+    #[test]
+    fn groups_end_with_their_bracket_or_their_last_entry() {
+        for (text, written) in [
+            ("a: [1, 2]", "[1, 2]"),
+            ("a: [1, 2 ,\n  ]\n", "[1, 2 ,\n  ]"),
+            ("a: []", "[]"),
+            ("a: {b: 1, c: [2] } # x", "{b: 1, c: [2] }"),
+            ("a:\n  - 1\n  - 2 # x\n", "- 1\n  - 2"),
+            ("a:\n  b: 1\n  c: [2]\n", "b: 1\n  c: [2]"),
+            // Behind a comment the bracket is not looked for.
+            ("a: [1, 2 # x\n  ]", "[1, 2"),
+        ] {
+            assert_eq!(extent(text), written, "{text}");
+        }
+    }
+}

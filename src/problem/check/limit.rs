@@ -95,3 +95,65 @@ impl Limit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::{Dimension, parse};
+
+    #[test]
+    fn angles_reach_the_ends_that_are_announced() {
+        for (limit, least, most) in [
+            (Limit::INCIDENCE_OR_ZERO, 0.0, 90.0),
+            (Limit::ROUGHNESS, 0.0, 30.0),
+            (Limit::ANGLE_OR_ZERO, 0.0, 360.0),
+            (Limit::TURN, -360.0, 360.0),
+        ] {
+            let complaint = |degrees: f64| {
+                let angle = parse(Dimension::Angle, &format!("{degrees} deg")).unwrap();
+                limit.complaint(angle)
+            };
+            let expected = format!("from {least} deg to {most} deg");
+            assert!(limit.expected.ends_with(&expected), "{}", limit.expected);
+            assert_eq!(complaint(least), None, "{expected}");
+            assert_eq!(complaint(most), None, "{expected}");
+            // A rounding error is forgiven, a millionth of a degree is not.
+            assert_eq!(limit.complaint(most.to_radians().next_up()), None);
+            assert!(complaint(most + 1e-6).is_some(), "{expected}");
+            assert!(complaint(least - 1e-6).is_some(), "{expected}");
+        }
+        let upright = 90_f64.to_radians();
+        assert_eq!(Limit::INCIDENCE.complaint(upright.next_up()), None);
+        let beyond = Limit::INCIDENCE.complaint(upright + 1e-9);
+        assert_eq!(beyond, Some((Rule::TooLarge, "is too large")));
+        let turned_back = (-360_f64).to_radians().next_down();
+        assert_eq!(Limit::TURN.complaint(turned_back), None);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_number_depends_on_its_side() {
+        for (limit, value, rule) in [
+            (Limit::LENGTH, 0.0, Rule::NotPositive),
+            (Limit::LENGTH, -1.0, Rule::NotPositive),
+            (Limit::LENGTH, 0.9e-9, Rule::TooSmall),
+            (Limit::LENGTH, 1000.1, Rule::TooLarge),
+            (Limit::LENGTH_OR_ZERO, -1e-9, Rule::Negative),
+            (Limit::SHIFT, -1000.1, Rule::TooSmall),
+            (Limit::SIGNED_FRACTION, -1.1, Rule::TooSmall),
+            (Limit::BELOW_ALL, 1.0, Rule::TooLarge),
+        ] {
+            let found = limit.complaint(value).map(|(rule, _)| rule);
+            assert_eq!(found, Some(rule), "{value}: {}", limit.expected);
+        }
+        for (limit, value) in [
+            (Limit::LENGTH, 1e-9),
+            (Limit::LENGTH, 1e3),
+            (Limit::LENGTH_OR_ZERO, 0.0),
+            (Limit::SHIFT, -1e3),
+            (Limit::SIGNED_FRACTION, -1.0),
+            (Limit::BELOW_ALL, 1.0_f64.next_down()),
+        ] {
+            assert_eq!(limit.complaint(value), None, "{value}: {}", limit.expected);
+        }
+    }
+}
