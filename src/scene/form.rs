@@ -5,6 +5,8 @@
 mod cylinder;
 mod edge;
 mod plane;
+#[cfg(test)]
+mod tests;
 mod touch;
 
 use super::profile::Curve;

@@ -404,6 +404,23 @@ mod tests {
     use crate::problem::part::{Place, Shape};
 
     #[test]
+    fn a_scene_is_as_large_as_its_farthest_coordinate() {
+        let block = |min: Point3<f64>, max: Point3<f64>| Part {
+            name: "block".into(),
+            shape: Shape::Box { min, max },
+            place: Place::default(),
+            on_nozzle: false,
+        };
+        let near = block(Point3::origin(), Point3::new(0.1, 0.2, 0.3));
+        let far = block(Point3::new(-0.1, -0.7, 0.1), Point3::new(0.0, 0.0, 0.2));
+        let scene = Scene::build(&[near, far], Walls::Exact).expect("it is sound");
+        assert_eq!(scene.size(), 0.7);
+        // Two for each face of a block.
+        assert_eq!(scene.triangles(), 24);
+        assert!(!scene.moves_with_nozzle());
+    }
+
+    #[test]
     fn a_scene_has_no_more_triangles_than_one_mesh_may_have() {
         let part = Part {
             name: "hub".into(),

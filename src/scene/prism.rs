@@ -1,6 +1,8 @@
 //! Rays against prismatic parts, exact: the walls are planes and cylinders, not facets.
 
 mod many;
+#[cfg(test)]
+mod tests;
 mod touch;
 
 use nalgebra::{Matrix3, Point3, Vector3};

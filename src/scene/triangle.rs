@@ -156,3 +156,123 @@ fn beyond(corners: &[Point3<f64>; 3], weights: [f64; 3], determinant: f64, margi
     let mut sides = shares.iter().zip(opposite);
     sides.any(|(share, edge)| share * twice_area < -margin * edge.norm())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sides of 3, 4 and 5 and an area of 6, at z = 1.
+    const CORNERS: [Point3<f64>; 3] = [
+        Point3::new(0.0, 0.0, 1.0),
+        Point3::new(4.0, 0.0, 1.0),
+        Point3::new(0.0, 3.0, 1.0),
+    ];
+
+    /// The middle of each side, and the direction that leads out of the triangle there.
+    const SIDES: [([f64; 2], [f64; 2]); 3] = [
+        ([2.0, 0.0], [0.0, -1.0]),
+        ([2.0, 1.5], [0.6, 0.8]),
+        ([0.0, 1.5], [-1.0, 0.0]),
+    ];
+
+    fn beside(side: usize, outwards: f64, height: f64) -> Point3<f64> {
+        let ([x, y], [u, v]) = SIDES[side];
+        Point3::new(x + outwards * u, y + outwards * v, 1.0 + height)
+    }
+
+    #[test]
+    fn points_lie_on_a_triangle_within_the_slack() {
+        let [a, b, c] = CORNERS;
+        for corners in [CORNERS, [b, c, a], [c, b, a]] {
+            for side in 0..3 {
+                for (outwards, height, lies) in [
+                    (0.09, 0.0, true),
+                    (0.11, 0.0, false),
+                    (-0.5, 0.09, true),
+                    (-0.5, -0.09, true),
+                    (-0.5, 0.11, false),
+                    (-0.5, -0.11, false),
+                ] {
+                    let point = beside(side, outwards, height);
+                    let found = lies_on(&point, &corners, 0.1);
+                    assert_eq!(found, lies, "{side}, {outwards}, {height}");
+                }
+            }
+        }
+        // Beyond a sharp corner the sides alone would hold it.
+        let sliver = [
+            Point3::new(0.0, 0.0, 0.0),
+            Point3::new(100.0, 0.0, 0.0),
+            Point3::new(0.0, 1.0, 0.0),
+        ];
+        assert!(!lies_on(&Point3::new(101.0, 0.0, 0.0), &sliver, 0.1));
+    }
+
+    /// The weights of a ray straight down at a point, each the doubled area of what it makes with
+    /// a side.
+    fn weights(point: &Point3<f64>, scale: f64) -> Weights {
+        let [x, y] = [point.x, point.y];
+        let (v, w) = (3.0 * x * scale, 4.0 * y * scale);
+        let determinant = 12.0 * scale;
+        Weights {
+            u: determinant - v - w,
+            v,
+            w,
+            determinant,
+            depth: 0.5 * determinant,
+        }
+    }
+
+    #[test]
+    fn weights_tell_whether_a_line_crosses() {
+        // From the front, and from behind.
+        for scale in [1.0, -1.0, 7.0] {
+            for side in 0..3 {
+                let at = |outwards: f64| weights(&beside(side, outwards, 0.0), scale);
+                let found = [-0.5, 0.09, 0.11].map(|it| at(it).crosses(|| CORNERS, 0.1));
+                assert_eq!(found, [true, true, false], "{scale}, {side}");
+                // Heights of the triangle over its sides: 3, 2.4 and 4.
+                let height = [3.0, 2.4, 4.0][side];
+                let millionths = |count: f64| at(count * 1e-6 * height);
+                assert!(millionths(0.9).may_cross(0.0), "{scale}, {side}");
+                assert!(!millionths(1.1).may_cross(0.0), "{scale}, {side}");
+                assert!(
+                    millionths(1.1).may_cross(3e-6 * scale.abs()),
+                    "{scale}, {side}"
+                );
+                assert!(millionths(-0.9).is_near_edge(), "{scale}, {side}");
+                assert!(!millionths(-1.1).is_near_edge(), "{scale}, {side}");
+            }
+            let middle = weights(&Point3::new(1.0, 1.0, 1.0), scale);
+            assert_eq!(middle.front(), scale > 0.0);
+            assert_eq!(middle.distance(), 0.5);
+        }
+        assert!(!weights(&CORNERS[0], 0.0).may_cross(1.0));
+    }
+
+    #[test]
+    fn margins_are_measured_across_the_ray() {
+        let [a, b, c] = CORNERS;
+        let down = Vector3::new(0.0, 0.0, -1.0);
+        for (corners, is_front) in [(CORNERS, true), ([b, c, a], true), ([c, b, a], false)] {
+            for side in 0..3 {
+                let passes = |outwards: f64| {
+                    let ray = Ray {
+                        origin: beside(side, outwards, 8.0),
+                        direction: down,
+                    };
+                    passes_over(&ray, &corners, is_front, 0.1)
+                };
+                let found = [-0.5, 0.09, 0.11].map(passes);
+                assert_eq!(found, [true, true, false], "{side}");
+            }
+        }
+        // A ray that comes down at 30 deg sees 0.2 as 0.1.
+        let direction = Vector3::new(0.0, 0.75_f64.sqrt(), -0.5);
+        let passes = |y: f64| {
+            let origin = Point3::new(2.0, y, 1.0) - direction * 8.0;
+            passes_over(&Ray { origin, direction }, &CORNERS, true, 0.1)
+        };
+        assert!(passes(-0.19) && !passes(-0.21));
+    }
+}

@@ -201,7 +201,7 @@ impl Prism {
 }
 
 /// Between which distances a ray is between two heights.
-fn between(ray: &Ray, low: f64, high: f64) -> Option<[f64; 2]> {
+pub(super) fn between(ray: &Ray, low: f64, high: f64) -> Option<[f64; 2]> {
     let (from, rate) = (ray.origin.z, ray.direction.z);
     if (rate >= 0.0 && from > high) || (rate <= 0.0 && from < low) {
         return None;
