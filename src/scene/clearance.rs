@@ -126,3 +126,39 @@ fn crosses(segment: &Segment, triangle: &Triangle) -> bool {
     let side = |p: Vector, q: Vector| (q - p).cross(point - p).dot(normal) >= 0.0;
     side(triangle.a, triangle.b) && side(triangle.b, triangle.c) && side(triangle.c, triangle.a)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rod_is_as_far_from_a_triangle_as_its_nearest_point() {
+        let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]].map(Vector::from_array);
+        let [a, b, c] = corners;
+        for triangle in [Triangle::new(a, b, c), Triangle::new(c, b, a)] {
+            for (from, to, distance) in [
+                // Through it, upright and slanted, either way.
+                ([1.0, 1.0, -1.0], [1.0, 1.0, 2.0], 0.0),
+                ([0.0, 1.0, -1.0], [3.0, 1.0, 2.0], 0.0),
+                ([3.0, 1.0, 2.0], [0.0, 1.0, -1.0], 0.0),
+                ([1.0, 1.0, -1.0], [1.0, 1.0, 0.0], 0.0),
+                // Over it, and beside it.
+                ([1.0, 1.0, 1.0], [1.0, 1.0, 2.0], 1.0),
+                ([1.0, 1.0, -2.0], [1.0, 1.0, -3.0], 2.0),
+                ([2.6, 2.3, -1.0], [2.6, 2.3, 2.0], 1.0),
+                ([1.0, -2.0, -1.0], [1.0, -2.0, 2.0], 2.0),
+                ([-3.0, 1.0, -1.0], [-3.0, 1.0, 2.0], 3.0),
+                // Through its plane beyond the longest side, whose nearest point is (2, 1.5).
+                ([2.6, 2.3, 1.0], [2.6, 2.3, -4.0], 1.0),
+                // In its plane, and parallel to it.
+                ([1.0, 1.0, 0.0], [9.0, 1.0, 0.0], 0.0),
+                ([1.0, 1.0, 0.5], [9.0, 1.0, 0.5], 0.5),
+                ([5.0, 0.0, 0.0], [9.0, 0.0, 0.0], 1.0),
+            ] {
+                let segment = Segment::new(Vector::from_array(from), Vector::from_array(to));
+                let found = segment_triangle(&segment, &triangle);
+                assert!((found - distance).abs() < 1e-12, "{from:?} {to:?}: {found}");
+            }
+        }
+    }
+}

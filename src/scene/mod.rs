@@ -400,8 +400,30 @@ fn spiral_direction(index: usize, count: usize) -> Vector3<f64> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::problem::part::{Place, Shape};
+
+    #[test]
+    fn directions_on_a_spiral_are_even() {
+        let directions: Vec<_> = (0..256).map(|index| spiral_direction(index, 256)).collect();
+        let mean = directions.iter().sum::<Vector3<f64>>() / 256.0;
+        assert!(mean.norm() < 1e-3, "{mean}");
+        let squares = directions.iter().map(|it| it.component_mul(it));
+        let squares = squares.sum::<Vector3<f64>>() / 256.0;
+        assert!(
+            (squares - Vector3::repeat(1.0 / 3.0)).norm() < 1e-3,
+            "{squares}"
+        );
+        for (index, one) in directions.iter().enumerate() {
+            assert!((one.norm() - 1.0).abs() < 1e-12);
+            // Each has about a 256th of the sphere, a cap of 0.125 rad, to itself.
+            let apart = |other: &Vector3<f64>| one.angle(other);
+            let nearest = directions[..index].iter().map(apart).fold(PI, f64::min);
+            assert!(nearest > 0.15, "{index}: {nearest}");
+        }
+    }
 
     #[test]
     fn a_scene_is_as_large_as_its_farthest_coordinate() {

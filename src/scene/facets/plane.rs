@@ -104,3 +104,81 @@ impl Plane {
             .min(farthest)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [Point3<f64>; 3] = [
+        Point3::new(0.0, 0.0, 1.0),
+        Point3::new(4.0, 0.0, 1.0),
+        Point3::new(0.0, 3.0, 1.0),
+    ];
+
+    fn plane() -> Plane {
+        Plane::new(normal(&CORNERS), &CORNERS)
+    }
+
+    fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
+        Ray {
+            origin: origin.into(),
+            direction: Vector3::from(direction).normalize(),
+        }
+    }
+
+    #[test]
+    fn normals_look_to_the_side_where_corners_run_anticlockwise() {
+        let [a, b, c] = CORNERS;
+        for corners in [[a, b, c], [b, c, a], [c, a, b]] {
+            assert_eq!(normal(&corners), Vector3::z());
+        }
+        for corners in [[c, b, a], [b, a, c], [a, c, b]] {
+            assert_eq!(normal(&corners), -Vector3::z());
+        }
+    }
+
+    #[test]
+    fn heights_are_measured_from_the_front() {
+        let plane = plane();
+        assert_eq!(plane.height(&Point3::new(7.0, -5.0, 3.0)), 2.0);
+        assert_eq!(plane.height(&Point3::new(7.0, -5.0, 0.5)), -0.5);
+        let (over, under) = (Point3::new(1.0, 1.0, 1.25), Point3::new(1.0, 1.0, 0.75));
+        // Only of what is hit at once.
+        assert_eq!(plane.above(0.0, true, &over), 0.25);
+        assert_eq!(plane.above(0.0, false, &under), 0.25);
+        assert_eq!(plane.above(0.0, true, &under), -0.25);
+        assert_eq!(plane.above(0.5, true, &over), 0.0);
+    }
+
+    #[test]
+    fn steep_rays_cross_where_the_plane_is() {
+        let refined = |t: f64, origin: [f64; 3], direction: [f64; 3]| {
+            plane().refined(t, &ray(origin, direction), &CORNERS)
+        };
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        assert!(near(refined(2.1, [1.0, 1.0, 3.0], [0.0, 0.0, -1.0]), 2.0));
+        assert!(near(refined(2.1, [1.0, 1.0, -1.0], [0.0, 0.0, 1.0]), 2.0));
+        // 4 along for 3 down.
+        assert!(near(refined(5.1, [-3.0, 1.0, 4.0], [4.0, 0.0, -3.0]), 5.0));
+        // What lies behind, or nowhere, is no better than what is known.
+        assert_eq!(refined(0.1, [1.0, 1.0, 0.9], [0.0, 0.0, -1.0]), 0.1);
+        assert_eq!(refined(0.0, [1.0, 1.0, 3.0], [0.0, 0.0, -1.0]), 0.0);
+    }
+
+    #[test]
+    fn grazing_rays_cross_over_the_triangle() {
+        // Along y = 1.5 the triangle reaches from x = 0 to x = 2; the ray comes from x = -1.
+        let along = ray([-1.0, 1.5, 1.0], [1.0, 0.0, 0.0]);
+        let over = |t: f64| plane().over_triangle(t, &along, &CORNERS);
+        let found = [-5.0, 0.5, 1.0, 2.0, 3.0, 3.5, 9.0].map(over);
+        assert_eq!(found, [1.0, 1.0, 1.0, 2.0, 3.0, 3.0, 3.0]);
+        let back = ray([5.0, 1.5, 1.0], [-1.0, 0.0, 0.0]);
+        let over = |t: f64| plane().over_triangle(t, &back, &CORNERS);
+        assert_eq!([1.0, 4.0, 9.0].map(over), [3.0, 4.0, 5.0]);
+
+        // So flat that it meets the plane 1 behind the triangle.
+        let flat = ray([-1.0, 1.5, 1.0 + 4e-4], [1.0, 0.0, -1e-4]);
+        let found = plane().refined(3.5, &flat, &CORNERS);
+        assert!((found - 3.0).abs() < 1e-6, "{found}");
+    }
+}

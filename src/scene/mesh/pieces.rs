@@ -47,3 +47,38 @@ fn leader(leaders: &mut [u32], vertex: u32) -> u32 {
     }
     at
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::mesh::Triangle;
+
+    #[test]
+    fn pieces_are_tiny_beside_the_whole() {
+        let found = |size: f64| {
+            // A long strip of two triangles, and a piece of some size at its end.
+            let vertices = [
+                [0.0, 0.0],
+                [100.0, 0.0],
+                [0.0, 1.0],
+                [100.0, 1.0],
+                [50.0, 2.0],
+                [50.0 + size, 2.0],
+                [50.0, 2.0 + size],
+            ];
+            let triangle = |corners: [u32; 3]| Triangle {
+                corners,
+                surface: 0,
+            };
+            let mesh = Mesh {
+                vertices: vertices.map(|[x, y]| Point3::new(x, y, 0.0)).to_vec(),
+                triangles: [[0, 1, 2], [2, 1, 3], [4, 5, 6]].map(triangle).to_vec(),
+                surfaces: vec!["all".to_owned()],
+            };
+            tiny_pieces(&mesh)
+        };
+        // A hundredth of the diagonal is 1; that of the piece is sqrt(2) times its size.
+        assert_eq!(found(0.7), Some((1, Point3::new(50.0, 2.0, 0.0))));
+        assert_eq!(found(0.72), None);
+    }
+}

@@ -55,3 +55,21 @@ fn distance(point: &Point3<f64>, [from, to]: &[Point3<f64>; 2]) -> f64 {
     let nearest = from + edge * share.clamp(0.0, 1.0);
     nalgebra::distance(point, &nearest)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_those_to_the_edge_and_its_ends() {
+        let edge = [Point3::new(1.0, 1.0, 0.0), Point3::new(11.0, 1.0, 0.0)];
+        for (point, expected) in [
+            ([4.0, 5.0, 3.0], 5.0),
+            ([14.0, 5.0, 0.0], 5.0),
+            ([-2.0, 1.0, 4.0], 5.0),
+            ([6.0, 1.0, 0.0], 0.0),
+        ] {
+            assert_eq!(distance(&point.into(), &edge), expected, "{point:?}");
+        }
+    }
+}

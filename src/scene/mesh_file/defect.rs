@@ -321,3 +321,23 @@ impl fmt::Display for Defect {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_there_is_shown_up_to_forty_letters() {
+        let shown = |found: &str| match Defect::unexpected("any", found.as_bytes()) {
+            Defect::Unexpected { found, .. } => found,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(shown(" a b "), "a b");
+        assert_eq!(shown("a\tb"), "a\u{fffd}b");
+        // Letters of up to four bytes.
+        for letter in ["a", "ü", "€", "😀"] {
+            assert_eq!(shown(&letter.repeat(40)), letter.repeat(40));
+        }
+        assert_eq!(shown(&"ü".repeat(41)), "ü".repeat(40) + "...");
+    }
+}

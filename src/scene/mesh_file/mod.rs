@@ -148,3 +148,25 @@ impl Format {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn surfaces_are_as_many_and_their_names_as_long_as_is_bearable() {
+        let many = |count: usize| check_surfaces(&vec!["any".to_owned(); count]);
+        assert!(many(MOST_SURFACES).is_ok());
+        assert!(matches!(
+            many(MOST_SURFACES + 1),
+            Err(Defect::TooManySurfaces { surfaces }) if surfaces == MOST_SURFACES + 1
+        ));
+        // Letters count, not bytes.
+        let long = |letters: usize| check_surfaces(&["any".to_owned(), "ü".repeat(letters)]);
+        assert!(long(LONGEST_NAME).is_ok());
+        assert!(matches!(
+            long(LONGEST_NAME + 1),
+            Err(Defect::NameTooLong { start }) if start == "ü".repeat(40)
+        ));
+    }
+}

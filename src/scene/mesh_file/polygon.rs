@@ -156,4 +156,73 @@ mod tests {
         assert_eq!(count(MOST_LOOKS), Some(199));
         assert_eq!(count(1000), None);
     }
+
+    #[test]
+    fn hollow_faces_are_cut_without_overlaps() {
+        // An L, a U and a comb, anticlockwise, and the area of each.
+        let shapes: [(&[[f64; 2]], f64); 3] = [
+            (
+                &[[0., 0.], [3., 0.], [3., 1.], [1., 1.], [1., 3.], [0., 3.]],
+                5.0,
+            ),
+            (
+                &[
+                    [0., 0.],
+                    [3., 0.],
+                    [3., 3.],
+                    [2., 3.],
+                    [2., 1.],
+                    [1., 1.],
+                    [1., 3.],
+                    [0., 3.],
+                ],
+                7.0,
+            ),
+            (
+                &[
+                    [0., 0.],
+                    [5., 0.],
+                    [5., 4.],
+                    [4., 4.],
+                    [4., 1.],
+                    [3., 1.],
+                    [3., 9.],
+                    [2., 9.],
+                    [2., 1.],
+                    [1., 1.],
+                    [1., 2.],
+                    [0., 2.],
+                ],
+                17.0,
+            ),
+        ];
+        for (corners, area) in shapes {
+            for shift in 0..corners.len() {
+                for mirrored in [false, true] {
+                    let mut corners = corners.to_vec();
+                    corners.rotate_left(shift);
+                    if mirrored {
+                        corners.reverse();
+                    }
+                    let vertices: Vec<_> = corners
+                        .iter()
+                        .map(|[x, y]| Point3::new(*x, 7.0, *y))
+                        .collect();
+                    let face: Vec<u32> = (0..corners.len() as u32).collect();
+                    let mut polygon = Polygon::new(MOST_LOOKS);
+                    let triangles = polygon.triangles(&face, &vertices).expect("short");
+                    assert_eq!(triangles.len(), corners.len() - 2);
+                    // Anticlockwise from x to z looks along -y.
+                    let side = if mirrored { 1.0 } else { -1.0 };
+                    let areas = triangles.iter().map(|corners| {
+                        let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+                        side * (b - a).cross(&(c - a)).y / 2.0
+                    });
+                    let areas: Vec<f64> = areas.collect();
+                    assert!(areas.iter().all(|area| *area > 0.0), "{areas:?}");
+                    assert!((areas.iter().sum::<f64>() - area).abs() < 1e-12);
+                }
+            }
+        }
+    }
 }

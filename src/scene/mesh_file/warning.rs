@@ -212,3 +212,15 @@ fn number(
         Ok(("are", ", one of them"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_are_shown_without_their_roundings() {
+        let shown = |point: [f64; 3]| Coordinates(&point.into()).to_string();
+        assert_eq!(shown([0.1 + 0.2, -0.0, 1.0 / 3.0]), "(0.3, 0, 0.333333333)");
+        assert_eq!(shown([-1e-12, 2e9, -2.5]), "(0, 2000000000, -2.5)");
+    }
+}
