@@ -277,6 +277,8 @@ fn area_and_centre(polygons: impl Iterator<Item = Polygon>) -> (f64, Point3<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::part::{Part, Place, Shape};
+    use crate::scene::Walls;
 
     fn area(polygons: impl IntoIterator<Item = Polygon>) -> f64 {
         area_and_centre(polygons.into_iter()).0
@@ -325,5 +327,39 @@ mod tests {
         assert!((area - 8.5).abs() < 1e-12);
         let expected = Point3::new(22.0 / 8.5, 4.0 / 8.5, 13.0 / 8.5);
         assert!((centre - expected).norm() < 1e-12, "{centre}");
+    }
+
+    #[test]
+    fn a_patch_and_what_lies_round_it_are_the_whole_surface() {
+        let part = Part {
+            name: "block".to_owned(),
+            shape: Shape::Box {
+                min: Point3::origin(),
+                max: Point3::new(4.0, 2.0, 1.0),
+            },
+            place: Place::default(),
+            on_nozzle: false,
+        };
+        let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+        for (within, inside) in [
+            (None, 8.0),
+            (Some(([1.0, 0.5, 0.0], [3.0, 1.0, 2.0])), 1.0),
+            (Some(([2.0, -1.0, 0.0], [9.0, 9.0, 2.0])), 4.0),
+            (Some(([-1.0, -1.0, 0.0], [9.0, 9.0, 2.0])), 8.0),
+        ] {
+            let target = Target {
+                surface: "block.z_max".to_owned(),
+                within: within.map(|(low, high)| (low.into(), high.into())),
+                aim: None,
+                along: None,
+                facing: None,
+            };
+            let patch = Patch::find(&scene, &target).expect("it is there");
+            let (within, beyond) = patch.cut_out(&scene);
+            let area = |triangles: Vec<Triangle>| area(triangles.into_iter().map(Into::into));
+            assert!((patch.area - inside).abs() < 1e-12);
+            assert!((area(within) - inside).abs() < 1e-12, "{target:?}");
+            assert!((area(beyond) - (8.0 - inside)).abs() < 1e-12, "{target:?}");
+        }
     }
 }

@@ -200,12 +200,16 @@ mod tests {
             }
         }
         // Beyond a sharp corner the sides alone would hold it.
-        let sliver = [
-            Point3::new(0.0, 0.0, 0.0),
-            Point3::new(100.0, 0.0, 0.0),
-            Point3::new(0.0, 1.0, 0.0),
-        ];
-        assert!(!lies_on(&Point3::new(101.0, 0.0, 0.0), &sliver, 0.1));
+        let sliver = [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        for turn in 0..3 {
+            let turned = |mut point: [f64; 3]| {
+                point.rotate_right(turn);
+                Point3::from(point)
+            };
+            let corners = sliver.map(turned);
+            assert!(lies_on(&turned([100.05, 0.0, 0.0]), &corners, 0.1));
+            assert!(!lies_on(&turned([101.0, 0.0, 0.0]), &corners, 0.1));
+        }
     }
 
     /// The weights of a ray straight down at a point, each the doubled area of what it makes with

@@ -94,6 +94,19 @@ fn distances_to_a_cylinder_are_those_to_its_arc() {
         assert!(are_near(wall.nearest(point), from_centre(nearest)));
     }
     assert!(are_near(wall.nearest(ARC.centre), [6.0, 2.0]));
+    // The same arc to the upper right, where its ends are in the directions (0, 1) and (24, -7).
+    let turned = Form::Cylinder(Cylinder {
+        towards: [0.6, 0.8],
+        reach: 4.0,
+        ..WHOLE
+    });
+    for (point, nearest) in [
+        ([6.0, 8.0], [3.0, 4.0]),
+        ([-7.0, 3.0], [0.0, 5.0]),
+        ([3.0, -9.0], [4.8, 1.4]),
+    ] {
+        assert!(are_near(turned.nearest(point), nearest), "{point:?}");
+    }
     // More than half a circle: the gap is on the left, between (-3, -4) and (-3, 4).
     let long = Form::Cylinder(Cylinder {
         reach: -3.0,
@@ -380,6 +393,10 @@ fn shots_touch_a_hollow_from_inside() {
         assert!(normal[0] > 0.999);
     }
     assert_eq!(touched(&WHOLE, [4.0, 0.0], right, true), None);
+    // One that flies along the wall where it touches it does not meet it.
+    for x in [4.0 - 0.5 * SLACK, 4.0, 4.0 + 0.5 * SLACK] {
+        assert_eq!(touched(&WHOLE, [x, 0.0], [0.0, 1.0], false), None, "{x}");
+    }
     // An arc is touched where it is; its ends are at (4, -2) and (4, 6), its centre at (1, 2).
     let (distance, _, _) = touched(&ARC, [1.0, 2.0], right, false).expect("ahead");
     assert!(is_near(distance, 4.0));
@@ -459,5 +476,6 @@ fn shots_touch_an_edge_as_a_circle_of_their_radius() {
         assert!(at_once.is_some_and(|it| it.0 == 0.0), "{x}");
         assert_eq!(touched(&edge, [x, 2.0], right, true), None);
         assert_eq!(touched(&edge, [x, 2.0], [-1.0, 0.0], false), None);
+        assert_eq!(touched(&edge, [x, 2.0], [0.0, 1.0], false), None);
     }
 }

@@ -116,6 +116,13 @@ mod tests {
     }
 
     #[test]
+    fn the_two_zeros_are_one_corner() {
+        let mut triangles = hinge(true);
+        triangles[0][1] = Point3::new(-0.0, 0.0, -0.0);
+        assert_eq!(Mesh::joined(triangles).vertices.len(), 4);
+    }
+
+    #[test]
     fn slivers_and_forks_have_no_angle() {
         let mut triangles = hinge(true);
         let (start, end) = (Point3::origin(), Point3::new(1.0, 0.0, 0.0));

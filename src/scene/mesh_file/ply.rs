@@ -339,4 +339,15 @@ mod tests {
         assert!(too_many(MOST_TRIANGLES + 1));
         assert!(too_many(MOST_TRIANGLES + 2));
     }
+
+    #[test]
+    fn vertices_come_before_faces() {
+        let file = "ply\nformat ascii 1.0\nelement face 0\nproperty list int int vertex_indices\n\
+                    element vertex 0\nproperty float x\nproperty float y\nproperty float z\n\
+                    end_header\n";
+        let Err(Defect::NotInHeader { missing }) = mesh(file.as_bytes()) else {
+            panic!("the order is wrong");
+        };
+        assert_eq!(missing, "element `vertex` before the element `face`");
+    }
 }

@@ -68,3 +68,26 @@ fn holds(region: &Region, point: &Point3<f64>, slack: f64) -> bool {
         point[axis] >= region.min[axis] - slack && point[axis] <= region.max[axis] + slack
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_region_holds_a_centre_that_rounding_puts_outside() {
+        // A triangle of 300 by 400, whose centre is at (100, 400 / 3).
+        let found = |outside: f64| {
+            let mut mesh =
+                Mesh::joined([[[0.0; 3], [300.0, 0.0, 0.0], [0.0, 400.0, 0.0]].map(Point3::from)]);
+            let region = Region {
+                name: "lip".to_owned(),
+                min: Point3::new(100.0 + outside, 0.0, 0.0),
+                max: Point3::new(500.0, 500.0, 0.0),
+            };
+            name_triangles(&mut mesh, 1.0, &[region]).is_ok()
+        };
+        // The diagonal is 500.
+        assert!(found(0.0) && found(4e-7));
+        assert!(!found(6e-7));
+    }
+}

@@ -71,39 +71,85 @@ fn caps_are_as_wide_as_the_cross_section() {
 #[test]
 fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
     let open = pipe(false, false);
-    // A shot of radius 1 whose centre flies 0.6 beside the wall is 0.8 before the end when it
+    let touch = |flight: &Ray, leaving: Option<Spot>, limit: f64| {
+        open.first_touch(flight, 0.5, leaving, leaving.is_some(), limit)
+    };
+    // A shot of radius 0.5 whose centre flies 0.3 beside the wall is 0.4 before the end when it
     // touches the rim.
-    for (x, across) in [(5.6, 0.6), (4.4, -0.6)] {
+    for (y, across) in [(5.3, 0.6), (4.7, -0.6)] {
         for (z, direction, along) in [(-10.0, UP, -0.8), (20.0, DOWN, 0.8)] {
-            let flight = ray([0.0, x, z], direction);
-            let found = open.first_touch(&flight, 1.0, None, false, f64::INFINITY);
+            let from = |distance: f64| ray([0.0, y, z + distance * direction[2]], direction);
+            let found = touch(&from(0.0), None, f64::INFINITY);
             let (crossing, normal) = found.expect("the rim");
-            assert!((crossing.distance - 9.2).abs() < 1e-9, "{x}, {z}");
+            assert!((crossing.distance - 9.6).abs() < 1e-9, "{y}, {z}");
             assert!(crossing.front && crossing.surface == 7);
             let expected = Vector3::new(0.0, across, along);
             assert!((normal - expected).norm() < 1e-9, "{normal}");
-            let nearer = open.first_touch(&flight, 1.0, None, false, 9.1);
-            assert!(nearer.is_none());
+            assert!(touch(&from(0.0), None, 9.5).is_none());
 
-            // It leaves the rim that it has touched for good.
+            // In contact, or deeper, it is met at once; what has left it is gone.
+            let at_once = touch(&from(9.6), None, f64::INFINITY);
+            assert!(at_once.is_some_and(|(crossing, _)| crossing.distance < 1e-9));
+            let at_once = touch(&from(9.65), None, f64::INFINITY);
+            assert_eq!(at_once.expect("the rim").0.distance, 0.0);
             let spot = Spot {
                 part: 0,
                 piece: crossing.piece,
                 front: true,
             };
-            let touching = ray([0.0, x, z + 9.2 * direction[2]], direction);
-            let at_once = open.first_touch(&touching, 1.0, None, false, f64::INFINITY);
-            assert!(at_once.is_some_and(|(crossing, _)| crossing.distance < 1e-9));
-            let back = direction.map(|it| -it);
-            let away = ray(touching.origin.into(), back);
-            let again = open.first_touch(&away, 1.0, Some(spot), true, f64::INFINITY);
-            assert!(again.is_none());
+            let mut away = from(9.6);
+            away.direction = -away.direction;
+            assert!(touch(&away, Some(spot), f64::INFINITY).is_none());
+            // Across the pipe it comes to the same rim again.
+            if across < 0.0 {
+                away.direction = -Vector3::y();
+                let again = touch(&away, Some(spot), f64::INFINITY).expect("the other side");
+                assert!((again.0.distance - 9.4).abs() < 1e-9);
+                assert_eq!(again.0.piece, crossing.piece);
+            }
         }
     }
-    for x in [6.1, 3.9] {
-        let passing = ray([0.0, x, -10.0], UP);
-        let found = open.first_touch(&passing, 1.0, None, false, f64::INFINITY);
-        assert!(found.is_none(), "{x}");
+    for y in [5.6, 4.4] {
+        let passing = ray([0.0, y, -10.0], UP);
+        assert!(touch(&passing, None, f64::INFINITY).is_none(), "{y}");
+    }
+}
+
+#[test]
+fn a_rim_belongs_to_the_surface_of_its_wall() {
+    let corners = [[5.0, -5.0], [5.0, 5.0], [-5.0, 5.0], [-5.0, -5.0]].map(Point2::from);
+    let mut profile = Profile {
+        pieces: Vec::new(),
+        surfaces: Vec::new(),
+    };
+    for (wall, name) in ["right", "top", "left", "bottom"].into_iter().enumerate() {
+        profile.pieces.push(Piece {
+            curve: Curve::Line {
+                from: corners[wall],
+                to: corners[(wall + 1) % 4],
+            },
+            surface: wall as u32,
+        });
+        profile.surfaces.push(name.to_owned());
+    }
+    let ends = Ends {
+        near_closed: false,
+        far_closed: false,
+    };
+    let shaft = Prism::new(&profile, 10.0, ends, &Place::default(), 7, 1e-9);
+    for (wall, [x, y]) in [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]
+        .into_iter()
+        .enumerate()
+    {
+        for (z, direction) in [(-10.0, UP), (20.0, DOWN)] {
+            let flight = ray([4.7 * x, 4.7 * y, z], direction);
+            let found = shaft.first_touch(&flight, 0.5, None, false, f64::INFINITY);
+            let (crossing, normal) = found.expect("the rim");
+            assert_eq!(crossing.surface, 7 + wall as u32);
+            assert!((crossing.distance - 9.6).abs() < 1e-9);
+            let expected = Vector3::new(-0.6 * x, -0.6 * y, -0.8 * direction[2]);
+            assert!((normal - expected).norm() < 1e-9, "{normal}");
+        }
     }
 }
 

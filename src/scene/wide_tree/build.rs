@@ -295,3 +295,25 @@ fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
     }
     front
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_grow_to_hold_what_is_added() {
+        let mut bounds = Bounds::EMPTY;
+        bounds.add(&Bounds {
+            low: [1.0, 2.0, 3.0],
+            high: [4.0, 3.0, 5.0],
+        });
+        bounds.add(&Bounds {
+            low: [2.0, -2.0, 3.5],
+            high: [3.0, 2.5, 9.0],
+        });
+        assert_eq!(bounds.low, [1.0, -2.0, 3.0]);
+        assert_eq!(bounds.high, [4.0, 3.0, 9.0]);
+        // Half the surface of 3 by 5 by 6.
+        assert_eq!(bounds.area(), 15.0 + 30.0 + 18.0);
+    }
+}
