@@ -316,6 +316,22 @@ mod tests {
     }
 
     #[test]
+    fn the_nearest_stop_is_the_last() {
+        let mut stops: Vec<Stop> = Vec::new();
+        for entry in [3.0, 1.0, 2.0, 5.0, 4.0, 0.5] {
+            stops.push(Stop::new(7 + entry as u32, entry));
+            settle_last(&mut stops);
+        }
+        let entries: Vec<f32> = stops.iter().map(|stop| stop.entry()).collect();
+        assert_eq!(entries, [5.0, 4.0, 3.0, 2.0, 1.0, 0.5]);
+        assert!(
+            stops
+                .iter()
+                .all(|stop| stop.child() == 7 + stop.entry() as u32)
+        );
+    }
+
+    #[test]
     fn reciprocals_stay_finite_and_keep_their_sign() {
         assert_eq!([4.0, -0.5].map(reciprocal), [0.25, -2.0]);
         assert_eq!([0.0, -0.0].map(reciprocal), [1e30, -1e30]);

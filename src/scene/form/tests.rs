@@ -104,6 +104,7 @@ fn distances_to_a_cylinder_are_those_to_its_arc() {
         ([6.0, 8.0], [3.0, 4.0]),
         ([-7.0, 3.0], [0.0, 5.0]),
         ([3.0, -9.0], [4.8, 1.4]),
+        ([9.9, 1.0], [4.8, 1.4]),
     ] {
         assert!(are_near(turned.nearest(point), nearest), "{point:?}");
     }

@@ -132,23 +132,24 @@ fn a_rim_belongs_to_the_surface_of_its_wall() {
         });
         profile.surfaces.push(name.to_owned());
     }
-    let ends = Ends {
-        near_closed: false,
-        far_closed: false,
-    };
-    let shaft = Prism::new(&profile, 10.0, ends, &Place::default(), 7, 1e-9);
-    for (wall, [x, y]) in [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]
-        .into_iter()
-        .enumerate()
-    {
-        for (z, direction) in [(-10.0, UP), (20.0, DOWN)] {
-            let flight = ray([4.7 * x, 4.7 * y, z], direction);
-            let found = shaft.first_touch(&flight, 0.5, None, false, f64::INFINITY);
-            let (crossing, normal) = found.expect("the rim");
-            assert_eq!(crossing.surface, 7 + wall as u32);
-            assert!((crossing.distance - 9.6).abs() < 1e-9);
-            let expected = Vector3::new(-0.6 * x, -0.6 * y, -0.8 * direction[2]);
-            assert!((normal - expected).norm() < 1e-9, "{normal}");
+    for far_closed in [false, true] {
+        let ends = Ends {
+            near_closed: false,
+            far_closed,
+        };
+        let shaft = Prism::new(&profile, 10.0, ends, &Place::default(), 7, 1e-9);
+        let outwards = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        for (wall, [x, y]) in outwards.into_iter().enumerate() {
+            let open_ends = if far_closed { 1 } else { 2 };
+            for (z, direction) in [(-10.0, UP), (20.0, DOWN)].into_iter().take(open_ends) {
+                let flight = ray([4.7 * x, 4.7 * y, z], direction);
+                let found = shaft.first_touch(&flight, 0.5, None, false, f64::INFINITY);
+                let (crossing, normal) = found.expect("the rim");
+                assert_eq!(crossing.surface, 7 + wall as u32);
+                assert!((crossing.distance - 9.6).abs() < 1e-9);
+                let expected = Vector3::new(-0.6 * x, -0.6 * y, -0.8 * direction[2]);
+                assert!((normal - expected).norm() < 1e-9, "{normal}");
+            }
         }
     }
 }

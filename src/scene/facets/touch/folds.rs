@@ -151,3 +151,101 @@ fn sides(
         behind: !hollow_behind,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The folds of two triangles along the x axis, the second one raised by an angle, rad.
+    fn hinge(raised: f64, second: [u32; 3], has_plane: [bool; 2]) -> Vec<Folds> {
+        let (sin, cos) = raised.sin_cos();
+        let vertices = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.3, -1.0, 0.0],
+            [0.3, 4.0 * cos, 4.0 * sin],
+        ];
+        let vertices = vertices.map(Point3::from);
+        folds(&vertices, &[[1, 0, 2], second], &has_plane, 1e-9)
+    }
+
+    /// Whether the shared edge, that of the first corner, stands out in front and behind.
+    fn shared(folds: &[Folds]) -> [bool; 2] {
+        let [front, behind] = [folds[0].front, folds[0].behind].map(|bits| bits & 1 == 1);
+        assert_eq!(folds[1].front & 1 == 1, front);
+        assert_eq!(folds[1].behind & 1 == 1, behind);
+        [front, behind]
+    }
+
+    #[test]
+    fn edges_stand_out_on_the_side_of_the_ridge() {
+        let both = [true; 2];
+        let of = |raised: f64| shared(&hinge(raised, [0, 1, 3], both));
+        assert_eq!(of(0.5), [false, true]);
+        assert_eq!(of(-0.5), [true, false]);
+        assert_eq!(of(2e-3), [false, true]);
+        // Below a thousandth neither side is surely hollow, and what is flat stands out nowhere.
+        assert_eq!(of(5e-4), [true, true]);
+        assert_eq!(of(-5e-4), [true, true]);
+        assert_eq!(of(0.0), [false, false]);
+        // The far corner, 4 away, is not to be more than 1e-9 beside the plane.
+        assert_eq!(of(2e-10), [false, false]);
+        assert_eq!(of(3e-10), [true, true]);
+        // Folded over, wound alike, or without a plane nothing is clear.
+        let folded = hinge(std::f64::consts::PI, [0, 1, 3], both);
+        assert_eq!(shared(&folded), [true, true]);
+        assert_eq!(shared(&hinge(0.5, [1, 0, 3], both)), [true, true]);
+        for has_plane in [[true, false], [false, true]] {
+            assert_eq!(shared(&hinge(0.0, [0, 1, 3], has_plane)), [true, true]);
+        }
+    }
+
+    #[test]
+    fn the_far_corners_of_both_triangles_must_be_in_one_plane() {
+        let is_flat = |[near, far]: [f64; 2], raised: f64| {
+            let (sin, cos) = raised.sin_cos();
+            let vertices = [
+                [0.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.3, -near, 0.0],
+                [0.3, far * cos, far * sin],
+            ];
+            let vertices = vertices.map(Point3::from);
+            let folds = folds(&vertices, &[[1, 0, 2], [0, 1, 3]], &[true; 2], 1e-9);
+            shared(&folds) == [false, false]
+        };
+        for sizes in [[10.0, 0.1], [0.1, 10.0]] {
+            assert!(is_flat(sizes, 0.9e-10), "{sizes:?}");
+            assert!(!is_flat(sizes, 1.1e-10), "{sizes:?}");
+        }
+    }
+
+    #[test]
+    fn corners_stand_out_where_an_edge_at_them_does() {
+        // Every other edge is open and stands out; so do all corners of a triangle.
+        let folds = hinge(0.0, [0, 1, 3], [true; 2]);
+        assert_eq!(folds[0].front, 0b11_1110);
+        assert_eq!(folds[1].behind, 0b11_1110);
+        // On a closed body only the outside has any: here the corner of a block.
+        let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let folds = super::folds(&vertices.map(Point3::from), &faces, &[true; 4], 1e-9);
+        for of_face in folds {
+            assert_eq!((of_face.front, of_face.behind), (0b11_1111, 0));
+        }
+    }
+
+    #[test]
+    fn edges_of_many_triangles_stand_out_on_both_sides() {
+        let vertices = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+        ];
+        let faces = [[1, 0, 2], [0, 1, 3], [0, 1, 4]];
+        let folds = folds(&vertices.map(Point3::from), &faces, &[true; 3], 1e-9);
+        assert_eq!(folds, [Folds::ALL; 3]);
+    }
+}
