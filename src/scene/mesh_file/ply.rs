@@ -274,11 +274,11 @@ mod tests {
                     [("binary_little_endian", true), ("binary_big_endian", false)]
                 {
                     let mut file = header(encoding, name, 1, "uchar ushort").into_bytes();
-                    for corner in 0..3 {
+                    for (corner, number) in unsigned.into_iter().enumerate() {
                         file.extend(bytes(&encoded(corner), is_little));
-                        let y = f32::from(unsigned[corner]) * 2.0;
+                        let y = f32::from(number) * 2.0;
                         file.extend(bytes(&y.to_le_bytes(), is_little));
-                        let z = f32::from(unsigned[corner] % 2) - 0.5;
+                        let z = f32::from(number % 2) - 0.5;
                         file.extend(bytes(&z.to_le_bytes(), is_little));
                     }
                     file.push(3);
