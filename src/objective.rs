@@ -37,7 +37,11 @@ impl Terms {
 pub struct Sums {
     weight: f64,
     missed: f64,
+    /// First hits on target of shots that the jet fires.
+    hits_of_jet: f64,
+    /// Over those.
     normal: f64,
+    /// Over all first hits on target.
     tangential: f64,
     rebound: f64,
     /// The largest part that one shot has in `missed`.
@@ -53,6 +57,7 @@ impl Sums {
         Self {
             weight: self.weight + other.weight,
             missed: self.missed + other.missed,
+            hits_of_jet: self.hits_of_jet + other.hits_of_jet,
             normal: self.normal + other.normal,
             tangential: self.tangential + other.tangential,
             rebound: self.rebound + other.rebound,
@@ -61,16 +66,15 @@ impl Sums {
         }
     }
 
-    /// The terms, averaged as the objective says.
+    /// The terms, averaged as the objective says: what is rare over the shots on the rim as well, with
+    /// what they stand for. N* is not rare, and low-discrepancy shots of one weight average it several times better.
     pub fn terms(&self, goals: &Goals) -> Terms {
         let tangential_weight = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
-        let share_of_hits = |sum: f64| {
-            let hits = self.weight - self.missed;
-            if hits > 0.0 { sum / hits } else { 0.0 }
-        };
+        let mean = |sum: f64, hits: f64| if hits > 0.0 { sum / hits } else { 0.0 };
+        let hits = self.weight - self.missed;
         Terms {
-            normal_impulse: goals.normal_impulse.weight * share_of_hits(self.normal),
-            tangential_impulse: tangential_weight * share_of_hits(self.tangential),
+            normal_impulse: goals.normal_impulse.weight * mean(self.normal, self.hits_of_jet),
+            tangential_impulse: tangential_weight * mean(self.tangential, hits),
             rebound: self.rebound / self.weight,
             miss: goals.miss.weight * self.missed / self.weight,
         }

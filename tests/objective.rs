@@ -138,6 +138,7 @@ fn the_best_speed_does_not_need_hits_or_limits() {
         normal: 4e-6,
         tangential: 9e-6,
         weight: 1.0,
+        of_jet: 1.0,
     };
     let one = Tally {
         shots: 1,
@@ -150,11 +151,13 @@ fn the_best_speed_does_not_need_hits_or_limits() {
 }
 
 fn impulses() -> impl Strategy<Value = Impulses> {
-    (0.0..10e-6_f64, 0.0..10e-6_f64, 0.01..2.0_f64).prop_map(|(normal, tangential, weight)| {
+    let shot = (0.01..2.0_f64, prop::sample::select(vec![0.0, 1.0]));
+    (0.0..10e-6_f64, 0.0..10e-6_f64, shot).prop_map(|(normal, tangential, (weight, of_jet))| {
         Impulses {
             normal,
             tangential,
             weight,
+            of_jet,
         }
     })
 }
@@ -398,18 +401,19 @@ fn rim_weights_average_to_one() {
     let weights: Vec<f64> = weights_of(&Samples::with_rim(&problem, Stream::Search, 1 << 15));
     let mean = weights.iter().sum::<f64>() / weights.len() as f64;
     assert!((mean - 1.0).abs() < 0.01, "{mean}");
-    assert!(weights.iter().all(|&weight| weight > 0.0 && weight <= 2.0));
-    // Every second shot is drawn to the rim, and stands for less.
-    let average = |first: usize| {
-        let chosen = weights.iter().skip(first).step_by(2);
-        chosen.sum::<f64>() / (weights.len() / 2) as f64
-    };
-    assert!(
-        average(1) < 0.9 * average(0),
-        "{} {}",
-        average(0),
-        average(1)
-    );
+    assert!(weights.iter().all(|&weight| weight > 0.0 && weight <= 4.0));
+    // Every second shot is drawn to the rim, of many three out of four, and stands for less.
+    for (count, turn) in [(64, 2), (1024, 2), (2048, 4), (1 << 15, 4)] {
+        let shots = Samples::with_rim(&problem, Stream::Search, count).deviates;
+        let is_of_jet = |(index, shot): (usize, &Deviate)| shot.of_jet == (index % turn == 0);
+        assert!(shots.iter().enumerate().all(is_of_jet), "{count}");
+        let average = |of_jet: bool| {
+            let chosen = shots.iter().filter(|shot| shot.of_jet == of_jet);
+            chosen.clone().map(|shot| shot.weight).sum::<f64>() / chosen.count() as f64
+        };
+        let (jet, rim) = (average(true), average(false));
+        assert!(rim < 0.9 * jet, "{count}: {jet} {rim}");
+    }
     // Without anything that has a rim all shots are alike.
     problem.tolerance = Tolerance::default();
     problem.jet.exit_diameter = 0.0;
@@ -431,10 +435,10 @@ fn samples_are_pure_functions_of_their_number() {
     let problem = common::keyway(40e-3);
     for draw in [Samples::new, Samples::with_rim] {
         let long = draw(&problem, Stream::Fresh(5), 70_000).deviates;
-        let short = draw(&problem, Stream::Fresh(5), 1000).deviates;
-        assert_eq!(long[..1000], short);
-        assert_ne!(draw(&problem, Stream::Fresh(6), 1000).deviates, short);
-        assert_ne!(draw(&problem, Stream::Search, 1000).deviates, short);
+        let short = draw(&problem, Stream::Fresh(5), 3000).deviates;
+        assert_eq!(long[..3000], short);
+        assert_ne!(draw(&problem, Stream::Fresh(6), 3000).deviates, short);
+        assert_ne!(draw(&problem, Stream::Search, 3000).deviates, short);
         // The sequence does not start again after 2^16 points.
         assert_ne!(long[1 << 16..][..1000], long[..1000]);
     }

@@ -35,6 +35,8 @@ pub struct Deviate {
     pub tilts: f64,
     /// What the shot stands for: 1, or less for one of the shots on the rim.
     pub weight: f64,
+    /// Whether it is drawn as the jet fires shots, and not towards the rim.
+    pub of_jet: bool,
 }
 
 impl Deviate {
@@ -52,10 +54,11 @@ impl Deviate {
         friction: 1.0,
         tilts: 0.0,
         weight: 1.0,
+        of_jet: true,
     };
 
     /// All of them, for checksums.
-    pub fn numbers(&self) -> [f64; 19] {
+    pub fn numbers(&self) -> [f64; 20] {
         let Self {
             exit: [exit_x, exit_y],
             cone: [cone_x, cone_y, cone_z],
@@ -69,6 +72,7 @@ impl Deviate {
             friction,
             tilts,
             weight,
+            of_jet,
         } = *self;
         [
             exit_x,
@@ -90,6 +94,7 @@ impl Deviate {
             friction,
             tilts,
             weight,
+            f64::from(u8::from(of_jet)),
         ]
     }
 
@@ -244,7 +249,8 @@ impl Samples {
     }
 
     /// Shots for a search: every second one is drawn towards the rim of the exit disc, of the cone
-    /// and of the tolerance box, where rare harm comes from, and stands for accordingly less.
+    /// and of the tolerance box, where rare harm comes from, and stands for accordingly less. Of
+    /// many shots it is three out of four: few suffice for what is not rare.
     ///
     /// Averages weighted with [`Deviate::weight`] estimate the same as those over [`Samples::new`].
     /// When all shots of a problem are the same, there is one.
@@ -252,12 +258,23 @@ impl Samples {
         if problem.has_one_ray() {
             return Self::new(problem, stream, 1);
         }
-        let shot = |index| weighted(problem, stream, index / 2, index % 2 == 1, 0.5);
+        let turn = if count < MANY { 2 } else { 4 };
+        let rim_share = 1.0 - 1.0 / f64::from(turn);
+        let shot = |index| match (index / turn, index % turn) {
+            (round, 0) => weighted(problem, stream, round, false, rim_share),
+            (round, place) => {
+                let index = round * (turn - 1) + place - 1;
+                weighted(problem, stream, index, true, rim_share)
+            }
+        };
         Self {
             deviates: (0..count as u32).into_par_iter().map(shot).collect(),
         }
     }
 }
+
+/// From so many shots of a search on most of them are drawn towards the rim.
+const MANY: usize = 2048;
 
 /// A shot among others of which `rim_share` are on the rim.
 fn weighted(
@@ -271,6 +288,7 @@ fn weighted(
     point.keeps_account = rim_share > 0.0;
     let mut deviate = deviate(problem, &mut point);
     deviate.weight = 1.0 / (1.0 - rim_share + rim_share * point.rim_density);
+    deviate.of_jet = !on_rim;
     deviate
 }
 
@@ -304,6 +322,7 @@ fn deviate(problem: &Problem, point: &mut Point) -> Deviate {
             0.0
         },
         weight: 1.0,
+        of_jet: true,
     }
 }
 

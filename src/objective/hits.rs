@@ -13,6 +13,8 @@ pub struct Impulses {
     pub tangential: f64,
     /// What the shot stands for.
     pub weight: f64,
+    /// 1 for a shot that the jet fires, 0 for one drawn towards the rim.
+    pub of_jet: f64,
 }
 
 /// Impulses of many hits, each quantity in a row of its own.
@@ -24,6 +26,8 @@ pub struct Hits {
     pub tangential: Vec<f64>,
     /// What the shots stand for.
     pub weight: Vec<f64>,
+    /// 1 for a shot that the jet fires, 0 for one drawn towards the rim.
+    pub of_jet: Vec<f64>,
 }
 
 impl Hits {
@@ -33,6 +37,7 @@ impl Hits {
             normal: Vec::with_capacity(count),
             tangential: Vec::with_capacity(count),
             weight: Vec::with_capacity(count),
+            of_jet: Vec::with_capacity(count),
         }
     }
 
@@ -41,21 +46,31 @@ impl Hits {
         self.normal.append(&mut others.normal);
         self.tangential.append(&mut others.tangential);
         self.weight.append(&mut others.weight);
+        self.of_jet.append(&mut others.of_jet);
     }
 
     /// Hit by hit.
     pub fn iter(&self) -> impl Iterator<Item = Impulses> + '_ {
-        let impulses = self.normal.iter().zip(&self.tangential).zip(&self.weight);
-        impulses.map(|((&normal, &tangential), &weight)| Impulses {
-            normal,
-            tangential,
-            weight,
-        })
+        let impulses = self.normal.iter().zip(&self.tangential);
+        let shots = self.weight.iter().zip(&self.of_jet);
+        impulses
+            .zip(shots)
+            .map(|((&normal, &tangential), (&weight, &of_jet))| Impulses {
+                normal,
+                tangential,
+                weight,
+                of_jet,
+            })
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
         self.normal.len()
+    }
+
+    /// How many are of shots that the jet fires.
+    pub fn of_jet(&self) -> f64 {
+        self.of_jet.iter().sum()
     }
 
     /// The largest tangential impulse, N s per m/s; 0 without hits.
@@ -92,6 +107,7 @@ impl FromIterator<Impulses> for Hits {
             all.normal.push(hit.normal);
             all.tangential.push(hit.tangential);
             all.weight.push(hit.weight);
+            all.of_jet.push(hit.of_jet);
         }
         all
     }

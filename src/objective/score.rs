@@ -3,7 +3,7 @@
 use super::hits::Hits;
 use super::tally::Tally;
 use crate::jet::Deviate;
-use crate::precision::Real;
+use crate::precision::{Precision, Real};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::{LANES, Lane, components, padded};
 use crate::scene::patch::Patch;
@@ -113,7 +113,8 @@ impl<R: Real> Score<R> {
 
     #[inline(always)]
     fn add_hits_on_target(&mut self, volley: &Volley<R>, is_first: &Lane<R>) {
-        let (mut normal, mut tangential, mut weight) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut normal, mut tangential) = ([0.0; LANES], [0.0; LANES]);
+        let (mut weight, mut of_jet) = ([0.0; LANES], [0.0; LANES]);
         let per_speed = 1.0 / self.speed;
         let mut count = 0;
         for (i, &first) in is_first.iter().enumerate().take(volley.rays.count) {
@@ -121,6 +122,7 @@ impl<R: Real> Score<R> {
             normal[count] = volley.impacts.normal[i].wide() * per_speed;
             tangential[count] = volley.impacts.tangential[i].wide() * per_speed;
             weight[count] = volley.weight[i].wide();
+            of_jet[count] = volley.of_jet[i].wide();
             self.hit_target[volley.shot[i] as usize % LANES] |= hit;
             count += usize::from(hit);
         }
@@ -128,6 +130,7 @@ impl<R: Real> Score<R> {
         hits.normal.extend_from_slice(&normal[..count]);
         hits.tangential.extend_from_slice(&tangential[..count]);
         hits.weight.extend_from_slice(&weight[..count]);
+        hits.of_jet.extend_from_slice(&of_jet[..count]);
     }
 }
 
@@ -137,13 +140,21 @@ impl Tally {
         Self::trace_in::<f64>(setup, choice, speed, shots)
     }
 
-    /// The same with paths in another precision.
-    pub fn trace_in<R: Real>(
+    /// The same with paths in one of the precisions.
+    pub fn trace_as(
+        precision: Precision,
         setup: &Setup,
         choice: &Choice,
         speed: f64,
         shots: &[Deviate],
     ) -> Self {
+        match precision {
+            Precision::F64 => Self::trace_in::<f64>(setup, choice, speed, shots),
+            Precision::F32 => Self::trace_in::<f32>(setup, choice, speed, shots),
+        }
+    }
+
+    fn trace_in<R: Real>(setup: &Setup, choice: &Choice, speed: f64, shots: &[Deviate]) -> Self {
         let mut score = Score::<R>::new(setup, speed, shots.len());
         let tracer = Tracer::new(setup, choice, speed);
         tracer.fire(shots, &mut score, Score::end_volley);

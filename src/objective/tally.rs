@@ -53,6 +53,7 @@ impl Tally {
         Sums {
             weight: self.weight,
             missed: self.missed,
+            hits_of_jet: self.hits.of_jet(),
             normal: self.normal_moments(goals, speed).square,
             tangential: self.tangential_moments(goals, speed).square,
             rebound: self.rebound * speed * speed,
@@ -105,7 +106,7 @@ impl Tally {
     fn smooth_slope(&self, goals: &Goals, speed: f64) -> Slope {
         let normal = self.normal_moments(goals, speed);
         let rebound = self.rebound / self.weight;
-        let weight = goals.normal_impulse.weight / self.weight_of_hits();
+        let weight = goals.normal_impulse.weight / self.hits.of_jet().max(1.0);
         Slope {
             speed,
             value: weight * normal.slope + rebound * speed,
@@ -137,8 +138,8 @@ impl Tally {
     }
 
     fn normal_moments(&self, goals: &Goals, speed: f64) -> Moments {
-        let Hits { normal, weight, .. } = &self.hits;
-        moments(normal, weight, goals.normal_impulse.target, speed, false)
+        let Hits { normal, of_jet, .. } = &self.hits;
+        moments(normal, of_jet, goals.normal_impulse.target, speed, false)
     }
 
     fn tangential_moments(&self, goals: &Goals, speed: f64) -> Moments {

@@ -29,6 +29,7 @@ const GOALS: Goals = Goals {
 const ONE: Sums = Sums {
     weight: 8.0,
     missed: 3.0,
+    hits_of_jet: 4.0,
     normal: 10.0,
     tangential: 20.0,
     rebound: 40.0,
@@ -39,6 +40,7 @@ const ONE: Sums = Sums {
 const OTHER: Sums = Sums {
     weight: 24.0,
     missed: 4.0,
+    hits_of_jet: 16.0,
     normal: 15.0,
     tangential: 30.0,
     rebound: 56.0,
@@ -51,6 +53,7 @@ fn sums_of_two_sets_of_shots_add_up_and_the_worst_stays() {
     let both = Sums {
         weight: 32.0,
         missed: 7.0,
+        hits_of_jet: 20.0,
         normal: 25.0,
         tangential: 50.0,
         rebound: 96.0,
@@ -65,14 +68,18 @@ fn sums_of_two_sets_of_shots_add_up_and_the_worst_stays() {
 fn terms_of_the_target_are_means_over_hits_and_the_others_over_all_shots() {
     let terms = ONE.terms(&GOALS);
     let by_hand = Terms {
-        normal_impulse: 2.0 * 10.0 / 5.0,
+        normal_impulse: 2.0 * 10.0 / 4.0,
         tangential_impulse: 3.0 * 20.0 / 5.0,
         rebound: 40.0 / 8.0,
         miss: 5.0 * 3.0 / 8.0,
     };
     assert_eq!(terms, by_hand);
-    assert_eq!(terms.total(), 4.0 + 12.0 + 5.0 + 1.875);
-    let never = Sums { missed: 8.0, ..ONE };
+    assert_eq!(terms.total(), 5.0 + 12.0 + 5.0 + 1.875);
+    let never = Sums {
+        missed: 8.0,
+        hits_of_jet: 0.0,
+        ..ONE
+    };
     assert_eq!(never.terms(&GOALS).normal_impulse, 0.0);
     assert_eq!(never.terms(&GOALS).tangential_impulse, 0.0);
 }
@@ -93,12 +100,13 @@ fn one_more_of_the_worst_adds_its_part_over_all_shots() {
     assert_eq!(OTHER.one_more_of_the_worst(&GOALS), other);
 }
 
-/// Three hits, the second one for half a shot.
+/// Three hits; the second one stands for half a shot and is drawn towards the rim.
 fn hits() -> Hits {
     Hits {
         normal: vec![0.5, 0.25, 0.375],
         tangential: vec![0.125, 0.5, 0.25],
         weight: vec![1.0, 0.5, 1.0],
+        of_jet: vec![1.0, 0.0, 1.0],
     }
 }
 
@@ -146,8 +154,9 @@ fn tallies_add_up_and_sums_go_with_the_square_of_the_speed() {
     let by_hand = Sums {
         weight: 3.5,
         missed: 1.0,
-        // Impulses of 2, 1 and 1.5 where 1 is wanted; 0.5, 2 and 1 where 1 is allowed.
-        normal: 1.0 + 0.5 * 0.0 + 0.25,
+        // Of the jet, impulses of 2 and 1.5 where 1 is wanted; of all, 0.5, 2 and 1 where 1 is allowed.
+        hits_of_jet: 2.0,
+        normal: 1.0 + 0.25,
         tangential: 0.5 * 1.0,
         rebound: 96.0,
         worst_miss: 1.0,

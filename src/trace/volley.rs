@@ -28,6 +28,8 @@ pub(crate) struct Volley<R> {
     pub number: Lane<R>,
     /// What it stands for.
     pub weight: Lane<R>,
+    /// Whether it is one that the jet fires, and not one drawn towards the rim.
+    pub of_jet: Lane<R>,
     /// Velocity of the centre, m/s.
     pub velocity: [Lane<R>; 3],
     /// R w, m/s.
@@ -124,6 +126,7 @@ impl<R: Real> Volley<R> {
             shot: [0; LANES],
             number: zeros,
             weight: zeros,
+            of_jet: zeros,
             velocity: [zeros; 3],
             rolling: [zeros; 3],
             mass: zeros,
@@ -157,6 +160,7 @@ impl<R: Real> Volley<R> {
             self.shot[i] = i as u32;
             self.number[i] = R::ZERO;
             self.weight[i] = R::of(deviate.weight);
+            self.of_jet[i] = truth(deviate.of_jet);
             self.mass[i] = R::of(tracer.mass * deviate.mass());
             if let Some(contact) = &tracer.only_contact {
                 let (restitution, factor) =
@@ -338,6 +342,7 @@ impl<R: Real> Volley<R> {
         for lane in [
             &mut self.number,
             &mut self.weight,
+            &mut self.of_jet,
             &mut self.mass,
             &mut self.least_energy,
             &mut self.restitution,
