@@ -118,7 +118,9 @@ fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluat
     let (terms, term_errors, standard_error) = if is_exact {
         (sums[0].terms(goals), Terms::default(), 0.0)
     } else {
-        jackknife(&sums, goals)
+        let may_harm = setup.surfaces.iter().any(|limits| limits.allow.is_some());
+        let fired: usize = replicates.iter().map(Ledger::fired).sum();
+        jackknife(&sums, goals, may_harm.then_some(fired))
     };
     let rays = replicates.iter().map(|r| r.tally.rays + r.rim.rays).sum();
     let mut ends = BTreeMap::new();
@@ -147,10 +149,11 @@ fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluat
 /// The terms of pooled sums and their standard errors, from leaving out one of the independent
 /// scramblings at a time.
 ///
-/// What harms rarely may have been seen too seldom to show how much it scatters. So two more of the
+/// What harms rarely may have been seen too seldom to show how much it scatters. So a few more of the
 /// worst events are added to the variances, as two are added to the counts behind a 95 % interval
-/// of a share.
-fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
+/// of a share. `may_harm` is the number of shots where surfaces have limits: the worst event may not
+/// be among what these have shown, and costs as much as many of them together.
+fn jackknife(sums: &[Sums], goals: &Goals, may_harm: Option<usize>) -> (Terms, Terms, f64) {
     let pooled = |skip: Option<usize>| {
         let kept = sums.iter().enumerate().filter(|(i, _)| skip != Some(*i));
         kept.fold(Sums::default(), |total, (_, one)| total.plus(one))
@@ -159,7 +162,11 @@ fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
         .map(|index| pooled(Some(index)).terms(goals))
         .collect();
     let all = pooled(None);
-    let more = all.one_more_of_the_worst(goals);
+    let mut more = all.one_more_of_the_worst(goals);
+    if let Some(shots) = may_harm {
+        let unseen = UNSEEN * all.terms(goals).total() / shots as f64;
+        more.rebound = more.rebound.max(unseen);
+    }
     let count = sums.len() as f64;
     let error = |part: fn(&Terms) -> f64| {
         let mean = left_out.iter().map(part).sum::<f64>() / count;
@@ -178,7 +185,9 @@ fn jackknife(sums: &[Sums], goals: &Goals) -> (Terms, Terms, f64) {
 }
 
 /// How many more of the worst events count as seen.
-const MORE: f64 = 2.0;
+const MORE: f64 = 4.0;
+/// The worst event costs at least as much as so many shots on average.
+const UNSEEN: f64 = 16.0;
 
 fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {
     into.resize(into.len().max(counts.len()), 0);

@@ -1,6 +1,25 @@
-//! The two precisions that paths can be traced in: f64, and f32 to compare with.
+//! The two precisions that paths can be traced in: f64 for figures, and f32 for searches where it is
+//! enough.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use serde::{Deserialize, Serialize};
+
+/// In which precision rays and impacts are computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// 64 bits, 16 digits.
+    #[default]
+    F64,
+    /// 32 bits, 7 digits.
+    F32,
+}
+
+impl Precision {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::F64, Self::F32];
+}
 
 /// A floating-point number.
 pub trait Real:

@@ -5,9 +5,8 @@ use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
 use assert_cmd::Command;
-use peenpose::chart::{
-    BesidePoint, Chart, Control, PoseCurve, Precision, Refusal, Sampling, Walls, measure,
-};
+use peenpose::chart::{BesidePoint, Chart, Control, PoseCurve, Refusal, Sampling, Walls, measure};
+use peenpose::precision::Precision;
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::setup::Setup;

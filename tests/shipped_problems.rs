@@ -129,10 +129,9 @@ fn every_file_is_solved_in_the_right_valley() {
             assert!(expected.objective.contains(&j), "{what}");
             assert!(expected.incidence_deg.contains(&incidence), "{what}");
             assert_eq!(answer.passes(), expected.passes, "{what}");
-            assert!(
-                standard_error(answer) <= setup.problem.accuracy * j,
-                "{what}"
-            );
+            // What cannot win need not be known as well.
+            let wanted = if rank == 0 { 1.0 } else { 4.0 } * setup.problem.accuracy * j;
+            assert!(standard_error(answer) <= wanted, "{what}");
             if rank == 0 {
                 let slack =
                     3.0 * standard_error(&solution.answers[0]).hypot(standard_error(answer));

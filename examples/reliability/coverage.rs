@@ -1,7 +1,7 @@
 //! How often the interval that is reported covers the true J.
 //!
-//! The settings are held, so that only the shots change with the seed: 65 536 fresh ones, as behind
-//! every answer. The truth is J on many more shots, and its own small error is allowed for.
+//! The settings are held, so that only the shots change with the seed: as many fresh ones as are fired
+//! first, and as at most. The truth is J on many more shots, and its own small error is allowed for.
 
 use std::error::Error;
 
@@ -17,7 +17,7 @@ use crate::common::statistics::{Mean, median};
 use crate::common::variant::Variant;
 
 /// Names of the columns.
-pub const HEADER: &str = "variant,contact,incidence_deg,J,reference_error,intervals,covered_percent,\
+pub const HEADER: &str = "variant,contact,shots,incidence_deg,J,reference_error,intervals,covered_percent,\
                           below_percent,above_percent,median_reported_error,scatter_of_J";
 
 /// A contact of a problem.
@@ -58,7 +58,7 @@ const HALF_WIDTH: f64 = 1.96;
 const TRUTH: u32 = 1 << 22;
 
 impl Case {
-    /// A line at the best settings known and one on the cliff's side of them.
+    /// Lines at the best settings known and on the cliff's side of them.
     pub fn lines(
         &self,
         known: &[Known],
@@ -71,23 +71,30 @@ impl Case {
             .find(|known| known.is_of(&self.variant) && known.contact == self.contact)
             .ok_or_else(|| format!("no best settings of {} are known", self.variant.name()))?
             .choice(&setup.problem)?;
-        let lines = STEPS.map(|step| {
+        let mut lines = Vec::new();
+        for step in STEPS {
             let choice = Setting::Incidence.with(&best, best.incidence + step.to_radians());
-            let figures = coverage(&mut setup, &choice, intervals, reference_shots);
-            let line = format!("{},{},{figures}", self.variant.name(), self.contact);
-            println!("{line}");
-            line
-        });
-        Ok(lines.to_vec())
+            let truth = fresh::objectives(&setup, &[choice], TRUTH, reference_shots);
+            let truth = Mean::of_choice(&truth, 0);
+            let control = Control::default();
+            for shots in [control.first_fresh_shots(), control.fresh_shots] {
+                let figures = coverage(&mut setup, &choice, &truth, intervals, shots);
+                let line = format!("{},{},{figures}", self.variant.name(), self.contact);
+                println!("{line}");
+                lines.push(line);
+            }
+        }
+        Ok(lines)
     }
 }
 
-fn coverage(setup: &mut Setup, choice: &Choice, intervals: u64, reference_shots: usize) -> String {
-    let truth = Mean::of_choice(
-        &fresh::objectives(setup, &[*choice], TRUTH, reference_shots),
-        0,
-    );
-    let shots = Control::default().fresh_shots;
+fn coverage(
+    setup: &mut Setup,
+    choice: &Choice,
+    truth: &Mean,
+    intervals: u64,
+    shots: usize,
+) -> String {
     let reported: Vec<Mean> = (1..=intervals)
         .map(|seed| {
             setup.problem.seed = seed;
@@ -109,7 +116,7 @@ fn coverage(setup: &mut Setup, choice: &Choice, intervals: u64, reference_shots:
     let count = reported.len() as f64;
     let scatter = Mean::of(reported.iter().map(|one| one.value)).standard_error * count.sqrt();
     format!(
-        "{:.3},{:.7},{:.1e},{},{:.1},{:.1},{:.1},{:.1e},{scatter:.1e}",
+        "{shots},{:.3},{:.7},{:.1e},{},{:.1},{:.1},{:.1},{:.1e},{scatter:.1e}",
         choice.incidence.to_degrees(),
         truth.value,
         truth.standard_error,

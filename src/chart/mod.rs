@@ -16,7 +16,7 @@ mod timing;
 pub use beside::{BesideFault, BesidePoint, LARGEST_TABLE};
 pub use control::{Control, Step};
 pub use effect::Effect;
-pub use pose::{PoseCurve, PosePoint, Precision, Walls};
+pub use pose::{PoseCurve, PosePoint, Walls};
 pub use sampling::Sampling;
 pub use search::{BestKnown, Method, SearchRun, Searches};
 #[cfg(feature = "report")]

@@ -10,6 +10,7 @@ use super::sampling::Sampling;
 use super::timing;
 use crate::jet::{Deviate, Replicates, purpose};
 use crate::objective::{Sums, Tally};
+use crate::precision::Precision;
 use crate::problem::fault::Fault;
 use crate::problem::part::Shape;
 use crate::problem::setting::Choice;
@@ -69,28 +70,6 @@ impl Walls {
         match self {
             Self::Exact => &Precision::ALL,
             Self::Mesh | Self::Facets { .. } => &[Precision::F64],
-        }
-    }
-}
-
-/// In which precision rays and impacts are computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Precision {
-    /// 64 bits, 16 digits.
-    F64,
-    /// 32 bits, 7 digits.
-    F32,
-}
-
-impl Precision {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::F64, Self::F32];
-
-    fn trace(self, setup: &Setup, choice: &Choice, shots: &[Deviate]) -> Tally {
-        match self {
-            Self::F64 => Tally::trace_in::<f64>(setup, choice, choice.speed, shots),
-            Self::F32 => Tally::trace_in::<f32>(setup, choice, choice.speed, shots),
         }
     }
 }
@@ -263,7 +242,13 @@ impl Way<'_> {
     }
 
     fn sums(&self, shots: &[Deviate]) -> Sums {
-        let tally = self.precision.trace(&self.setup, self.choice, shots);
+        let tally = Tally::trace_as(
+            self.precision,
+            &self.setup,
+            self.choice,
+            self.choice.speed,
+            shots,
+        );
         tally.sums(&self.setup.problem.goals, self.choice.speed)
     }
 }

@@ -68,6 +68,13 @@ impl Ledger {
     }
 }
 
+impl Ledger {
+    /// Shots of the jet and on the rim.
+    pub fn fired(&self) -> usize {
+        self.tally.shots + self.rim.shots
+    }
+}
+
 /// Writes a ledger.
 struct Clerk<'a> {
     setup: &'a Setup,

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::answer::{SettingsRecord, subject_name};
+use crate::precision::Precision;
 use crate::problem::model::{Effect, Model};
 use crate::setup::Setup;
 use crate::solve::{Ladder, Rung};
@@ -16,6 +17,9 @@ pub struct ModelRecord {
     pub searched_without: Vec<String>,
     /// How often one was put back because the whole model disagreed.
     pub put_back: usize,
+    /// In which precision the search traced paths, `f64` or `f32`; figures are always f64.
+    #[serde(default)]
+    pub precision: Precision,
     /// What the effects do, as far as that was measured.
     pub effects: Vec<RungRecord>,
 }
@@ -57,6 +61,7 @@ impl ModelRecord {
             },
             searched_without: ladder.left_out().iter().map(name).collect(),
             put_back: ladder.put_back,
+            precision: ladder.precision,
             effects: ladder
                 .rungs
                 .iter()

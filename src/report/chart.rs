@@ -1,6 +1,7 @@
 //! A chart in words and numbers.
 
-use crate::chart::{Chart, Effect, PoseCurve, Precision, Sampling, Searches};
+use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches};
+use crate::precision::Precision;
 use crate::report::figure::curve_name;
 use crate::report::finding::{self, rounded_time, share, signed_share};
 use crate::report::layout::{Align, Block, Table};

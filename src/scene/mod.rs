@@ -142,6 +142,11 @@ impl Scene {
         self.size
     }
 
+    /// Whether no ray is cast at a mesh.
+    pub fn has_exact_walls(&self) -> bool {
+        self.parts.iter().all(BuiltPart::has_exact_walls)
+    }
+
     /// Number of triangles of all parts.
     pub fn triangles(&self) -> usize {
         self.parts.iter().map(|part| part.facets.count()).sum()

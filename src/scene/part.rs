@@ -167,6 +167,11 @@ impl BuiltPart {
         }
     }
 
+    /// Whether rays meet its planes and cylinders instead of triangles.
+    pub fn has_exact_walls(&self) -> bool {
+        self.prism.is_some()
+    }
+
     /// The first crossing nearer than `limit` and the unit normal on the front there.
     #[inline]
     pub fn first_crossing(

@@ -42,16 +42,11 @@ pub(super) fn unsettled(
     shots: usize,
     fresh_shots: usize,
 ) -> Vec<usize> {
-    let found = |answer: &Answer| Some(answer.evaluation.as_ref()?.terms.total());
-    let least = answers
-        .iter()
-        .filter_map(found)
-        .fold(f64::INFINITY, f64::min);
-    let rounding = rounding_of_objective(&problem.goals);
+    let least = least_found(answers);
     let is_unsettled = |claim: &Claim, answer: &Answer| {
         let (_, claimed) = (*claim)?;
-        let found = found(answer)?;
-        let wanted = (problem.accuracy * found).max(rounding);
+        let found = answer.objective()?;
+        let wanted = wanted(found, problem);
         let error = answer.standard_error();
         let lowest = claimed - CONFIDENCE * answer.standard_error_on(shots);
         let could_win = found <= least || lowest <= least - TOLERABLE * problem.accuracy * least;
@@ -64,6 +59,28 @@ pub(super) fn unsettled(
         .filter(|(_, (claim, answer))| is_unsettled(claim, answer).unwrap_or(false))
         .map(|(index, _)| index)
         .collect()
+}
+
+/// Whether J of a contact that could win is known too vaguely to tell how good it is.
+pub(super) fn is_vague(answers: &[Answer], problem: &Problem) -> bool {
+    let least = least_found(answers);
+    let is_vague = |found: f64, error: f64| {
+        found - CONFIDENCE * error <= least && error > VAGUE * wanted(found, problem)
+    };
+    answers.iter().any(|answer| {
+        let found = answer.objective();
+        found.is_some_and(|found| is_vague(found, answer.standard_error()))
+    })
+}
+
+fn least_found(answers: &[Answer]) -> f64 {
+    let found = answers.iter().filter_map(Answer::objective);
+    found.fold(f64::INFINITY, f64::min)
+}
+
+/// How well J of an answer should be known.
+fn wanted(found: f64, problem: &Problem) -> f64 {
+    (problem.accuracy * found).max(rounding_of_objective(&problem.goals))
 }
 
 /// J of shots whose impulses are what is wanted but for rounding.
@@ -79,7 +96,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// as much as it feigns: with 0.7 and the error on top, up to 4 of 100 seeds were beyond 1 %; with half, at most one.
 const TOLERABLE: f64 = 0.5;
 /// Share of the accuracy above which an error is too large for the gap to say much.
-const VAGUE: f64 = 0.25;
+const VAGUE: f64 = 0.35;
 /// Standard errors that a difference must exceed to count.
 const CONFIDENCE: f64 = 2.0;
 /// A contact whose J is above the best by more than this share cannot become the best.

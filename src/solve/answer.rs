@@ -30,6 +30,12 @@ impl Answer {
         }
     }
 
+    /// J, where the nozzle fits.
+    pub(super) fn objective(&self) -> Option<f64> {
+        let evaluation = self.evaluation.as_ref()?;
+        Some(evaluation.terms.total())
+    }
+
     pub(super) fn standard_error(&self) -> f64 {
         self.evaluation
             .as_ref()

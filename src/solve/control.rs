@@ -21,7 +21,7 @@ pub enum Status {
 pub struct Control<'a> {
     /// Most shots at a pose.
     pub most_shots: usize,
-    /// Fresh shots for the reported figures.
+    /// Most fresh shots for the reported figures.
     pub fresh_shots: usize,
     /// Set to end the search with the best answer so far.
     pub stop: &'a AtomicBool,
@@ -32,11 +32,19 @@ pub struct Control<'a> {
 }
 
 impl Control<'_> {
+    /// Fresh shots that are fired first; all of them only where these say too little.
+    pub fn first_fresh_shots(&self) -> usize {
+        self.fresh_shots.div_ceil(PARTS)
+    }
+
     /// Whether the search should come to an end.
     pub fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 }
+
+/// One of so many parts of the fresh shots is fired first.
+const PARTS: usize = 4;
 
 static NEVER: AtomicBool = AtomicBool::new(false);
 

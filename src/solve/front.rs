@@ -15,6 +15,7 @@ use super::judge::{Effort, Judge};
 use super::risks::{Risks, risks};
 use super::search::{STAGES, Search};
 use crate::jet::{Replicates, Samples, Stream, purpose};
+use crate::precision::Precision;
 use crate::setup::Setup;
 
 /// What can be had.
@@ -134,7 +135,13 @@ fn search(
     let weighted = weighted(setup, weights);
     let judge = |shots: usize| {
         let shots = shots.min(samples.deviates.len());
-        Judge::new(&weighted, &samples.deviates[..shots], effort, control)
+        Judge::new(
+            &weighted,
+            Precision::F64,
+            &samples.deviates[..shots],
+            effort,
+            control,
+        )
     };
     if control.is_stopped() {
         return;

@@ -11,6 +11,7 @@ use super::risks::Risks;
 use crate::checkpoint::{Checkpoint, Page};
 use crate::jet::{Deviate, Pose};
 use crate::objective::{Tally, Terms};
+use crate::precision::Precision;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
@@ -88,6 +89,7 @@ struct Judged {
 /// Judges choices on common shots.
 pub struct Judge<'a> {
     setup: &'a Setup,
+    precision: Precision,
     shots: &'a [Deviate],
     effort: &'a Effort,
     control: &'a Control<'a>,
@@ -98,16 +100,22 @@ pub struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
-    /// A judge on some shots.
+    /// A judge on some shots, whose paths are traced in one of the precisions.
     pub fn new(
         setup: &'a Setup,
+        precision: Precision,
         shots: &'a [Deviate],
         effort: &'a Effort,
         control: &'a Control,
     ) -> Self {
-        let page = |checkpoint: &'a Checkpoint| checkpoint.page("judged", setup, shots);
+        let kind = match precision {
+            Precision::F64 => "judged",
+            Precision::F32 => "judged in f32",
+        };
+        let page = |checkpoint: &'a Checkpoint| checkpoint.page(kind, setup, shots);
         Self {
             setup,
+            precision,
             shots,
             effort,
             control,
@@ -203,7 +211,8 @@ impl<'a> Judge<'a> {
         } else {
             choice.speed
         };
-        let tally = |shots: &[Deviate]| Tally::trace(self.setup, choice, speed, shots);
+        let tally =
+            |shots: &[Deviate]| Tally::trace_as(self.precision, self.setup, choice, speed, shots);
         if self.shots.len() <= MOST_ALONE {
             return tally(shots);
         }

@@ -6,7 +6,7 @@
 
 mod bench;
 
-pub(super) use bench::{fewer, objective};
+pub(super) use bench::{fewer, objective, objective_in};
 
 use rayon::prelude::*;
 
@@ -15,6 +15,7 @@ use bench::Bench;
 use super::control::Control;
 use super::judge::Effort;
 use super::search::Search;
+use crate::precision::Precision;
 use crate::problem::model::{Effect, Model};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -52,10 +53,14 @@ pub struct Ladder {
     pub rungs: Vec<Rung>,
     /// How often an effect was put back because the whole model disagreed.
     pub put_back: usize,
+    /// In which precision the search traced paths; figures are always f64.
+    pub precision: Precision,
 }
 
 /// Shots behind changes of J and of verdicts, and behind best settings.
 const SHOTS: usize = 1024;
+/// Share of the accuracy by which tracing in single precision may change J.
+const LITTLE: f64 = 0.1;
 /// Share of the accuracy by which leaving out effects may change J or worsen the best settings.
 const TOLERABLE: f64 = 0.5;
 
@@ -72,6 +77,27 @@ impl Ladder {
     pub fn left_out(&self) -> Vec<Effect> {
         let left_out = self.rungs.iter().filter(|rung| rung.left_out);
         left_out.map(|rung| rung.effect).collect()
+    }
+
+    /// Lets the search trace in single precision, if that is faster and changes next to nothing at the
+    /// best candidates.
+    pub(super) fn choose_precision(
+        &mut self,
+        setup: &Setup,
+        searches: &[Search],
+        effort: &Effort,
+        control: &Control,
+    ) {
+        self.precision = Precision::F64;
+        if !setup.scene.has_exact_walls() {
+            return;
+        }
+        let Some(bench) = Bench::new(setup, searches, effort, control) else {
+            return;
+        };
+        if bench.largest_change_in(Precision::F32) <= LITTLE * setup.problem.accuracy {
+            self.precision = Precision::F32;
+        }
     }
 
     /// Measures what some effects of a setup do at the best candidates.

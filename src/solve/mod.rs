@@ -11,6 +11,7 @@ mod accuracy;
 mod answer;
 mod archive;
 mod control;
+mod figures;
 mod front;
 mod judge;
 mod ladder;
@@ -31,10 +32,10 @@ pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use rayon::prelude::*;
 
-use crate::jet::{Replicates, Samples, Stream, purpose};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use accuracy::{Claim, is_in_reach, least_objective, unsettled};
+use figures::Figures;
 use judge::Judge;
 use models::Models;
 use search::{STAGES, Search, Stage};
@@ -79,35 +80,21 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let effort = Effort::default();
     let mut models = Models::new(setup);
     let asked = models.asked.clone();
-    let ((mut searches, mut shots), fresh) = rayon::join(
+    let ((mut searches, mut shots), mut figures) = rayon::join(
         || descend(&mut models, control, &effort),
-        || Replicates::new(&asked.problem, purpose::ANSWERS, control.fresh_shots),
+        || Figures::new(&asked, control, &effort),
     );
-    let answer = |search: &Search| Answer::of(&asked, search.best(), &fresh, &effort);
     let (mut claims, _) = agree(&mut models, &mut searches, shots, control, &effort);
-    let mut answers: Vec<Answer> = searches.par_iter().map(answer).collect();
+    let mut answers = figures.all(&searches);
     let problem = &setup.problem;
     let mut open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
-        refine(
-            &models.searched,
-            &mut searches,
-            &open,
-            shots,
-            control,
-            &effort,
-        );
+        refine(&models, &mut searches, &open, shots, control, &effort);
         let all_change;
         (claims, all_change) = agree(&mut models, &mut searches, shots, control, &effort);
         let changed = if all_change { all(&searches) } else { open };
-        let found: Vec<Answer> = changed
-            .par_iter()
-            .map(|&index| answer(&searches[index]))
-            .collect();
-        for (index, found) in changed.into_iter().zip(found) {
-            answers[index] = found;
-        }
+        answers = figures.renewed(answers, &searches, &changed);
         open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     }
     if !control.is_stopped() {
@@ -143,7 +130,7 @@ fn agree(
     let mut is_changed = false;
     while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
         let all = all(searches);
-        refine(&models.searched, searches, &all, shots, control, effort);
+        refine(models, searches, &all, shots, control, effort);
         claims = models.claims(searches, shots);
         is_changed = true;
     }
@@ -156,17 +143,18 @@ fn all(searches: &[Search]) -> Vec<usize> {
 
 /// Refines some of the searches with so many shots.
 fn refine(
-    setup: &Setup,
+    models: &Models,
     searches: &mut [Search],
     which: &[usize],
     shots: usize,
     control: &Control,
     effort: &Effort,
 ) {
-    let samples = Samples::with_rim(&setup.problem, Stream::Search, shots);
-    let judge = Judge::new(setup, &samples.deviates, effort, control);
+    let samples = models.draw(shots);
+    let judge = models.judge(&samples, effort, control);
     let stage = Stage::beyond(shots);
-    refine_in_turn(searches, which, &judge, &stage, setup.problem.accuracy);
+    let accuracy = models.asked.problem.accuracy;
+    refine_in_turn(searches, which, &judge, &stage, accuracy);
     tell(control, effort, searches);
 }
 
@@ -176,16 +164,17 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
     let affordable = |stage: &&Stage| stage.shots <= control.most_shots;
     let stages: Vec<&Stage> = STAGES.iter().filter(affordable).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
-    let draw = |setup: &Setup| Samples::with_rim(&setup.problem, Stream::Search, most_shots);
-    let mut samples = draw(&models.searched);
     let contacts = &models.asked.problem.settings.contact;
-    let judge = judge_of(&models.searched, &samples, SCREENING_SHOTS, effort, control);
+    let samples = models.draw(SCREENING_SHOTS);
+    let judge = models.judge(&samples, effort, control);
     let mut searches: Vec<Search> = contacts
         .par_iter()
         .map(|&contact| Search::screen(&models.searched, contact, &judge))
         .collect();
+    models.choose_precision(&searches, effort, control);
     for (index, stage) in stages.into_iter().enumerate() {
-        let judge = judge_of(&models.searched, &samples, stage.shots, effort, control);
+        let samples = models.draw(stage.shots);
+        let judge = models.judge(&samples, effort, control);
         let accuracy = models.asked.problem.accuracy;
         if stage.shots <= CHEAP_SHOTS {
             let each = searches.par_iter_mut();
@@ -202,26 +191,12 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         }
         if index == 0 {
             models.climb(&mut searches, effort, control);
-            samples = draw(&models.searched);
         } else if stage.shots < most_shots {
             let claims = models.claims(&searches, stage.shots);
-            if models.put_back(&mut searches, &claims, effort, control) {
-                samples = draw(&models.searched);
-            }
+            models.put_back(&mut searches, &claims, effort, control);
         }
     }
     (searches, most_shots)
-}
-
-fn judge_of<'a>(
-    setup: &'a Setup,
-    samples: &'a Samples,
-    shots: usize,
-    effort: &'a Effort,
-    control: &'a Control,
-) -> Judge<'a> {
-    let shots = shots.min(samples.deviates.len());
-    Judge::new(setup, &samples.deviates[..shots], effort, control)
 }
 
 /// Refines some of the searches, the best one first, so that the others can profit from it.

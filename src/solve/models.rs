@@ -4,10 +4,11 @@ use rayon::prelude::*;
 
 use super::accuracy::{Claim, is_in_reach, least_objective, rounding_of_objective};
 use super::control::Control;
-use super::judge::Effort;
-use super::ladder::{Ladder, fewer, objective};
+use super::judge::{Effort, Judge};
+use super::ladder::{Ladder, fewer, objective, objective_in};
 use super::search::Search;
 use crate::jet::{Samples, Stream};
+use crate::precision::Precision;
 use crate::problem::model::Model;
 use crate::setup::Setup;
 
@@ -33,6 +34,12 @@ impl<'a> Models<'a> {
         }
     }
 
+    /// Finds out in which precision paths can be traced.
+    pub fn choose_precision(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
+        self.ladder
+            .choose_precision(&self.asked, searches, effort, control);
+    }
+
     /// Finds out which effects matter at the best candidates, where that is left to the program.
     pub fn climb(&mut self, searches: &mut [Search], effort: &Effort, control: &Control) {
         if self.whole.problem.model == Model::Auto {
@@ -54,7 +61,8 @@ impl<'a> Models<'a> {
     }
 
     /// Puts back the effect that matters most, when the whole model disagrees with the one that
-    /// is searched about J by more than the accuracy; returns whether it did.
+    /// is searched about J by more than the accuracy; when no effect is left out, it is the precision.
+    /// Returns whether it did.
     pub fn put_back(
         &mut self,
         searches: &mut [Search],
@@ -73,15 +81,41 @@ impl<'a> Models<'a> {
         };
         let must = searches.iter().zip(claims).any(disagrees);
         if must {
+            if self.ladder.left_out().is_empty() {
+                self.ladder.precision = Precision::F64;
+            }
             self.ladder.put_back(&self.asked, searches, effort, control);
             self.reduce(searches);
         }
         must
     }
 
+    /// Shots of the search.
+    pub fn draw(&self, shots: usize) -> Samples {
+        Samples::with_rim(&self.searched.problem, Stream::Search, shots)
+    }
+
+    /// Judges the model that is searched.
+    pub fn judge<'b>(
+        &'b self,
+        samples: &'b Samples,
+        effort: &'b Effort,
+        control: &'b Control,
+    ) -> Judge<'b> {
+        let shots = &samples.deviates;
+        Judge::new(
+            &self.searched,
+            self.ladder.precision,
+            shots,
+            effort,
+            control,
+        )
+    }
+
     /// J of the best candidates on the shots of the search.
     pub fn claims(&self, searches: &[Search], shots: usize) -> Vec<Claim> {
-        let is_whole = self.ladder.left_out().is_empty();
+        let precision = self.ladder.precision;
+        let is_whole = self.ladder.left_out().is_empty() && precision == Precision::F64;
         let draw = || Samples::with_rim(&self.asked.problem, Stream::Search, shots).deviates;
         let whole = if is_whole { Vec::new() } else { draw() };
         let fewer = fewer(&self.asked, &self.searched, &whole);
@@ -92,7 +126,7 @@ impl<'a> Models<'a> {
                 return Some((searched, searched));
             }
             let with = objective(&self.asked, &best.choice, &whole);
-            let without = objective(&self.searched, &best.choice, &fewer);
+            let without = objective_in(precision, &self.searched, &best.choice, &fewer);
             Some((searched, searched + with - without))
         };
         searches.par_iter().map(claim).collect()

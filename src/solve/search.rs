@@ -14,8 +14,6 @@ pub(super) struct Stage {
     pub candidates: usize,
     /// Longest edge of the first simplex, as a share of each range.
     pub size: f64,
-    /// A descent ends when J differs by less than this share of the accuracy over its simplex.
-    pub settled: f64,
 }
 
 /// More and more shots for fewer and fewer candidates.
@@ -24,21 +22,21 @@ pub(super) const STAGES: [Stage; 3] = [
         shots: 256,
         candidates: 6,
         size: 0.4,
-        settled: 0.1,
     },
     Stage {
         shots: 1024,
         candidates: 2,
         size: 0.3,
-        settled: 0.1,
     },
     Stage {
         shots: 4096,
         candidates: 1,
         size: 0.15,
-        settled: 0.05,
     },
 ];
+
+/// A descent ends when J differs by less than this share of the accuracy over its simplex.
+const SETTLED: f64 = 0.1;
 
 impl Stage {
     /// What follows the last stage while the answer is not accurate enough.
@@ -47,7 +45,6 @@ impl Stage {
             shots,
             candidates: 1,
             size: 0.06,
-            settled: 0.1,
         }
     }
 }
@@ -122,7 +119,7 @@ impl Search {
             .into_par_iter()
             .map(|start| {
                 let start = Candidate::at(space, judge, &start.point);
-                polish(space, judge, start, stage.size, stage.settled * accuracy)
+                polish(space, judge, start, stage.size, SETTLED * accuracy)
             })
             .collect();
         self.sort();
@@ -144,13 +141,7 @@ impl Search {
         self.candidates = vec![if start.standing.rank() <= close_enough {
             start
         } else {
-            polish(
-                &self.space,
-                judge,
-                start,
-                stage.size,
-                stage.settled * accuracy,
-            )
+            polish(&self.space, judge, start, stage.size, SETTLED * accuracy)
         }];
     }
 }

@@ -7,7 +7,8 @@ use super::axis::{LogAxis, percent};
 use super::plot::{Axes, Plot};
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
 use super::style::{FAINT, GHOST, INK, LABEL, Look, look_of};
-use crate::chart::{Chart, PoseCurve, Precision, Sampling, Walls};
+use crate::chart::{Chart, PoseCurve, Sampling, Walls};
+use crate::precision::Precision;
 use crate::report::finding;
 use crate::report::number::{count, significant, time};
 

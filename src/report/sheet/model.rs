@@ -1,6 +1,7 @@
 //! What each effect of the model does here, and what the search did without.
 
 use super::setting::SETTINGS;
+use crate::precision::Precision;
 use crate::record::{ModelRecord, Record, RungRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{fixed, significant};
@@ -119,5 +120,9 @@ fn sentence(model: &ModelRecord) -> String {
         1 => " One effect was put back because the whole model disagreed.".into(),
         more => format!(" {more} effects were put back because the whole model disagreed."),
     };
-    format!("{what}{figures}{put_back}")
+    let precision = match model.precision {
+        Precision::F64 => "",
+        Precision::F32 => " The search traced in single precision, the figures are in double.",
+    };
+    format!("{what}{figures}{put_back}{precision}")
 }

@@ -3,7 +3,8 @@
 use std::io;
 
 use super::{Rows, Table};
-use crate::chart::{Chart, Method, Precision, Sampling, Walls};
+use crate::chart::{Chart, Method, Sampling, Walls};
+use crate::precision::Precision;
 use crate::report::number::plain;
 
 pub(super) fn all(chart: &Chart) -> io::Result<Vec<Table>> {

@@ -8,6 +8,7 @@ use super::{Rung, SHOTS};
 use crate::evaluate::evaluate;
 use crate::jet::{Deviate, Replicates, Samples, Stream, purpose};
 use crate::objective::Tally;
+use crate::precision::Precision;
 use crate::problem::model::Effect;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -45,7 +46,17 @@ pub(in crate::solve) fn fewer<'a>(
 
 /// J at a choice.
 pub(in crate::solve) fn objective(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> f64 {
-    let tally = Tally::trace(setup, choice, choice.speed, shots);
+    objective_in(Precision::F64, setup, choice, shots)
+}
+
+/// The same with paths in one of the precisions.
+pub(in crate::solve) fn objective_in(
+    precision: Precision,
+    setup: &Setup,
+    choice: &Choice,
+    shots: &[Deviate],
+) -> f64 {
+    let tally = Tally::trace_as(precision, setup, choice, choice.speed, shots);
     tally.terms(&setup.problem.goals, choice.speed).total()
 }
 
@@ -110,16 +121,23 @@ impl<'a> Bench<'a> {
     }
 
     pub(super) fn largest_change(&self, left_out: &[Effect]) -> f64 {
-        let changes = self.changes(&self.reduced(left_out));
-        changes
-            .iter()
-            .fold(0.0, |most, change| most.max(change.abs()))
+        largest(&self.changes(&self.reduced(left_out)))
+    }
+
+    /// The largest change of J, relative, when paths are traced in another precision.
+    pub(super) fn largest_change_in(&self, precision: Precision) -> f64 {
+        let change = |(choice, whole): (&Choice, &f64)| {
+            let coarse = objective_in(precision, self.setup, choice, &self.shots);
+            self.relative(coarse - whole, *whole)
+        };
+        let changes: Vec<f64> = self.leading.iter().zip(&self.whole).map(change).collect();
+        largest(&changes)
     }
 
     /// The best settings of a setup near the first leading choice.
     fn descend(&self, setup: &Setup, shots: &[Deviate]) -> Choice {
         let choice = &self.leading[0];
-        let judge = Judge::new(setup, shots, self.effort, self.control);
+        let judge = Judge::new(setup, Precision::F64, shots, self.effort, self.control);
         let search_speed = !speed_scales_out(setup, choice.contact);
         let space = Space::new(&setup.problem, choice.contact, search_speed);
         let start = Candidate::at(&space, &judge, &space.point(choice));
@@ -171,7 +189,7 @@ impl<'a> Bench<'a> {
         Rung {
             effect,
             change: changes[0],
-            largest_change: changes.iter().fold(0.0, |most, c| most.max(c.abs())),
+            largest_change: largest(&changes),
             turned: turned.collect(),
             best_without,
             best_with,
@@ -198,6 +216,11 @@ impl<'a> Bench<'a> {
         }
         least[0] / least[1]
     }
+}
+
+fn largest(changes: &[f64]) -> f64 {
+    let sizes = changes.iter().map(|change| change.abs());
+    sizes.fold(0.0, f64::max)
 }
 
 /// What the whole model says where effects are measured.

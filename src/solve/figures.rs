@@ -1,0 +1,84 @@
+//! The figures of the answers, on as many fresh shots as they need.
+
+use rayon::prelude::*;
+
+use super::accuracy::is_vague;
+use super::answer::Answer;
+use super::control::Control;
+use super::judge::Effort;
+use super::search::Search;
+use crate::jet::{Replicates, purpose};
+use crate::setup::Setup;
+use crate::verdict::Verdict;
+
+/// Evaluates what searches have found on shots that they have not seen.
+pub(super) struct Figures<'a> {
+    setup: &'a Setup,
+    effort: &'a Effort,
+    most_shots: usize,
+    fresh: Replicates,
+}
+
+impl<'a> Figures<'a> {
+    /// Draws a part of the shots.
+    pub fn new(setup: &'a Setup, control: &Control, effort: &'a Effort) -> Self {
+        let first = control.first_fresh_shots();
+        Self {
+            setup,
+            effort,
+            most_shots: control.fresh_shots,
+            fresh: Replicates::new(&setup.problem, purpose::ANSWERS, first),
+        }
+    }
+
+    /// The answers that the searches have found.
+    pub fn all(&mut self, searches: &[Search]) -> Vec<Answer> {
+        let answers = self.of(searches);
+        self.sharpened(answers, searches)
+    }
+
+    /// The answers again, where some of the searches have gone on.
+    pub fn renewed(
+        &mut self,
+        mut answers: Vec<Answer>,
+        searches: &[Search],
+        changed: &[usize],
+    ) -> Vec<Answer> {
+        let changed = changed.par_iter();
+        let renewed: Vec<(usize, Answer)> = changed
+            .map(|&index| (index, self.of_one(&searches[index])))
+            .collect();
+        for (index, answer) in renewed {
+            answers[index] = answer;
+        }
+        self.sharpened(answers, searches)
+    }
+
+    /// Evaluates answers again on all shots that may be drawn, where those so far say too little: about
+    /// J of a contact that could win, or about a verdict on the best one.
+    fn sharpened(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
+        let problem = &self.setup.problem;
+        let has_all = problem.has_one_ray() || self.fresh.shots() >= self.most_shots;
+        if has_all || !(is_vague(&answers, problem) || is_open(&answers)) {
+            return answers;
+        }
+        self.fresh = Replicates::new(problem, purpose::ANSWERS, self.most_shots);
+        self.of(searches)
+    }
+
+    fn of(&self, searches: &[Search]) -> Vec<Answer> {
+        searches.par_iter().map(|it| self.of_one(it)).collect()
+    }
+
+    fn of_one(&self, search: &Search) -> Answer {
+        Answer::of(self.setup, search.best(), &self.fresh, self.effort)
+    }
+}
+
+/// Whether it is uncertain if the best answer passes.
+fn is_open(answers: &[Answer]) -> bool {
+    let best = answers
+        .iter()
+        .min_by(|a, b| a.order().total_cmp(&b.order()));
+    best.is_some_and(|best| !best.verdicts.iter().all(Verdict::is_certain))
+}
