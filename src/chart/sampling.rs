@@ -13,7 +13,7 @@ pub enum Sampling {
     Random,
     /// As scrambled Sobol points.
     Sobol,
-    /// The same with every second shot towards the rim, as the search draws them.
+    /// The same with some of the shots towards the rim, as the search draws them.
     SobolRim,
 }
 

@@ -74,7 +74,7 @@ fn poses(chart: &Chart) -> Option<Block> {
         ("time", Align::Right),
         ("random", Align::Right),
         ("Sobol", Align::Right),
-        ("Sobol, half on the rim", Align::Right),
+        ("Sobol, with the rim", Align::Right),
     ]);
     for (index, point) in first.points.iter().enumerate() {
         let errors = Sampling::ALL.map(|sampling| {
@@ -89,8 +89,9 @@ fn poses(chart: &Chart) -> Option<Block> {
     }
     block.table(table);
     block.paragraph(&format!(
-        "Root mean square error of J, relative to J0; {}; one thread. The search ended with {} shots \
-         at each pose, half of them on the rim.",
+        "Root mean square error of J, relative to J0; {}; one thread. With the rim: as the search draws \
+         shots, every second one or, of 2048 and more, three out of four where harm is rare. It ended with \
+         {} shots at each pose.",
         curve_name(first),
         count(chart.recommended.shots_per_pose),
     ));

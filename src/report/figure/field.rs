@@ -23,7 +23,8 @@ pub type Outline = Vec<Place>;
 
 impl Field {
     /// A field between two corners, px. Where a node has no value it gets that of the nearest one
-    /// that has; `None` when no node has one, or there are fewer than two each way.
+    /// that has; `None` when no node has one, there are fewer than two each way, or the last row is
+    /// not whole.
     pub fn new(
         values: &[Option<f64>],
         columns: usize,
@@ -31,7 +32,7 @@ impl Field {
         opposite: Place,
     ) -> Option<Self> {
         let rows = values.len().checked_div(columns)?;
-        if columns < 2 || rows < 2 {
+        if columns < 2 || rows < 2 || values.len() != rows * columns {
             return None;
         }
         let step = |from: i32, to: i32, count: usize| f64::from(to - from) / (count - 1) as f64;
@@ -186,6 +187,17 @@ mod tests {
         };
         let values: Vec<Option<f64>> = (0..121).map(node).collect();
         Field::new(&values, 11, (0, 1000), (1000, 0)).unwrap()
+    }
+
+    #[test]
+    fn rows_are_whole_and_at_least_two() {
+        let is_field = |count: usize, columns| {
+            Field::new(&vec![Some(1.0); count], columns, (0, 100), (100, 0)).is_some()
+        };
+        assert!(is_field(6, 3) && is_field(6, 2));
+        assert!(![0, 1, 5, 6].into_iter().any(|columns| is_field(6, columns)));
+        let first_only = [Some(1.0), None, None, None, None, None, None];
+        assert!(Field::new(&first_only, 3, (0, 100), (100, 0)).is_none());
     }
 
     #[test]

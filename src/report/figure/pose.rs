@@ -89,7 +89,7 @@ fn title(sampling: Sampling) -> &'static str {
     match sampling {
         Sampling::Random => "Plain random shots",
         Sampling::Sobol => "Scrambled Sobol shots",
-        Sampling::SobolRim => "Sobol, every second on the rim",
+        Sampling::SobolRim => "Sobol, with the rim",
     }
 }
 
