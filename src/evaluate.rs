@@ -118,9 +118,12 @@ fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluat
     let (terms, term_errors, standard_error) = if is_exact {
         (sums[0].terms(goals), Terms::default(), 0.0)
     } else {
-        let may_harm = setup.surfaces.iter().any(|limits| limits.allow.is_some());
-        let fired: usize = replicates.iter().map(Ledger::fired).sum();
-        jackknife(&sums, goals, may_harm.then_some(fired))
+        let limited = setup.surfaces.iter().filter(|it| it.allow.is_some());
+        let unseen = Unseen {
+            harm: limited.fold(0.0, |most, it| it.weight.max(most)) * UNSEEN_LOAD * UNSEEN_LOAD,
+            shots: replicates.iter().map(Ledger::fired).sum::<usize>() as f64,
+        };
+        jackknife(&sums, goals, &unseen)
     };
     let rays = replicates.iter().map(|r| r.tally.rays + r.rim.rays).sum();
     let mut ends = BTreeMap::new();
@@ -151,9 +154,8 @@ fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluat
 ///
 /// What harms rarely may have been seen too seldom to show how much it scatters. So a few more of the
 /// worst events are added to the variances, as two are added to the counts behind a 95 % interval
-/// of a share. `may_harm` is the number of shots where surfaces have limits: the worst event may not
-/// be among what these have shown, and costs as much as many of them together.
-fn jackknife(sums: &[Sums], goals: &Goals, may_harm: Option<usize>) -> (Terms, Terms, f64) {
+/// of a share; the very worst may not even be among what was seen.
+fn jackknife(sums: &[Sums], goals: &Goals, unseen: &Unseen) -> (Terms, Terms, f64) {
     let pooled = |skip: Option<usize>| {
         let kept = sums.iter().enumerate().filter(|(i, _)| skip != Some(*i));
         kept.fold(Sums::default(), |total, (_, one)| total.plus(one))
@@ -163,10 +165,7 @@ fn jackknife(sums: &[Sums], goals: &Goals, may_harm: Option<usize>) -> (Terms, T
         .collect();
     let all = pooled(None);
     let mut more = all.one_more_of_the_worst(goals);
-    if let Some(shots) = may_harm {
-        let unseen = UNSEEN * all.terms(goals).total() / shots as f64;
-        more.rebound = more.rebound.max(unseen);
-    }
+    more.rebound = more.rebound.max(unseen.part_in(all.terms(goals).total()));
     let count = sums.len() as f64;
     let error = |part: fn(&Terms) -> f64| {
         let mean = left_out.iter().map(part).sum::<f64>() / count;
@@ -186,8 +185,26 @@ fn jackknife(sums: &[Sums], goals: &Goals, may_harm: Option<usize>) -> (Terms, T
 
 /// How many more of the worst events count as seen.
 const MORE: f64 = 4.0;
-/// The worst event costs at least as much as so many shots on average.
-const UNSEEN: f64 = 16.0;
+
+/// The least that the worst impact on a secondary surface is taken to cost, seen or not.
+struct Unseen {
+    /// Cost of an impact on a surface that has a limit; 0 where none has.
+    harm: f64,
+    /// Shots that were fired.
+    shots: f64,
+}
+
+impl Unseen {
+    /// Its part in J.
+    fn part_in(&self, objective: f64) -> f64 {
+        self.harm.min(MOST_UNSEEN * objective) / self.shots
+    }
+}
+
+/// It has this share of the impulse that its surface may take,
+const UNSEEN_LOAD: f64 = 1.0 / 3.0;
+/// but costs no more than so many shots on average.
+const MOST_UNSEEN: f64 = 16.0;
 
 fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {
     into.resize(into.len().max(counts.len()), 0);
