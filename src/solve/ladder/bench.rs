@@ -218,9 +218,10 @@ impl<'a> Bench<'a> {
     }
 }
 
+/// The largest size; what is not a number is above all that are.
 fn largest(changes: &[f64]) -> f64 {
     let sizes = changes.iter().map(|change| change.abs());
-    sizes.fold(0.0, f64::max)
+    sizes.max_by(f64::total_cmp).unwrap_or(0.0)
 }
 
 /// What the whole model says where effects are measured.
