@@ -19,6 +19,10 @@ pub enum Precision {
 impl Precision {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::F64, Self::F32];
+
+    /// What single precision may change of J as a part of the accuracy asked for, to be enough for a
+    /// search.
+    pub const LITTLE: f64 = 0.1;
 }
 
 /// A floating-point number.

@@ -32,6 +32,8 @@ pub mod warning;
 
 mod check;
 mod doubt;
+#[cfg(test)]
+pub(crate) mod example;
 mod faults;
 mod field;
 mod file;

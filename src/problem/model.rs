@@ -189,18 +189,10 @@ impl Problem {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use super::*;
     use crate::impact::Contact;
-    use crate::problem::equipment::{Role, SurfaceRule};
-
-    fn keyway() -> Problem {
-        let text = include_str!("../../problems/keyway.yaml");
-        let reading = crate::problem::read_text(text, Path::new("keyway.yaml"));
-        let reading = reading.expect("it is short enough");
-        reading.problem.expect("it is sound")
-    }
+    use crate::problem::equipment::SurfaceRule;
+    use crate::problem::example::{keyway, rule};
 
     /// The keyway with what it lacks: sizes that scatter, restitution that falls, a rough wall.
     fn with_everything() -> Problem {
@@ -208,14 +200,8 @@ mod tests {
         problem.shot.size_spread = 0.05;
         problem.contacts[1].contact.restitution = FALLING;
         problem.surfaces = vec![SurfaceRule {
-            surface: "hub.bore".to_owned(),
-            allow: None,
-            share: None,
-            weight: None,
-            contact: None,
-            library: None,
             roughness: 0.1,
-            role: Role::Part,
+            ..rule("hub.bore")
         }];
         problem
     }

@@ -1,6 +1,7 @@
 //! What a chart shows, in a sentence each.
 
 use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches, Walls};
+use crate::precision::Precision;
 use crate::report::number::{Scale, count, plain, time};
 use crate::report::series::Series;
 
@@ -46,13 +47,10 @@ fn bias(curve: &PoseCurve) -> String {
     }
 }
 
-/// What single precision may change of J as a part of the accuracy asked for, to be enough.
-const LITTLE: f64 = 0.1;
-
 /// Whether single precision is enough for a search with this accuracy.
 pub fn of_precision(double: &PoseCurve, single: &PoseCurve, accuracy: f64) -> String {
     let most = single.bias.abs() + 2.0 * single.bias_standard_error;
-    let verdict = if most < LITTLE * accuracy {
+    let verdict = if most < Precision::LITTLE * accuracy {
         "enough"
     } else {
         "not enough"

@@ -11,6 +11,17 @@ pub struct Ray {
     pub direction: Vector3<f64>,
 }
 
+#[cfg(test)]
+impl Ray {
+    /// From a point along a unit vector.
+    pub fn of(origin: [f64; 3], direction: [f64; 3]) -> Self {
+        Self {
+            origin: origin.into(),
+            direction: direction.into(),
+        }
+    }
+}
+
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {

@@ -157,16 +157,17 @@ fn beyond(corners: &[Point3<f64>; 3], weights: [f64; 3], determinant: f64, margi
     sides.any(|(share, edge)| share * twice_area < -margin * edge.norm())
 }
 
+/// Sides of 3, 4 and 5 and an area of 6, at z = 1.
+#[cfg(test)]
+pub(super) const CORNERS: [Point3<f64>; 3] = [
+    Point3::new(0.0, 0.0, 1.0),
+    Point3::new(4.0, 0.0, 1.0),
+    Point3::new(0.0, 3.0, 1.0),
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Sides of 3, 4 and 5 and an area of 6, at z = 1.
-    const CORNERS: [Point3<f64>; 3] = [
-        Point3::new(0.0, 0.0, 1.0),
-        Point3::new(4.0, 0.0, 1.0),
-        Point3::new(0.0, 3.0, 1.0),
-    ];
 
     /// The middle of each side, and the direction that leads out of the triangle there.
     const SIDES: [([f64; 2], [f64; 2]); 3] = [

@@ -59,8 +59,6 @@ pub struct Ladder {
 
 /// Shots behind changes of J and of verdicts, and behind best settings.
 const SHOTS: usize = 1024;
-/// Share of the accuracy by which tracing in single precision may change J.
-const LITTLE: f64 = 0.1;
 /// Share of the accuracy by which leaving out effects may change J or worsen the best settings.
 const TOLERABLE: f64 = 0.5;
 
@@ -88,14 +86,14 @@ impl Ladder {
         effort: &Effort,
         control: &Control,
     ) {
-        self.precision = Precision::F64;
         if !setup.scene.has_exact_walls() {
             return;
         }
         let Some(bench) = Bench::new(setup, searches, effort, control) else {
             return;
         };
-        if bench.largest_change_in(Precision::F32) <= LITTLE * setup.problem.accuracy {
+        let tolerable = Precision::LITTLE * setup.problem.accuracy;
+        if bench.largest_change_in(Precision::F32) <= tolerable {
             self.precision = Precision::F32;
         }
     }

@@ -108,22 +108,14 @@ impl Plane {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const CORNERS: [Point3<f64>; 3] = [
-        Point3::new(0.0, 0.0, 1.0),
-        Point3::new(4.0, 0.0, 1.0),
-        Point3::new(0.0, 3.0, 1.0),
-    ];
+    use crate::scene::triangle::CORNERS;
 
     fn plane() -> Plane {
         Plane::new(normal(&CORNERS), &CORNERS)
     }
 
     fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
-        Ray {
-            origin: origin.into(),
-            direction: Vector3::from(direction).normalize(),
-        }
+        Ray::of(origin, Vector3::from(direction).normalize().into())
     }
 
     #[test]

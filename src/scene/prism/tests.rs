@@ -22,13 +22,6 @@ fn pipe(near_closed: bool, far_closed: bool) -> Prism {
     Prism::new(&profile, 10.0, ends, &Place::default(), 7, 1e-9)
 }
 
-fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
-    Ray {
-        origin: origin.into(),
-        direction: direction.into(),
-    }
-}
-
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 
@@ -36,7 +29,7 @@ const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 fn caps_are_as_wide_as_the_cross_section() {
     let pot = pipe(true, true);
     let meet = |origin: [f64; 3], direction: [f64; 3]| {
-        let found = pot.first_crossing(&ray(origin, direction), None, false, f64::INFINITY);
+        let found = pot.first_crossing(&Ray::of(origin, direction), None, false, f64::INFINITY);
         found.map(|(crossing, normal)| {
             (
                 crossing.distance,
@@ -60,11 +53,11 @@ fn caps_are_as_wide_as_the_cross_section() {
     let (distance, surface, front, _) = meet([0.0, 0.0, 3.0], [0.6, 0.8, 0.0]).expect("the wall");
     assert!((distance - 5.0).abs() < 1e-12 && surface == 7 && front);
     let open = pipe(false, true);
-    let below = open.first_crossing(&ray([0.0, 0.0, 3.0], DOWN), None, false, f64::INFINITY);
+    let below = open.first_crossing(&Ray::of([0.0, 0.0, 3.0], DOWN), None, false, f64::INFINITY);
     assert!(below.is_none());
-    let above = open.first_crossing(&ray([0.0, 0.0, 3.0], UP), None, false, f64::INFINITY);
+    let above = open.first_crossing(&Ray::of([0.0, 0.0, 3.0], UP), None, false, f64::INFINITY);
     assert_eq!(above.expect("it is closed").0.surface, 8);
-    let limited = open.first_crossing(&ray([0.0, 0.0, 3.0], UP), None, false, 6.9);
+    let limited = open.first_crossing(&Ray::of([0.0, 0.0, 3.0], UP), None, false, 6.9);
     assert!(limited.is_none());
 }
 
@@ -78,7 +71,7 @@ fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
     // touches the rim.
     for (y, across) in [(5.3, 0.6), (4.7, -0.6)] {
         for (z, direction, along) in [(-10.0, UP, -0.8), (20.0, DOWN, 0.8)] {
-            let from = |distance: f64| ray([0.0, y, z + distance * direction[2]], direction);
+            let from = |distance: f64| Ray::of([0.0, y, z + distance * direction[2]], direction);
             let found = touch(&from(0.0), None, f64::INFINITY);
             let (crossing, normal) = found.expect("the rim");
             assert!((crossing.distance - 9.6).abs() < 1e-9, "{y}, {z}");
@@ -110,7 +103,7 @@ fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
         }
     }
     for y in [5.6, 4.4] {
-        let passing = ray([0.0, y, -10.0], UP);
+        let passing = Ray::of([0.0, y, -10.0], UP);
         assert!(touch(&passing, None, f64::INFINITY).is_none(), "{y}");
     }
 }
@@ -142,7 +135,7 @@ fn a_rim_belongs_to_the_surface_of_its_wall() {
         for (wall, [x, y]) in outwards.into_iter().enumerate() {
             let open_ends = if far_closed { 1 } else { 2 };
             for (z, direction) in [(-10.0, UP), (20.0, DOWN)].into_iter().take(open_ends) {
-                let flight = ray([4.7 * x, 4.7 * y, z], direction);
+                let flight = Ray::of([4.7 * x, 4.7 * y, z], direction);
                 let found = shaft.first_touch(&flight, 0.5, None, false, f64::INFINITY);
                 let (crossing, normal) = found.expect("the rim");
                 assert_eq!(crossing.surface, 7 + wall as u32);
@@ -158,7 +151,7 @@ fn a_rim_belongs_to_the_surface_of_its_wall() {
 fn shots_touch_caps_a_radius_before_them() {
     let pot = pipe(true, false);
     let touch = |origin: [f64; 3], direction: [f64; 3]| {
-        let found = pot.first_touch(&ray(origin, direction), 1.0, None, false, f64::INFINITY);
+        let found = pot.first_touch(&Ray::of(origin, direction), 1.0, None, false, f64::INFINITY);
         found.map(|(crossing, normal)| {
             (
                 crossing.distance,
@@ -182,7 +175,7 @@ fn shots_touch_caps_a_radius_before_them() {
 #[test]
 fn a_ray_is_between_two_heights_from_its_start_at_the_earliest() {
     let between = |z: f64, rate: f64| {
-        let flight = ray([0.0, 0.0, z], [0.0, (1.0 - rate * rate).sqrt(), rate]);
+        let flight = Ray::of([0.0, 0.0, z], [0.0, (1.0 - rate * rate).sqrt(), rate]);
         super::touch::between(&flight, 2.0, 4.0)
     };
     assert_eq!(between(0.0, 0.5), Some([4.0, 8.0]));

@@ -344,13 +344,6 @@ mod tests {
         plate(corners, [5, 2, 9], SLACK)
     }
 
-    fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
-        Ray {
-            origin: origin.into(),
-            direction: direction.into(),
-        }
-    }
-
     #[test]
     fn plates_know_their_plane_and_the_order_of_their_edges() {
         let plate = large();
@@ -386,7 +379,7 @@ mod tests {
     fn only_edges_that_the_centre_passes_are_looked_at() {
         let plate = large();
         let passed = |origin: [f64; 3], direction: [f64; 3], limit: f64| {
-            let ray = ray(origin, direction);
+            let ray = Ray::of(origin, direction);
             let sphere = Sphere::new(&ray, 1.0, SLACK);
             let height = plate.height(&ray.origin);
             sphere.passed(&plate, height, ray.direction.dot(&plate.normal), limit)
@@ -409,7 +402,7 @@ mod tests {
     fn faces_and_edges_are_touched_a_radius_away() {
         let plate = large();
         let touch = |origin: [f64; 3], direction: [f64; 3], folds: Folds| {
-            let ray = ray(origin, direction);
+            let ray = Ray::of(origin, direction);
             Sphere::new(&ray, 1.0, SLACK).touch(&plate, folds, 99.0)
         };
         let face = touch([10.0, 10.0, 5.0], [0.0, 0.0, -1.0], Folds::ALL).expect("the face");
@@ -448,7 +441,7 @@ mod tests {
 
     #[test]
     fn margins_grow_as_the_angle_flattens() {
-        let level = ray([0.0, 0.0, 5.0], [1.0, 0.0, 0.0]);
+        let level = Ray::of([0.0, 0.0, 5.0], [1.0, 0.0, 0.0]);
         let sphere = Sphere::new(&level, 1.0, SLACK);
         assert_eq!(sphere.margin(1.0), LIFT * SLACK);
         assert_eq!(sphere.margin(0.25), 4.0 * LIFT * SLACK);
@@ -458,7 +451,7 @@ mod tests {
     #[test]
     fn a_triangle_that_was_left_is_touched_again_where_the_sphere_heads_in() {
         let is_another = |sinking: f64, radius: f64| {
-            let ray = ray([0.0, 0.0, 1.0], [1.0, 0.0, -sinking]);
+            let ray = Ray::of([0.0, 0.0, 1.0], [1.0, 0.0, -sinking]);
             let touch = Touch {
                 distance: 0.0,
                 normal: Vector3::z(),
