@@ -105,7 +105,8 @@ pub fn evaluate_drawn(setup: &Setup, choice: &Choice, fresh: &Draw) -> Evaluatio
 }
 
 fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluation {
-    let shots = replicates.iter().map(|r| r.tally.shots).sum();
+    let shots: usize = replicates.iter().map(|r| r.tally.shots).sum();
+    let rim_shots = replicates.iter().map(|r| r.rim.shots).sum();
     let is_exact = replicates.len() == 1;
     let goals = &setup.problem.goals;
     let sums: Vec<Sums> = replicates
@@ -121,7 +122,7 @@ fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluat
         let limited = setup.surfaces.iter().filter(|it| it.allow.is_some());
         let unseen = Unseen {
             harm: limited.fold(0.0, |most, it| it.weight.max(most)) * UNSEEN_LOAD * UNSEEN_LOAD,
-            shots: replicates.iter().map(Ledger::fired).sum::<usize>() as f64,
+            shots: (shots + rim_shots) as f64,
         };
         jackknife(&sums, goals, &unseen)
     };
@@ -137,7 +138,7 @@ fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluat
     Evaluation {
         shots,
         is_exact,
-        rim_shots: replicates.iter().map(|r| r.rim.shots).sum(),
+        rim_shots,
         rays,
         terms,
         term_errors,
@@ -164,8 +165,9 @@ fn jackknife(sums: &[Sums], goals: &Goals, unseen: &Unseen) -> (Terms, Terms, f6
         .map(|index| pooled(Some(index)).terms(goals))
         .collect();
     let all = pooled(None);
+    let terms = all.terms(goals);
     let mut more = all.one_more_of_the_worst(goals);
-    more.rebound = more.rebound.max(unseen.part_in(all.terms(goals).total()));
+    more.rebound = more.rebound.max(unseen.part_in(terms.total()));
     let count = sums.len() as f64;
     let error = |part: fn(&Terms) -> f64| {
         let mean = left_out.iter().map(part).sum::<f64>() / count;
@@ -180,7 +182,7 @@ fn jackknife(sums: &[Sums], goals: &Goals, unseen: &Unseen) -> (Terms, Terms, f6
         rebound: error(|t| t.rebound),
         miss: error(|t| t.miss),
     };
-    (all.terms(goals), errors, error(Terms::total))
+    (terms, errors, error(Terms::total))
 }
 
 /// How many more of the worst events count as seen.

@@ -14,7 +14,7 @@ use crate::objective::Terms;
 use crate::problem::Problem;
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
-use crate::solve::{clearance_violation, speed_scales_out};
+use crate::solve::clearance_violation;
 use crate::verdict::{Subject, Verdict};
 use survey::Survey;
 
@@ -89,7 +89,7 @@ impl Map {
             y.setting.with(&across, y.values[index / columns])
         };
         let count = columns * y.values.len();
-        let shares_paths = speed_scales_out(setup, choice.contact);
+        let shares_paths = setup.speed_scales_out(choice.contact);
         let groups: Vec<Vec<usize>> = if shares_paths && x.setting == Setting::Speed {
             let row = |first: usize| (first..first + columns).collect();
             (0..count).step_by(columns.max(1)).map(row).collect()

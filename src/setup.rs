@@ -135,6 +135,13 @@ impl Setup {
         self.without(&self.unasked(), &self.problem.settings.middle())
     }
 
+    /// Whether the paths of shots stay the same when every speed is multiplied by one factor.
+    pub fn speed_scales_out(&self, contact: usize) -> bool {
+        let own = self.surfaces.iter().filter_map(|limits| limits.contact);
+        self.problem.contacts[contact].contact.is_scale_free()
+            && own.into_iter().all(|contact| contact.is_scale_free())
+    }
+
     /// The contact of the mean shot with a surface of the scene: its own one, or the chosen one.
     pub fn contact_on(&self, surface: u32, choice: &Choice) -> Contact {
         self.surfaces[surface as usize]

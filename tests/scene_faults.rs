@@ -597,7 +597,8 @@ fn a_surface_may_have_its_own_limits() {
         weight: Some(3.0),
         ..rule("hub.bore")
     };
-    let setup = with_rules(&[strict]);
+    let mut setup = with_rules(&[strict]);
+    setup.problem.jet.speed_spread = 0.0;
     let bore = surface(&setup, "hub.bore") as u32;
     let (mut harm, mut over) = (0.0, 0);
     let paths = paths(&setup, &choice);

@@ -20,7 +20,6 @@ use clap::Parser;
 use peenpose::jet::{Samples, Stream};
 use peenpose::problem::setting::Choice;
 use peenpose::setup::Setup;
-use peenpose::solve::speed_scales_out;
 use rayon::prelude::*;
 
 use common::cube::{ALL_BUT_SPEED, Cube};
@@ -116,7 +115,7 @@ fn best_known(
     contact: usize,
     arguments: &Arguments,
 ) -> Result<Known, Box<dyn Error>> {
-    if !speed_scales_out(setup, contact) {
+    if !setup.speed_scales_out(contact) {
         return Err("the best speed does not follow from the paths".into());
     }
     let work = Work::default();

@@ -43,7 +43,7 @@ impl Ledger {
         let shots = &replicate.jet.deviates;
         let mut clerk = Clerk {
             setup,
-            score: Score::new(setup, choice.speed, shots.len()),
+            score: Score::new(setup, choice.contact, choice.speed, shots.len()),
             sticking: 0,
             impacts: 0,
             surfaces: vec![SurfaceSums::default(); setup.surfaces.len()],
@@ -65,13 +65,6 @@ impl Ledger {
             surfaces: clerk.surfaces,
             ends: clerk.ends,
         }
-    }
-}
-
-impl Ledger {
-    /// Shots of the jet and on the rim.
-    pub fn fired(&self) -> usize {
-        self.tally.shots + self.rim.shots
     }
 }
 

@@ -9,4 +9,4 @@ pub use point::Stream;
 pub(crate) use point::normal_pair;
 pub(crate) use pose::Aim;
 pub use pose::Pose;
-pub use sample::{Deviate, Draw, Replicate, Replicates, Samples};
+pub use sample::{Deviate, Draw, Replicate, Replicates, Samples, speed_variance};

@@ -292,6 +292,17 @@ fn weighted(
     deviate
 }
 
+/// Variance of the shots' factors on the speed, whose mean is 1.
+pub fn speed_variance(problem: &Problem) -> f64 {
+    let scatter = problem.jet.speed_spread.powi(2) * VARIANCE_WITHIN_TWO_DEVIATIONS;
+    let setting = problem.tolerance.speed.powi(2) / 3.0;
+    // The factors are products of both: 1 + variance is the product of the mean squares.
+    scatter + setting + scatter * setting
+}
+
+/// Of a standard normal deviate that is cut at two deviations, 1 - 4 phi(2) / (2 Phi(2) - 1).
+const VARIANCE_WITHIN_TWO_DEVIATIONS: f64 = 0.773_741_303_549_923_2;
+
 fn deviate(problem: &Problem, point: &mut Point) -> Deviate {
     let (jet, tolerance) = (&problem.jet, &problem.tolerance);
     Deviate {
@@ -355,4 +366,28 @@ fn cone_direction(half_angle: f64, spread: Spread, point: &mut Point) -> [f64; 3
     let sine = (versine * (2.0 - versine)).sqrt();
     let (sin, cos) = (std::f64::consts::TAU * point.uniform(Dimension::ConeTurn)).sin_cos();
     [sine * cos, sine * sin, 1.0 - versine]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::example::keyway;
+
+    #[test]
+    fn the_variance_of_the_speed_is_that_of_many_shots() {
+        let mut problem = keyway();
+        for (spread, tolerance) in [(0.05, 0.03), (0.4, 0.0), (0.0, 0.5), (0.4, 0.5)] {
+            problem.jet.speed_spread = spread;
+            problem.tolerance.speed = tolerance;
+            let samples = Samples::new(&problem, Stream::Search, 1 << 16);
+            let mean = |of: fn(f64) -> f64| {
+                let speeds = samples.deviates.iter().map(|shot| of(shot.speed));
+                speeds.sum::<f64>() / samples.deviates.len() as f64
+            };
+            assert!((mean(|speed| speed) - 1.0).abs() < 1e-5);
+            let variance = mean(|speed| (speed - 1.0).powi(2));
+            let found = speed_variance(&problem);
+            assert!((found / variance - 1.0).abs() < 1e-4, "{found} {variance}");
+        }
+    }
 }

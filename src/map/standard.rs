@@ -5,7 +5,6 @@ use super::{Axis, Map, common_shots};
 use crate::problem::part::Shape;
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
-use crate::solve::speed_scales_out;
 
 /// Shots at each place.
 const SHOTS: usize = 1024;
@@ -30,8 +29,7 @@ pub fn standard_maps(setup: &Setup, choice: &Choice) -> Vec<Map> {
     let rays = rays_at_one_place(setup, choice);
     let pairs = pairs(&free(setup, choice));
     let map = |[x, y]: [(Setting, Range); 2]| {
-        let is_free =
-            |setting| setting == Setting::Speed && speed_scales_out(setup, choice.contact);
+        let is_free = |setting| setting == Setting::Speed && setup.speed_scales_out(choice.contact);
         let paths = [x, y].into_iter().filter(|(setting, _)| !is_free(*setting));
         let affordable = (MOST_RAYS / rays).powf(1.0 / paths.count() as f64);
         let traced = affordable.clamp(FEWEST_STEPS, MOST_STEPS).floor();

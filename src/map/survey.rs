@@ -25,7 +25,7 @@ impl Survey {
     pub fn of(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> Self {
         let surfaces = setup.surfaces.len();
         let mut surveyor = Surveyor {
-            score: Score::new(setup, choice.speed, shots.len()),
+            score: Score::new(setup, choice.contact, choice.speed, shots.len()),
             sticking: 0,
             per_speed: 1.0 / choice.speed,
             largest: vec![Vec::new(); surfaces],

@@ -9,6 +9,8 @@ use crate::problem::goal::Goals;
 pub struct Impulses {
     /// Normal.
     pub normal: f64,
+    /// The same where the shot has the mean speed and its path does not depend on it.
+    pub normal_at_mean: f64,
     /// Tangential.
     pub tangential: f64,
     /// What the shot stands for.
@@ -22,6 +24,8 @@ pub struct Impulses {
 pub struct Hits {
     /// Normal, N s per m/s.
     pub normal: Vec<f64>,
+    /// The same where the shots have the mean speed and their paths do not depend on it.
+    pub normal_at_mean: Vec<f64>,
     /// Tangential, N s per m/s.
     pub tangential: Vec<f64>,
     /// What the shots stand for.
@@ -35,6 +39,7 @@ impl Hits {
     pub fn with_capacity(count: usize) -> Self {
         Self {
             normal: Vec::with_capacity(count),
+            normal_at_mean: Vec::with_capacity(count),
             tangential: Vec::with_capacity(count),
             weight: Vec::with_capacity(count),
             of_jet: Vec::with_capacity(count),
@@ -44,6 +49,7 @@ impl Hits {
     /// Adds other hits behind these.
     pub fn append(&mut self, mut others: Self) {
         self.normal.append(&mut others.normal);
+        self.normal_at_mean.append(&mut others.normal_at_mean);
         self.tangential.append(&mut others.tangential);
         self.weight.append(&mut others.weight);
         self.of_jet.append(&mut others.of_jet);
@@ -51,16 +57,13 @@ impl Hits {
 
     /// Hit by hit.
     pub fn iter(&self) -> impl Iterator<Item = Impulses> + '_ {
-        let impulses = self.normal.iter().zip(&self.tangential);
-        let shots = self.weight.iter().zip(&self.of_jet);
-        impulses
-            .zip(shots)
-            .map(|((&normal, &tangential), (&weight, &of_jet))| Impulses {
-                normal,
-                tangential,
-                weight,
-                of_jet,
-            })
+        (0..self.len()).map(|index| Impulses {
+            normal: self.normal[index],
+            normal_at_mean: self.normal_at_mean[index],
+            tangential: self.tangential[index],
+            weight: self.weight[index],
+            of_jet: self.of_jet[index],
+        })
     }
 
     /// How many there are.
@@ -105,6 +108,7 @@ impl FromIterator<Impulses> for Hits {
         let mut all = Self::default();
         for hit in hits {
             all.normal.push(hit.normal);
+            all.normal_at_mean.push(hit.normal_at_mean);
             all.tangential.push(hit.tangential);
             all.weight.push(hit.weight);
             all.of_jet.push(hit.of_jet);
@@ -123,6 +127,19 @@ pub(super) struct Moments {
     pub slope: f64,
     /// Of gain^2: half the second derivative.
     pub curvature: f64,
+}
+
+impl Moments {
+    /// The same averaged over speeds that scatter about the launch speed, m/s, with this relative
+    /// variance, where they are those at the mean speed.
+    pub fn scattered(self, variance: f64, speed: f64) -> Self {
+        let more = variance * self.curvature;
+        Self {
+            square: self.square + more * speed * speed,
+            slope: self.slope + more * speed,
+            curvature: self.curvature + more,
+        }
+    }
 }
 
 /// The moments of impulses over `unit` at a launch speed. With `only_excess` those hits count for

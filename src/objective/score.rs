@@ -2,7 +2,7 @@
 
 use super::hits::Hits;
 use super::tally::Tally;
-use crate::jet::Deviate;
+use crate::jet::{Deviate, speed_variance};
 use crate::precision::{Precision, Real};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::{LANES, Lane, components, padded};
@@ -15,6 +15,8 @@ pub(crate) struct Score<R> {
     tally: Tally,
     /// Launch speed, m/s.
     speed: f64,
+    /// The mean square of the shots' factors on it, where paths do not depend on them.
+    mean_square: Option<R>,
     /// What (N*)^2 on a surface costs.
     harm: Vec<R>,
     /// The same on the first surface.
@@ -58,8 +60,10 @@ impl<R: Real> Target<R> {
 }
 
 impl<R: Real> Score<R> {
-    /// For so many shots that leave at a launch speed, m/s.
-    pub fn new(setup: &Setup, speed: f64, shots: usize) -> Self {
+    /// For so many shots that leave with a contact at a launch speed, m/s.
+    pub fn new(setup: &Setup, contact: usize, speed: f64, shots: usize) -> Self {
+        let scales_out = setup.speed_scales_out(contact);
+        let speed_variance = scales_out.then(|| speed_variance(&setup.problem));
         let harm: Vec<R> = setup
             .surfaces
             .iter()
@@ -72,9 +76,11 @@ impl<R: Real> Score<R> {
         Self {
             tally: Tally {
                 hits: Hits::with_capacity(shots),
+                speed_variance: speed_variance.unwrap_or(0.0),
                 ..Tally::default()
             },
             speed,
+            mean_square: speed_variance.map(|variance| R::of(1.0 + variance)),
             harms_alike: harm.iter().all(|&harm| harm == usual_harm),
             usual_harm,
             harm,
@@ -114,12 +120,15 @@ impl<R: Real> Score<R> {
     #[inline(always)]
     fn add_hits_on_target(&mut self, volley: &Volley<R>, is_first: &Lane<R>) {
         let (mut normal, mut tangential) = ([0.0; LANES], [0.0; LANES]);
+        let mut normal_at_mean = [0.0; LANES];
         let (mut weight, mut of_jet) = ([0.0; LANES], [0.0; LANES]);
         let per_speed = 1.0 / self.speed;
         let mut count = 0;
         for (i, &first) in is_first.iter().enumerate().take(volley.rays.count) {
             let hit = first != R::ZERO;
             normal[count] = volley.impacts.normal[i].wide() * per_speed;
+            let factor = self.mean_square.map_or(1.0, |_| volley.speed[i].wide());
+            normal_at_mean[count] = normal[count] / factor;
             tangential[count] = volley.impacts.tangential[i].wide() * per_speed;
             weight[count] = volley.weight[i].wide();
             of_jet[count] = volley.of_jet[i].wide();
@@ -128,6 +137,8 @@ impl<R: Real> Score<R> {
         }
         let hits = &mut self.tally.hits;
         hits.normal.extend_from_slice(&normal[..count]);
+        hits.normal_at_mean
+            .extend_from_slice(&normal_at_mean[..count]);
         hits.tangential.extend_from_slice(&tangential[..count]);
         hits.weight.extend_from_slice(&weight[..count]);
         hits.of_jet.extend_from_slice(&of_jet[..count]);
@@ -155,7 +166,7 @@ impl Tally {
     }
 
     fn trace_in<R: Real>(setup: &Setup, choice: &Choice, speed: f64, shots: &[Deviate]) -> Self {
-        let mut score = Score::<R>::new(setup, speed, shots.len());
+        let mut score = Score::<R>::new(setup, choice.contact, speed, shots.len());
         let tracer = Tracer::new(setup, choice, speed);
         tracer.fire(shots, &mut score, Score::end_volley);
         score.finish()
@@ -177,6 +188,12 @@ impl<R: Real> Witness<R> for Score<R> {
         for (on_it, &surface) in on_surface.iter_mut().zip(&volley.hits.surface) {
             *on_it = truth(surface == target.surface);
         }
+        let mut speed_share = [R::ONE; LANES];
+        if let Some(mean_square) = self.mean_square {
+            for (share, &speed) in speed_share.iter_mut().zip(&volley.speed) {
+                *share = mean_square / (speed * speed);
+            }
+        }
         let (mut on_target, mut is_first) = ([R::ZERO; LANES], [R::ZERO; LANES]);
         let mut rebound = [R::ZERO; LANES];
         for i in 0..padded(count) {
@@ -185,7 +202,7 @@ impl<R: Real> Witness<R> for Score<R> {
             let counts = volley.impacts.counts[i] != R::ZERO;
             let first = counts & hit & (volley.number[i] == R::ONE);
             let normal = volley.impacts.normal[i];
-            let cost = volley.weight[i] * harm[i] * normal * normal;
+            let cost = volley.weight[i] * harm[i] * speed_share[i] * normal * normal;
             on_target[i] = truth(hit);
             is_first[i] = truth(first);
             rebound[i] = if counts & !hit { cost } else { R::ZERO };

@@ -22,6 +22,9 @@ pub struct Tally {
     pub worst_miss: f64,
     /// The largest part that one impact has in `rebound`.
     pub worst_rebound: f64,
+    /// Variance of the shots' factors on the speed, over which all that is quadratic in the speed is
+    /// averaged exactly; 0 where paths depend on the speed, and every shot stands for its own.
+    pub speed_variance: f64,
     /// Number of rays cast.
     pub rays: usize,
 }
@@ -38,6 +41,7 @@ impl Tally {
             all.rebound += part.rebound;
             all.worst_miss = all.worst_miss.max(part.worst_miss);
             all.worst_rebound = all.worst_rebound.max(part.worst_rebound);
+            all.speed_variance = part.speed_variance;
             all.rays += part.rays;
         }
         all
@@ -138,8 +142,13 @@ impl Tally {
     }
 
     fn normal_moments(&self, goals: &Goals, speed: f64) -> Moments {
-        let Hits { normal, of_jet, .. } = &self.hits;
-        moments(normal, of_jet, goals.normal_impulse.target, speed, false)
+        let Hits {
+            normal_at_mean,
+            of_jet,
+            ..
+        } = &self.hits;
+        let target = goals.normal_impulse.target;
+        moments(normal_at_mean, of_jet, target, speed, false).scattered(self.speed_variance, speed)
     }
 
     fn tangential_moments(&self, goals: &Goals, speed: f64) -> Moments {

@@ -104,6 +104,7 @@ fn one_more_of_the_worst_adds_its_part_over_all_shots() {
 fn hits() -> Hits {
     Hits {
         normal: vec![0.5, 0.25, 0.375],
+        normal_at_mean: vec![0.5, 0.25, 0.375],
         tangential: vec![0.125, 0.5, 0.25],
         weight: vec![1.0, 0.5, 1.0],
         of_jet: vec![1.0, 0.0, 1.0],
@@ -142,6 +143,7 @@ fn tallies_add_up_and_sums_go_with_the_square_of_the_speed() {
         rebound: 6.0,
         worst_miss: 1.0,
         worst_rebound: 5.0,
+        speed_variance: 0.0,
         rays: 9,
     };
     let other = Tally {
@@ -171,6 +173,42 @@ fn tallies_add_up_and_sums_go_with_the_square_of_the_speed() {
         ..sums.plus(&sums)
     };
     assert_eq!(both.sums(&GOALS, 4.0), twice);
+}
+
+#[test]
+fn the_normal_impulse_is_averaged_over_speeds_that_scatter() {
+    let exact = Tally {
+        shots: 3,
+        weight: 2.5,
+        hits: Hits {
+            // As they were drawn; they have no part in J.
+            normal: vec![0.6, 0.2, 0.5],
+            ..hits()
+        },
+        ..Tally::default()
+    };
+    let scattered = Tally {
+        speed_variance: 0.0625,
+        ..exact.clone()
+    };
+    // Speeds of 3 and 5 m/s have a mean of 4 and a relative variance of 1/16.
+    let square = |speed: f64| exact.sums(&GOALS, speed).normal;
+    assert_eq!(square(4.0), 1.0 + 0.25);
+    assert_eq!(
+        scattered.sums(&GOALS, 4.0).normal,
+        0.5 * (square(3.0) + square(5.0))
+    );
+    let both = Tally::join(vec![scattered.clone(), scattered.clone()]);
+    assert_eq!(both.terms(&GOALS, 4.0), scattered.terms(&GOALS, 4.0));
+    // Scatter costs less where impulses are smaller.
+    let range = Range {
+        min: 0.5,
+        max: 20.0,
+    };
+    let best = scattered.best_speed(&GOALS, range);
+    assert!(best < exact.best_speed(&GOALS, range));
+    let objective = |speed: f64| scattered.terms(&GOALS, speed).total();
+    assert!(objective(best) < objective(best * 1.001).min(objective(best / 1.001)));
 }
 
 #[test]

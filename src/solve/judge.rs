@@ -191,7 +191,7 @@ impl<'a> Judge<'a> {
 
     fn judged(&self, choice: &Choice, tally: &Tally) -> Judged {
         let problem = &self.setup.problem;
-        let speed = if speed_scales_out(self.setup, choice.contact) {
+        let speed = if self.setup.speed_scales_out(choice.contact) {
             tally.best_speed(&problem.goals, problem.settings.speed)
         } else {
             choice.speed
@@ -205,7 +205,7 @@ impl<'a> Judge<'a> {
 
     /// Traces shots, on all threads where they are some of many.
     fn trace(&self, choice: &Choice, shots: &[Deviate]) -> Tally {
-        let speed = if speed_scales_out(self.setup, choice.contact) {
+        let speed = if self.setup.speed_scales_out(choice.contact) {
             // Paths do not depend on the speed; any will do to trace them.
             1.0
         } else {
@@ -230,13 +230,6 @@ const FEWEST: usize = 64;
 const MOST_ALONE: usize = 2048;
 /// Shots of more than those that one thread traces at a time.
 const CHUNK: usize = 256;
-
-/// Whether the paths stay the same when every speed is multiplied by one factor.
-pub fn speed_scales_out(setup: &Setup, contact: usize) -> bool {
-    let own = setup.surfaces.iter().filter_map(|limits| limits.contact);
-    setup.problem.contacts[contact].contact.is_scale_free()
-        && own.into_iter().all(|contact| contact.is_scale_free())
-}
 
 /// By how much the nozzle of a choice is nearer to a surface than it may be, m.
 pub fn clearance_violation(setup: &Setup, choice: &Choice) -> Option<f64> {

@@ -25,7 +25,7 @@ mod window;
 pub use answer::Answer;
 pub use control::{Control, Progress, Status};
 pub use front::{Front, front};
-pub use judge::{Effort, Standing, clearance_violation, speed_scales_out};
+pub use judge::{Effort, Standing, clearance_violation};
 pub use ladder::{Ladder, Rung};
 pub use risks::{Risks, risks};
 pub use window::{Drift, Turn, Window, passing_windows, windows};

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::judge::{Judge, speed_scales_out};
+use super::judge::Judge;
 use super::polish::{Candidate, polish};
 use super::space::Space;
 use crate::setup::Setup;
@@ -60,7 +60,7 @@ pub(super) struct Search {
 impl Search {
     /// Judges a low-discrepancy set of points all over the space.
     pub fn screen(setup: &Setup, contact: usize, judge: &Judge) -> Self {
-        let space = Space::new(&setup.problem, contact, !speed_scales_out(setup, contact));
+        let space = Space::new(&setup.problem, contact, !setup.speed_scales_out(contact));
         let dimensions = space.dimensions();
         let points = match dimensions {
             0 => 1,
@@ -87,7 +87,7 @@ impl Search {
     /// The same candidates in the space of another model of the same problem.
     pub fn carried_over(&self, setup: &Setup) -> Self {
         let contact = self.best().choice.contact;
-        let space = Space::new(&setup.problem, contact, !speed_scales_out(setup, contact));
+        let space = Space::new(&setup.problem, contact, !setup.speed_scales_out(contact));
         let carried = |candidate: &Candidate| Candidate {
             point: space.point(&candidate.choice),
             ..candidate.clone()

@@ -30,6 +30,8 @@ pub(crate) struct Volley<R> {
     pub weight: Lane<R>,
     /// Whether it is one that the jet fires, and not one drawn towards the rim.
     pub of_jet: Lane<R>,
+    /// Factor on its speed.
+    pub speed: Lane<R>,
     /// Velocity of the centre, m/s.
     pub velocity: [Lane<R>; 3],
     /// R w, m/s.
@@ -127,6 +129,7 @@ impl<R: Real> Volley<R> {
             number: zeros,
             weight: zeros,
             of_jet: zeros,
+            speed: [R::ONE; LANES],
             velocity: [zeros; 3],
             rolling: [zeros; 3],
             mass: zeros,
@@ -161,6 +164,7 @@ impl<R: Real> Volley<R> {
             self.number[i] = R::ZERO;
             self.weight[i] = R::of(deviate.weight);
             self.of_jet[i] = truth(deviate.of_jet);
+            self.speed[i] = R::of(deviate.speed);
             self.mass[i] = R::of(tracer.mass * deviate.mass());
             if let Some(contact) = &tracer.only_contact {
                 let (restitution, factor) =
@@ -343,6 +347,7 @@ impl<R: Real> Volley<R> {
             &mut self.number,
             &mut self.weight,
             &mut self.of_jet,
+            &mut self.speed,
             &mut self.mass,
             &mut self.least_energy,
             &mut self.restitution,

@@ -14,7 +14,7 @@ use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use crate::solve::accuracy::{is_in_reach, least_objective, rounding_of_objective};
 use crate::solve::control::Control;
-use crate::solve::judge::{Effort, Judge, speed_scales_out};
+use crate::solve::judge::{Effort, Judge};
 use crate::solve::polish::{Candidate, polish};
 use crate::solve::search::Search;
 use crate::solve::space::Space;
@@ -138,7 +138,7 @@ impl<'a> Bench<'a> {
     fn descend(&self, setup: &Setup, shots: &[Deviate]) -> Choice {
         let choice = &self.leading[0];
         let judge = Judge::new(setup, Precision::F64, shots, self.effort, self.control);
-        let search_speed = !speed_scales_out(setup, choice.contact);
+        let search_speed = !setup.speed_scales_out(choice.contact);
         let space = Space::new(&setup.problem, choice.contact, search_speed);
         let start = Candidate::at(&space, &judge, &space.point(choice));
         let settled = DESCENT_SETTLED * setup.problem.accuracy;
