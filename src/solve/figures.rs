@@ -37,21 +37,18 @@ impl<'a> Figures<'a> {
         self.sharpened(answers, searches)
     }
 
-    /// The answers again, where some of the searches have gone on.
-    pub fn renewed(
-        &mut self,
-        mut answers: Vec<Answer>,
-        searches: &[Search],
-        changed: &[usize],
-    ) -> Vec<Answer> {
-        let changed = changed.par_iter();
-        let renewed: Vec<(usize, Answer)> = changed
-            .map(|&index| (index, self.of_one(&searches[index])))
-            .collect();
-        for (index, answer) in renewed {
-            answers[index] = answer;
-        }
-        self.sharpened(answers, searches)
+    /// The answers again, where searches have gone on.
+    pub fn renewed(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
+        let pairs = answers.into_par_iter().zip(searches);
+        let renewed = pairs.map(|(answer, search)| {
+            if answer.choice == search.best().choice {
+                answer
+            } else {
+                self.of_one(search)
+            }
+        });
+        let renewed = renewed.collect();
+        self.sharpened(renewed, searches)
     }
 
     /// Evaluates answers again on all shots that may be drawn, where those so far say too little: about

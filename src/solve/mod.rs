@@ -84,17 +84,15 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
         || descend(&mut models, control, &effort),
         || Figures::new(&asked, control, &effort),
     );
-    let (mut claims, _) = agree(&mut models, &mut searches, shots, control, &effort);
+    let mut claims = agree(&mut models, &mut searches, shots, control, &effort);
     let mut answers = figures.all(&searches);
     let problem = &setup.problem;
     let mut open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         refine(&models, &mut searches, &open, shots, control, &effort);
-        let all_change;
-        (claims, all_change) = agree(&mut models, &mut searches, shots, control, &effort);
-        let changed = if all_change { all(&searches) } else { open };
-        answers = figures.renewed(answers, &searches, &changed);
+        claims = agree(&mut models, &mut searches, shots, control, &effort);
+        answers = figures.renewed(answers, &searches);
         open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     }
     if !control.is_stopped() {
@@ -118,27 +116,21 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
 }
 
 /// Goes on with what was left out, as long as the whole model disagrees with the one that is
-/// searched. Returns J of the candidates, and whether anything was put back.
+/// searched. Returns J of the candidates.
 fn agree(
     models: &mut Models,
     searches: &mut [Search],
     shots: usize,
     control: &Control,
     effort: &Effort,
-) -> (Vec<Claim>, bool) {
+) -> Vec<Claim> {
     let mut claims = models.claims(searches, shots);
-    let mut is_changed = false;
     while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
-        let all = all(searches);
+        let all: Vec<usize> = (0..searches.len()).collect();
         refine(models, searches, &all, shots, control, effort);
         claims = models.claims(searches, shots);
-        is_changed = true;
     }
-    (claims, is_changed)
-}
-
-fn all(searches: &[Search]) -> Vec<usize> {
-    (0..searches.len()).collect()
+    claims
 }
 
 /// Refines some of the searches with so many shots.
@@ -199,7 +191,8 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
     (searches, most_shots)
 }
 
-/// Refines some of the searches, the best one first, so that the others can profit from it.
+/// Refines some of the searches, the best one first, so that the others can profit from it; the
+/// others, and those that went before the best one, go where that one is if they are better there.
 fn refine_in_turn(
     searches: &mut [Search],
     which: &[usize],
@@ -210,18 +203,21 @@ fn refine_in_turn(
     let rank = |search: &Search| search.best().standing.rank();
     let mut order = which.to_vec();
     order.sort_by(|&a, &b| rank(&searches[a]).total_cmp(&rank(&searches[b])));
-    let mut leader: Option<usize> = None;
-    for index in order {
-        match leader {
-            None => searches[index].refine(judge, stage, accuracy),
-            Some(leader) => {
-                let leader = searches[leader].clone();
-                searches[index].refine_beside(&leader, judge, stage, accuracy);
-            }
+    let mut leader = order[0];
+    let mut beside = vec![None; searches.len()];
+    searches[leader].refine(judge, stage, accuracy);
+    for &index in &order[1..] {
+        let leading = searches[leader].best().clone();
+        searches[index].refine_beside(&leading, judge, stage, accuracy);
+        beside[index] = Some(leader);
+        if rank(&searches[index]) < rank(&searches[leader]) {
+            leader = index;
         }
-        let is_better = |leader: usize| rank(&searches[index]) < rank(&searches[leader]);
-        if leader.is_none_or(is_better) {
-            leader = Some(index);
+    }
+    let leading = searches[leader].best().clone();
+    for (index, search) in searches.iter_mut().enumerate() {
+        if index != leader && beside[index] != Some(leader) {
+            search.follow(&leading, judge, stage, accuracy);
         }
     }
 }

@@ -126,22 +126,134 @@ impl Search {
     }
 
     /// Goes on from the best candidate with more shots, or from where another contact is best.
-    ///
-    /// Often friction makes little difference: what is there within half the accuracy of that
-    /// contact's J is taken as it is.
-    pub fn refine_beside(&mut self, leader: &Self, judge: &Judge, stage: &Stage, accuracy: f64) {
-        let other = leader.best();
-        if other.point.len() != self.space.dimensions() {
-            return self.refine(judge, stage, accuracy);
+    pub fn refine_beside(
+        &mut self,
+        leader: &Candidate,
+        judge: &Judge,
+        stage: &Stage,
+        accuracy: f64,
+    ) {
+        let here = Candidate::at(&self.space, judge, &self.best().point);
+        let found = self.beside(&here, leader, judge, stage, accuracy);
+        let own = || polish(&self.space, judge, here, stage.size, SETTLED * accuracy);
+        self.candidates = vec![found.unwrap_or_else(own)];
+    }
+
+    /// Goes on from where another contact is best, if that is better than where this one is.
+    pub fn follow(&mut self, leader: &Candidate, judge: &Judge, stage: &Stage, accuracy: f64) {
+        let here = Candidate::at(&self.space, judge, &self.best().point);
+        if let Some(found) = self.beside(&here, leader, judge, stage, accuracy) {
+            self.candidates = vec![found];
         }
-        let there = Candidate::at(&self.space, judge, &other.point);
-        let own = Candidate::at(&self.space, judge, &self.best().point);
-        let start = there.or_better(own);
-        let close_enough = other.standing.rank() * (1.0 + 0.5 * accuracy);
-        self.candidates = vec![if start.standing.rank() <= close_enough {
+    }
+
+    /// What is found from where another contact is best, if that is better than here.
+    ///
+    /// Often friction makes little difference: what is within half the accuracy of J of that
+    /// contact is taken as it is, unless something on the way back is better by as much: with other
+    /// friction the cliff may stand elsewhere.
+    fn beside(
+        &self,
+        here: &Candidate,
+        leader: &Candidate,
+        judge: &Judge,
+        stage: &Stage,
+        accuracy: f64,
+    ) -> Option<Candidate> {
+        if leader.point.len() != self.space.dimensions() {
+            return None;
+        }
+        let at = |point: &[f64]| Candidate::at(&self.space, judge, point);
+        let there = at(&leader.point);
+        if here.standing.rank() <= there.standing.rank() {
+            return None;
+        }
+        let back = |share: f64| at(&between(&there.point, &here.point, share));
+        let way_back = WAY_BACK.map(back).into_iter();
+        let start = way_back.fold(there.clone(), Candidate::or_better);
+        let little = 0.5 * accuracy;
+        let is_close = there.standing.rank() <= leader.standing.rank() * (1.0 + little);
+        let gains = start.standing.rank() < there.standing.rank() * (1.0 - little);
+        Some(if is_close && !gains {
             start
         } else {
             polish(&self.space, judge, start, stage.size, SETTLED * accuracy)
-        }];
+        })
+    }
+}
+
+/// Where to look between the best place of another contact and one's own, as shares of the way.
+const WAY_BACK: [f64; 3] = [0.5, 0.25, 0.125];
+
+fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+    let pairs = from.iter().zip(to);
+    pairs.map(|(from, to)| from + share * (to - from)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::jet::{Samples, Stream};
+    use crate::precision::Precision;
+    use crate::problem::setting::Choice;
+    use crate::solve::{Control, Effort};
+
+    const DAMP: usize = 1;
+    const OILED: usize = 2;
+    const STAGE: &Stage = &STAGES[2];
+    const ACCURACY: f64 = 0.01;
+
+    fn setup() -> Setup {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway-long.yaml");
+        let (mut setup, _) = Setup::load(&file).expect("it is sound");
+        setup.problem.paths.shot_size = false;
+        setup
+    }
+
+    /// Runs with a judge and a search that stands at an incidence, deg.
+    fn on_common_shots(check: impl Fn(&Judge, &dyn Fn(usize, f64) -> Search)) {
+        let setup = setup();
+        let shots = Samples::with_rim(&setup.problem, Stream::Search, 1024).deviates;
+        let (effort, control) = (Effort::default(), Control::default());
+        let judge = Judge::new(&setup, Precision::F64, &shots, &effort, &control);
+        let search = |contact: usize, degrees: f64| {
+            let space = Space::new(&setup.problem, contact, false);
+            let choice = Choice {
+                incidence: degrees.to_radians(),
+                azimuth: 0.0,
+                standoff: 6e-3,
+                ..space.choice(&space.spread(0, 0))
+            };
+            let candidates = vec![Candidate::at(&space, &judge, &space.point(&choice))];
+            Search { space, candidates }
+        };
+        check(&judge, &search);
+    }
+
+    fn rank(search: &Search) -> f64 {
+        search.best().standing.rank()
+    }
+
+    #[test]
+    fn a_contact_beyond_its_cliff_does_not_stop_at_that_of_another() {
+        on_common_shots(|judge, search| {
+            // J of both is the same at 42.6 deg, but oiled walls allow 44.3 deg.
+            let (damp, mut oiled) = (search(DAMP, 42.6), search(OILED, 45.8));
+            assert!(rank(&oiled) > 1.02 * rank(&damp));
+            oiled.follow(damp.best(), judge, STAGE, ACCURACY);
+            assert!(rank(&oiled) < 0.97 * rank(&damp), "{}", rank(&oiled));
+        });
+    }
+
+    #[test]
+    fn a_contact_that_is_better_where_it_is_stays_there() {
+        on_common_shots(|judge, search| {
+            let (damp, mut oiled) = (search(DAMP, 42.6), search(OILED, 44.2));
+            let before = oiled.best().choice;
+            oiled.follow(damp.best(), judge, STAGE, ACCURACY);
+            assert_eq!(oiled.best().choice, before);
+        });
     }
 }
