@@ -19,6 +19,8 @@ const MOST_REBOUNDS: usize = 4;
 const FAR: f64 = 100.0;
 /// What rounding may do on that scale, thin triangles included.
 const OFF: f64 = 1e-6;
+/// Rounding of a height over a plane on that scale.
+const ROUNDING: f64 = 1e-14;
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -154,7 +156,12 @@ fn ray_is_right(triangles: &[Triangle], ray: &Ray, hit: Option<&Hit>) {
     if let Some(hit) = hit {
         let [a, b, c] = triangles[hit.spot.piece as usize];
         let off = distance(&hit.point, &[a, b, c]);
-        assert!(off < OFF, "{hit:?} is {off} off {a} {b} {c}");
+        // Where a ray runs within a plane but for rounding, where it crosses is as uncertain.
+        let along = ROUNDING / ray.direction.dot(&hit.normal).abs();
+        assert!(
+            off < OFF + along,
+            "{ray:?}: {hit:?} is {off} off {a} {b} {c}"
+        );
     }
 }
 
