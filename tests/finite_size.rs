@@ -1,7 +1,11 @@
 //! Shots of finite size against distances that are measured in another way.
 
+#[path = "common/cases.rs"]
+mod cases;
+
 use std::f64::consts::TAU;
 
+use cases::cases;
 use nalgebra::{Point3, Vector3};
 use peenpose::problem::part::{Ends, Keyway, Part, Place, Segment, Shape};
 use peenpose::scene::ray::{Hit, Ray};
@@ -124,10 +128,8 @@ fn to_pin(p: &Point3<f64>, radius: f64, length: f64) -> f64 {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 1500,
         max_global_rejects: 40_000,
-        failure_persistence: None,
-        ..ProptestConfig::default()
+        ..cases(1500)
     })]
 
     #[test]

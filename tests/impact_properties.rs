@@ -2,6 +2,10 @@
 //!
 //! All in the form free of mass and radius: impulses per unit mass, and the spin as R w.
 
+#[path = "common/cases.rs"]
+mod cases;
+
+use cases::cases;
 use nalgebra::{UnitQuaternion, Vector3};
 use peenpose::impact::{
     Contact, Law, Motion, Rebound, Regime, Restitution, Sphere, impact, rebound,
@@ -100,11 +104,7 @@ fn angular_momentum(
 const ROUNDING: f64 = 1e-12;
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 2000,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(cases(2000))]
 
     #[test]
     fn passive_contacts_obey_mechanics(
@@ -455,10 +455,7 @@ fn without_restitution_a_shot_stays() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn elastic_without_friction_is_a_mirror(before in arrival()) {

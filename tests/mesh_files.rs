@@ -1,5 +1,7 @@
 //! Mesh files: what is read, what is refused and in which words, what is reported.
 
+#[path = "common/cases.rs"]
+mod cases;
 #[path = "meshes/sample.rs"]
 mod sample;
 
@@ -7,6 +9,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use cases::cases;
 use nalgebra::Point3;
 use peenpose::problem::part::Region;
 use peenpose::scene::mesh::Mesh;
@@ -652,7 +655,7 @@ fn damaged() -> impl Strategy<Value = (&'static str, Vec<u8>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(cases(1000))]
 
     /// Damaged files are read or refused, never a panic; what is read keeps its promises.
     #[test]

@@ -1,8 +1,12 @@
 //! Problem files: good ones give SI values, bad ones say what is wrong and where.
 
+#[path = "common/cases.rs"]
+mod cases;
+
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use std::path::Path;
 
+use cases::cases;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use peenpose::impact::{Contact, Law, Restitution};
 use peenpose::problem::equipment::{Body, Jet, Nozzle, PathLimits, Role, Shot, Spread};
@@ -685,7 +689,7 @@ fn edited(text: &str, edits: &[Edit]) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(cases(1500))]
 
     #[test]
     fn a_careless_edit_never_panics(

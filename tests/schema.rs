@@ -5,6 +5,8 @@
 //! file refer to, or what two groups mean together; those files of tests/bad are listed in
 //! `ONLY_THE_CHECK_SEES`.
 
+#[path = "common/cases.rs"]
+mod cases;
 #[path = "../examples/problem_file_docs/markdown.rs"]
 mod markdown;
 
@@ -12,6 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use cases::cases;
 use jsonschema::Validator;
 use peenpose::problem;
 use peenpose::units::{self, Dimension, UnitFault};
@@ -452,7 +455,7 @@ static PATTERNS: LazyLock<Vec<(Dimension, Validator)>> = LazyLock::new(|| {
 });
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4096))]
+    #![proptest_config(cases(4096))]
 
     #[test]
     fn patterns_take_what_units_take(text in quantity()) {

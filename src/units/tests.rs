@@ -1,3 +1,7 @@
+#[path = "../../tests/common/cases.rs"]
+mod cases;
+
+use cases::cases;
 use proptest::prelude::*;
 
 use super::*;
@@ -158,6 +162,8 @@ fn dimension() -> impl Strategy<Value = Dimension> {
 }
 
 proptest! {
+    #![proptest_config(cases(256))]
+
     #[test]
     fn printing_and_parsing_round_trips(
         value in -1e12..1e12_f64,

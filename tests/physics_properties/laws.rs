@@ -6,6 +6,7 @@ use peenpose::jet::{Samples, Stream};
 use peenpose::trace::{PathImpact, Tracer};
 use proptest::prelude::*;
 
+use crate::cases::cases;
 use crate::held::held;
 use crate::world::{PLAIN, path, world};
 
@@ -71,7 +72,7 @@ fn obeys_mechanics(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(100))]
 
     /// Every impact, the free flights between them, and what the impulses of a path add up to.
     #[test]

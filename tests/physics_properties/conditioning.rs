@@ -1,0 +1,92 @@
+//! How much rounding may move the impacts of a path: what a small change of the shot grows to until
+//! then, which has no limit where a shot grazes a round wall.
+
+use nalgebra::Vector3;
+use peenpose::jet::Deviate;
+use peenpose::setup::Setup;
+use peenpose::trace::{PathImpact, Tracer};
+
+use crate::held::held;
+use crate::world::path;
+
+/// Relative rounding of a place, a direction or a speed where nothing makes it grow.
+const ROUNDING: f64 = 1e-12;
+/// Relative change of the shots that are traced beside one.
+const NUDGE: f64 = 1e-9;
+/// Where impacts are moved by more than this, they say no more of each other.
+pub const MOST: f64 = 1e-6;
+
+/// Whether all impacts of a shot can be compared.
+pub fn is_steady(setup: &Setup, shot: &Deviate) -> bool {
+    roundings(setup, shot).len() == path(setup, shot).len()
+}
+
+/// Relative rounding of the impacts of a path, one after the other, as far as they can be compared.
+pub fn roundings(setup: &Setup, shot: &Deviate) -> Vec<f64> {
+    let size = setup.scene.size();
+    let choice = held(setup);
+    let momentum = setup.problem.shot.mass() * choice.speed;
+    let exit = Tracer::new(setup, &choice, choice.speed)
+        .launch(shot)
+        .origin;
+    let here = path(setup, shot);
+    if here.first().is_some_and(|first| first.centre == exit) {
+        // It leaves the nozzle inside a wall, or inside two at once.
+        return Vec::new();
+    }
+    let beside = beside(shot, size).map(|shot| path(setup, &shot));
+    // Of what comes in at the start and at each impact, what it is worth at the start.
+    let mut sources = 1.0;
+    let mut all = Vec::new();
+    for (number, impact) in here.iter().enumerate() {
+        let growth = beside.iter().map(|path| match path.get(number) {
+            Some(moved) => apart(impact, moved, size, momentum) / NUDGE,
+            None => f64::INFINITY,
+        });
+        let growth = growth.fold(0.0, f64::max);
+        sources += 1.0 / growth;
+        let off = ROUNDING * (growth * sources).max(1.0);
+        if off.is_nan() || off > MOST {
+            break;
+        }
+        all.push(off);
+    }
+    all
+}
+
+/// The shot with each coordinate of its exit and of its direction nudged.
+fn beside(shot: &Deviate, size: f64) -> [Deviate; 4] {
+    let [x, y] = shot.exit;
+    let [across, upward, forward] = shot.cone;
+    let exit = |x: f64, y: f64| Deviate {
+        exit: [x, y],
+        ..*shot
+    };
+    let cone = |across: f64, upward: f64| Deviate {
+        cone: Vector3::new(across, upward, forward).normalize().into(),
+        ..*shot
+    };
+    [
+        exit(x + NUDGE * size, y),
+        exit(x, y + NUDGE * size),
+        cone(across + NUDGE, upward),
+        cone(across, upward + NUDGE),
+    ]
+}
+
+/// Relative difference of two impacts; infinite where they are different events.
+fn apart(one: &PathImpact, other: &PathImpact, size: f64, momentum: f64) -> f64 {
+    if (one.number, one.surface, one.regime) != (other.number, other.surface, other.regime) {
+        return f64::INFINITY;
+    }
+    let speed = one.velocity.norm() + one.rolling.norm();
+    let moved = [
+        (one.point - other.point).norm() / size,
+        (one.normal - other.normal).norm(),
+        (one.velocity - other.velocity).norm() / speed,
+        (one.rolling - other.rolling).norm() / speed,
+        (one.normal_impulse - other.normal_impulse).abs() / momentum,
+        (one.tangential_impulse - other.tangential_impulse).abs() / momentum,
+    ];
+    moved.into_iter().fold(0.0, f64::max)
+}
