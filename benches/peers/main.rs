@@ -83,6 +83,8 @@ fn compare(
         .ok_or("a shipped problem has no faults")?;
     // One pose for all shots, so that the rays can be told from outside.
     problem.tolerance = Tolerance::default();
+    // Embree casts rays, not spheres.
+    problem.paths.shot_size = false;
     let start = Instant::now();
     let setup = Setup::new(problem, walls).map_err(|faults| faults[0].to_string())?;
     let built = start.elapsed().as_secs_f64();
@@ -173,7 +175,8 @@ fn flights(setup: &Setup, choice: &Choice, samples: &Samples) -> Vec<Flight> {
                 leaving = Some(hit.spot);
                 ray = Ray {
                     origin: *point,
-                    direction: velocity.normalize(),
+                    // To the last bit as the tracer has it.
+                    direction: velocity * (1.0 / velocity.dot(velocity).sqrt()),
                 };
             }
         }
