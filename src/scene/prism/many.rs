@@ -81,10 +81,11 @@ impl Prism {
                 self.cross_caps_one_by_one(leaves, &flights, &mut best);
             }
         }
+        self.record_spots(part, rays.count, &best, hits);
         if self.moved {
             best.normal = self.turned(&best.normal, rays.count, false);
         }
-        self.record(part, rays.count, &best, hits);
+        best.record_places(rays.count, hits);
     }
 
     #[inline(always)]
@@ -165,22 +166,9 @@ impl Prism {
         }
     }
 
+    /// Writes down what has been met, while normals are those in the frame of the prism.
     #[inline(always)]
-    fn record<R: Real>(&self, part: u32, count: usize, best: &Best<R>, hits: &mut Hits<R>) {
-        for i in 0..padded(count) {
-            let met = best.code[i] >= R::ZERO;
-            let old = components(&hits.normal, i);
-            let new = components(&best.normal, i);
-            hits.distance[i] = if met {
-                best.distance[i]
-            } else {
-                hits.distance[i]
-            };
-            hits.above[i] = if met { R::ZERO } else { hits.above[i] };
-            hits.normal[0][i] = if met { new[0] } else { old[0] };
-            hits.normal[1][i] = if met { new[1] } else { old[1] };
-            hits.normal[2][i] = if met { new[2] } else { old[2] };
-        }
+    fn record_spots<R: Real>(&self, part: u32, count: usize, best: &Best<R>, hits: &mut Hits<R>) {
         let spots = &mut hits.spots;
         for i in 0..padded(count) {
             let code = best.code[i].wide() as i32;
@@ -255,6 +243,25 @@ impl<R: Real> Flights<'_, R> {
 }
 
 impl<R: Real> Best<R> {
+    /// Writes down where the rays meet what they have met.
+    #[inline(always)]
+    fn record_places(&self, count: usize, hits: &mut Hits<R>) {
+        for i in 0..padded(count) {
+            let met = self.code[i] >= R::ZERO;
+            let old = components(&hits.normal, i);
+            let new = components(&self.normal, i);
+            hits.distance[i] = if met {
+                self.distance[i]
+            } else {
+                hits.distance[i]
+            };
+            hits.above[i] = if met { R::ZERO } else { hits.above[i] };
+            hits.normal[0][i] = if met { new[0] } else { old[0] };
+            hits.normal[1][i] = if met { new[1] } else { old[1] };
+            hits.normal[2][i] = if met { new[2] } else { old[2] };
+        }
+    }
+
     /// Takes what one ray has met, if it has met anything.
     fn take_one(&mut self, i: usize, nearest: &Nearest) {
         let Some(piece) = nearest.piece else { return };

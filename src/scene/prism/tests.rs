@@ -1,7 +1,11 @@
-use nalgebra::Point2;
+use std::f64::consts::PI;
+
+use nalgebra::{Point2, UnitQuaternion};
 
 use super::*;
+use crate::scene::lanes::put;
 use crate::scene::profile::{Curve, Piece};
+use crate::scene::rays::{Hits, Rays};
 
 /// A pipe of inner radius 5 and length 10 along z; free space is inside.
 fn pipe(near_closed: bool, far_closed: bool) -> Prism {
@@ -143,6 +147,55 @@ fn a_rim_belongs_to_the_surface_of_its_wall() {
                 let expected = Vector3::new(-0.6 * x, -0.6 * y, -0.8 * direction[2]);
                 assert!((normal - expected).norm() < 1e-9, "{normal}");
             }
+        }
+    }
+}
+
+/// In a prism that is turned, too, and for many shots at once as for one.
+#[test]
+fn an_edge_belongs_to_the_surface_on_whose_side_it_is_touched() {
+    // A step down to the right: free space is above the tread, and right of the riser under it.
+    let corners = [[-5.0, 0.0], [0.0, 0.0], [0.0, -5.0], [5.0, -5.0]].map(Point2::from);
+    let piece = |wall: u32| Piece {
+        curve: Curve::Line {
+            from: corners[wall as usize],
+            to: corners[wall as usize + 1],
+        },
+        surface: wall,
+    };
+    let profile = Profile {
+        pieces: (0..3).map(piece).collect(),
+        surfaces: ["tread", "riser", "foot"].map(str::to_owned).to_vec(),
+    };
+    let (tread, riser) = (7, 8);
+    let places = [0.0, 0.7, 2.0, -1.5].map(|turn| Place {
+        rotation: UnitQuaternion::from_euler_angles(0.3 * turn, turn, -turn),
+        shift: Vector3::new(turn, 0.0, -3.0 * turn),
+    });
+    for place in places {
+        let step = Prism::new(&profile, 10.0, Ends::default(), &place, tread, 1e-9);
+        let mut rays = Rays::<f64>::none();
+        rays.are_spheres = true;
+        // Straight at the edge, more and more from above.
+        let angles = [0.05, 0.1, 0.15, 0.2, 0.3, 0.35, 0.4, 0.45].map(|half_turns| half_turns * PI);
+        for (i, angle) in angles.iter().enumerate() {
+            let outwards = Vector3::new(angle.cos(), angle.sin(), 0.0);
+            let origin = outwards * 4.0 + Vector3::new(0.0, 0.0, 5.0);
+            let origin = place.rotation * origin + place.shift;
+            put(&mut rays.origin, i, origin.into());
+            put(&mut rays.direction, i, (place.rotation * -outwards).into());
+            rays.radius[i] = 0.5;
+            rays.count += 1;
+        }
+        let mut hits = Hits::none();
+        step.cross(0, &rays, &mut hits);
+        for (i, angle) in angles.iter().enumerate() {
+            let expected = if *angle < 0.25 * PI { riser } else { tread };
+            let single = step.first_touch(&rays.at(i), 0.5, None, false, f64::INFINITY);
+            let single = single.expect("the edge").0;
+            assert_eq!([single.surface, hits.surface[i]], [expected; 2], "{angle}");
+            assert!((single.distance - 3.5).abs() < 1e-12);
+            assert!((hits.distance[i] - 3.5).abs() < 1e-12);
         }
     }
 }
