@@ -2,8 +2,10 @@
 
 mod counts;
 mod ledger;
+mod survey;
 
 pub use counts::Counts;
+pub(crate) use survey::Survey;
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,6 @@
 //! The objective, its terms and the verdicts over two settings, all others held.
 
 mod standard;
-mod survey;
 
 pub use standard::standard_maps;
 
@@ -9,6 +8,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::checkpoint::Checkpoint;
+use crate::evaluate::{Counts, Survey};
 use crate::jet::{Deviate, Replicates, Samples, purpose};
 use crate::objective::Terms;
 use crate::problem::Problem;
@@ -16,7 +16,6 @@ use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
 use crate::solve::clearance_violation;
 use crate::verdict::{Subject, Verdict};
-use survey::Survey;
 
 /// What two settings do while all others are held.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,8 +135,19 @@ fn cells_on_one_path(
         return group.iter().map(|&index| (index, None)).collect();
     }
     let survey = Survey::of(setup, &choice, shots);
-    let cell = |&index: &usize| (index, Some(survey.cell(setup, place(index).speed)));
+    let cell = |&index: &usize| (index, Some(cell(setup, &survey, place(index).speed)));
     group.iter().map(cell).collect()
+}
+
+/// What the shots of a survey do at a launch speed, m/s.
+fn cell(setup: &Setup, survey: &Survey, speed: f64) -> Cell {
+    let verdicts = Verdict::on(setup, &survey.counts(setup, speed));
+    let failing = verdicts.iter().filter(|verdict| !verdict.passes());
+    Cell {
+        terms: survey.terms(setup, speed),
+        failing: failing.map(|verdict| verdict.subject).collect(),
+        share_sticking: survey.share_sticking(),
+    }
 }
 
 /// The shots of every place: others than those that a search decides on.
@@ -149,7 +159,6 @@ fn common_shots(problem: &Problem, shots: usize) -> Vec<Deviate> {
 
 /// What verdicts are given on in a problem.
 fn subjects(setup: &Setup) -> Vec<Subject> {
-    let nothing = Survey::default().counts(setup, 0.0);
-    let verdicts = Verdict::on(setup, &nothing);
+    let verdicts = Verdict::on(setup, &Counts::none(setup));
     verdicts.iter().map(|verdict| verdict.subject).collect()
 }

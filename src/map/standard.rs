@@ -1,7 +1,7 @@
 //! The maps of a report: which settings they are drawn over, and how finely.
 
-use super::survey::Survey;
 use super::{Axis, Map, common_shots};
+use crate::evaluate::Survey;
 use crate::problem::part::Shape;
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;

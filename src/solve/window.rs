@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::Solution;
 use super::judge::clearance_violation;
-use crate::evaluate::Counts;
-use crate::jet::{Replicates, purpose};
+use crate::evaluate::{Counts, Survey};
+use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
 use crate::verdict::{Subject, Verdict};
@@ -74,39 +74,93 @@ pub fn windows(
     passing: &[Subject],
     fresh: &Replicates,
 ) -> Vec<Window> {
-    let settings = Setting::OF_THE_NOZZLE.into_iter().filter_map(|setting| {
-        let range = setup.problem.settings.range(setting)?;
-        (!range.is_held()).then_some((setting, range))
-    });
-    let sides: Vec<(Setting, f64)> = settings
-        .flat_map(|(setting, Range { min, max })| [(setting, min), (setting, max)])
+    let settings: Vec<(Setting, Range)> = Setting::OF_THE_NOZZLE
+        .into_iter()
+        .filter_map(|setting| Some((setting, setup.problem.settings.range(setting)?)))
+        .filter(|(_, range)| !range.is_held())
         .collect();
-    let drifts: Vec<Drift> = sides
-        .par_iter()
-        .map(|&(setting, end)| drift(setup, choice, setting, end, passing, fresh))
-        .collect();
-    sides
-        .chunks_exact(2)
-        .zip(drifts.chunks_exact(2))
-        .map(|(side, drift)| Window {
-            setting: side[0].0,
-            down: drift[0],
-            up: drift[1],
-        })
-        .collect()
+    let shares_paths = setup.speed_scales_out(choice.contact);
+    let window = |&(setting, Range { min, max }): &(Setting, Range)| {
+        let drift =
+            |end: f64, shots: &mut dyn Shots| drift(setup, choice, (setting, end), passing, shots);
+        let (down, up) = if setting == Setting::Speed && shares_paths {
+            let mut shots = Recorded::of(setup, choice, fresh);
+            (drift(min, &mut shots), drift(max, &mut shots))
+        } else {
+            let traced = || Traced { setup, fresh };
+            rayon::join(|| drift(min, &mut traced()), || drift(max, &mut traced()))
+        };
+        Window { setting, down, up }
+    };
+    settings.par_iter().map(window).collect()
+}
+
+/// Shots that tell what turns at a choice, some sets after the other.
+trait Shots {
+    /// What some of them do; `None` beyond the last.
+    fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts>;
+}
+
+/// Scramblings that are fired together.
+const SETS: usize = 8;
+
+/// Shots that are traced at every choice.
+struct Traced<'a> {
+    setup: &'a Setup,
+    fresh: &'a Replicates,
+}
+
+impl Shots for Traced<'_> {
+    fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
+        let sets = self.fresh.sets.chunks(SETS).nth(part)?;
+        Some(Counts::on(self.setup, choice, sets))
+    }
+}
+
+/// Shots at choices that differ in the speed only, on which their paths do not depend.
+struct Recorded<'a> {
+    setup: &'a Setup,
+    choice: &'a Choice,
+    unseen: std::slice::Chunks<'a, Replicate>,
+    /// One survey of each set.
+    seen: Vec<Vec<Survey>>,
+}
+
+impl<'a> Recorded<'a> {
+    fn of(setup: &'a Setup, choice: &'a Choice, fresh: &'a Replicates) -> Self {
+        Self {
+            setup,
+            choice,
+            unseen: fresh.sets.chunks(SETS),
+            seen: Vec::new(),
+        }
+    }
+}
+
+impl Shots for Recorded<'_> {
+    fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
+        if part == self.seen.len() {
+            let survey = |set: &Replicate| Survey::of(self.setup, self.choice, &set.jet.deviates);
+            let sets = self.unseen.next()?;
+            self.seen.push(sets.par_iter().map(survey).collect());
+        }
+        let surveys = self.seen.get(part)?.iter();
+        let counts = surveys.map(|survey| survey.counts(self.setup, choice.speed));
+        Some(counts.fold(Counts::none(self.setup), |all, one| all.plus(&one)))
+    }
 }
 
 fn drift(
     setup: &Setup,
     choice: &Choice,
-    setting: Setting,
-    end: f64,
+    (setting, end): (Setting, f64),
     passing: &[Subject],
-    fresh: &Replicates,
+    shots: &mut dyn Shots,
 ) -> Drift {
     let start = setting.of(choice);
     let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
-    let turn = |fraction: f64| turned(setup, &setting.with(choice, at(fraction)), passing, fresh);
+    let mut turn =
+        |fraction: f64| turned(setup, &setting.with(choice, at(fraction)), passing, shots);
     if start == end {
         return Drift {
             to: end,
@@ -149,15 +203,23 @@ fn drift(
 
 /// What turns at a choice among the verdicts that passed: the one that is exceeded most, on no more
 /// shots than it takes to tell.
-fn turned(setup: &Setup, choice: &Choice, passing: &[Subject], fresh: &Replicates) -> Option<Turn> {
+fn turned(
+    setup: &Setup,
+    choice: &Choice,
+    passing: &[Subject],
+    shots: &mut dyn Shots,
+) -> Option<Turn> {
     if clearance_violation(setup, choice).is_some() {
         return Some(Turn::Clearance);
     }
-    let mut counts = Counts::none(setup);
+    let mut all = Counts::none(setup);
     let mut turn = None;
-    for sets in fresh.sets.chunks(SETS) {
-        counts = counts.plus(&Counts::on(setup, choice, sets));
-        let verdicts: Vec<Verdict> = Verdict::on(setup, &counts)
+    for part in 0.. {
+        let Some(counts) = shots.counts(choice, part) else {
+            break;
+        };
+        all = all.plus(&counts);
+        let verdicts: Vec<Verdict> = Verdict::on(setup, &all)
             .into_iter()
             .filter(|verdict| passing.contains(&verdict.subject))
             .collect();
@@ -174,6 +236,3 @@ fn turned(setup: &Setup, choice: &Choice, passing: &[Subject], fresh: &Replicate
     }
     turn
 }
-
-/// Scramblings that are fired together.
-const SETS: usize = 8;

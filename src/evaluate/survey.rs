@@ -1,18 +1,16 @@
 //! What the shots of one pose do, kept so that verdicts can be given at any launch speed.
 
-use super::Cell;
-use crate::evaluate::Counts;
+use super::Counts;
 use crate::jet::Deviate;
-use crate::objective::{Score, Tally};
+use crate::objective::{Score, Tally, Terms};
 use crate::problem::setting::Choice;
 use crate::scene::lanes::LANES;
 use crate::setup::Setup;
 use crate::trace::{End, Tracer, Volley, Witness};
-use crate::verdict::Verdict;
 
 /// The impacts of some shots, per unit of launch speed.
 #[derive(Default)]
-pub(super) struct Survey {
+pub(crate) struct Survey {
     tally: Tally,
     /// First hits on target that stick.
     sticking: usize,
@@ -49,16 +47,15 @@ impl Survey {
         self.tally.rays as f64 / self.tally.shots.max(1) as f64
     }
 
-    /// What they do at a launch speed, m/s.
-    pub fn cell(&self, setup: &Setup, speed: f64) -> Cell {
-        let verdicts = Verdict::on(setup, &self.counts(setup, speed));
-        let failing = verdicts.iter().filter(|verdict| !verdict.passes());
+    /// Share of the first hits on target that stick; `None` without any hit.
+    pub fn share_sticking(&self) -> Option<f64> {
         let hits = self.tally.hits.len();
-        Cell {
-            terms: self.tally.terms(&setup.problem.goals, speed),
-            failing: failing.map(|verdict| verdict.subject).collect(),
-            share_sticking: (hits > 0).then(|| self.sticking as f64 / hits as f64),
-        }
+        (hits > 0).then(|| self.sticking as f64 / hits as f64)
+    }
+
+    /// The terms of the objective at a launch speed, m/s.
+    pub fn terms(&self, setup: &Setup, speed: f64) -> Terms {
+        self.tally.terms(&setup.problem.goals, speed)
     }
 
     /// How many of them break what at a launch speed, m/s.
