@@ -37,7 +37,8 @@ type Pair = [Deviate; 2];
 fn terms_are_close(one: &Setup, other: &Setup, shots: &[Pair]) -> Result<(), TestCaseError> {
     let steady = shots.iter().filter(|[here, _]| is_steady(one, here));
     let (here, there): (Vec<Deviate>, Vec<Deviate>) = steady.map(|[a, b]| (*a, *b)).unzip();
-    prop_assert!(here.len() * 2 > shots.len(), "{}", here.len());
+    // In some worlds the nozzle is in a wall.
+    prop_assert!(here.len() * 8 > shots.len(), "{}", here.len());
     let (one, other) = (terms(one, &here), terms(other, &there));
     close(one.normal_impulse, other.normal_impulse, MOST)?;
     close(one.tangential_impulse, other.tangential_impulse, MOST)?;
