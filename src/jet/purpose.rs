@@ -7,7 +7,7 @@ pub const ANSWERS: u32 = 0;
 pub const WINDOWS: u32 = 1;
 /// The ends of what is not known.
 pub const UNKNOWNS: u32 = 2;
-/// Which effects a search needs.
+/// Which effects a search needs, and how many shots.
 pub const EFFECTS: u32 = 3;
 /// Pictures and places.
 pub const EVIDENCE: u32 = 4;

@@ -73,6 +73,17 @@ pub(super) fn is_vague(answers: &[Answer], problem: &Problem) -> bool {
     })
 }
 
+/// Whether J scatters so little over sets of shots that more of them would tell a search nothing.
+pub(super) fn is_sharp(objectives: &[f64], problem: &Problem) -> bool {
+    let count = objectives.len() as f64;
+    let mean = objectives.iter().sum::<f64>() / count;
+    let squares = objectives
+        .iter()
+        .map(|objective| (objective - mean).powi(2));
+    let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
+    deviation <= VAGUE * wanted(mean, problem)
+}
+
 fn least_found(answers: &[Answer]) -> f64 {
     let found = answers.iter().filter_map(Answer::objective);
     found.fold(f64::INFINITY, f64::min)

@@ -32,13 +32,13 @@ pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use rayon::prelude::*;
 
-use crate::problem::setting::Choice;
+use crate::problem::setting::{Choice, Tolerance};
 use crate::setup::Setup;
 use accuracy::{Claim, is_in_reach, least_objective, unsettled};
 use figures::Figures;
 use judge::Judge;
 use models::Models;
-use search::{STAGES, Search, Stage};
+use search::{STAGES, STAGES_SET_EXACTLY, Search, Stage};
 use space::Space;
 
 /// What a search found.
@@ -150,11 +150,18 @@ fn refine(
     tell(control, effort, searches);
 }
 
-/// Screens the settings of every contact and goes down through the stages; after the first of them
-/// with the effects that matter. Returns the searches and the shots at each pose of the last stage.
+/// Screens the settings of every contact and goes down through the stages, after the first of them
+/// with the effects that matter; to the end, unless the nozzle is set exactly and J is sharp before.
+/// Returns the searches and the shots at each pose of the last stage.
 fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Search>, usize) {
     let affordable = |stage: &&Stage| stage.shots <= control.most_shots;
-    let stages: Vec<&Stage> = STAGES.iter().filter(affordable).collect();
+    let is_set_exactly = models.asked.problem.tolerance == Tolerance::default();
+    let all = if is_set_exactly {
+        &STAGES_SET_EXACTLY
+    } else {
+        &STAGES
+    };
+    let stages: Vec<&Stage> = all.iter().filter(affordable).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
     let contacts = &models.asked.problem.settings.contact;
     let samples = models.draw(SCREENING_SHOTS);
@@ -185,7 +192,11 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
             models.climb(&mut searches, effort, control);
         } else if stage.shots < most_shots {
             let claims = models.claims(&searches, stage.shots);
-            models.put_back(&mut searches, &claims, effort, control);
+            let is_another = models.put_back(&mut searches, &claims, effort, control);
+            let may_end = is_set_exactly && !is_another;
+            if may_end && models.are_sharp(&searches, stage.shots, effort) {
+                return (searches, stage.shots);
+            }
         }
     }
     (searches, most_shots)

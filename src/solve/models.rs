@@ -2,12 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::accuracy::{Claim, is_in_reach, least_objective, rounding_of_objective};
+use super::accuracy::{Claim, is_in_reach, is_sharp, least_objective, rounding_of_objective};
 use super::control::Control;
 use super::judge::{Effort, Judge};
 use super::ladder::{Ladder, fewer, objective, objective_in};
+use super::polish::Candidate;
 use super::search::Search;
-use crate::jet::{Samples, Stream};
+use crate::jet::{Replicates, Samples, Stream, purpose};
+use crate::objective::Tally;
 use crate::precision::Precision;
 use crate::problem::model::Model;
 use crate::setup::Setup;
@@ -132,9 +134,27 @@ impl<'a> Models<'a> {
         searches.par_iter().map(claim).collect()
     }
 
+    /// Whether J of the leading candidate is much the same on other sets of so many shots.
+    pub fn are_sharp(&self, searches: &[Search], shots: usize, effort: &Effort) -> bool {
+        let problem = &self.searched.problem;
+        let Some(leader) = leader(searches).filter(|it| it.standing.objective().is_some()) else {
+            return false;
+        };
+        let on_another_set = |number| {
+            let stream = Replicates::stream(purpose::EFFECTS, number);
+            let shots = Samples::with_rim(problem, stream, shots).deviates;
+            let choice = &leader.choice;
+            let precision = self.ladder.precision;
+            let tally = Tally::trace_as(precision, &self.searched, choice, choice.speed, &shots);
+            effort.add(0, tally.rays);
+            tally.terms(&problem.goals, choice.speed).total()
+        };
+        let objectives: Vec<f64> = (0..SETS).into_par_iter().map(on_another_set).collect();
+        is_sharp(&objectives, problem)
+    }
+
     fn reduce(&mut self, searches: &mut [Search]) {
-        let best = searches.iter().map(Search::best);
-        let Some(best) = best.min_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank())) else {
+        let Some(best) = leader(searches) else {
             return;
         };
         self.searched = self.asked.without(&self.ladder.left_out(), &best.choice);
@@ -143,3 +163,12 @@ impl<'a> Models<'a> {
         }
     }
 }
+
+/// The best candidate of all contacts.
+fn leader(searches: &[Search]) -> Option<&Candidate> {
+    let best = searches.iter().map(Search::best);
+    best.min_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()))
+}
+
+/// Sets of shots that tell how much J scatters.
+const SETS: u32 = 8;

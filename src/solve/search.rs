@@ -8,12 +8,15 @@ use super::space::Space;
 use crate::setup::Setup;
 
 /// A stage of the search.
+#[derive(Clone, Copy)]
 pub(super) struct Stage {
     pub shots: usize,
     /// Candidates that go on, for each contact.
     pub candidates: usize,
     /// Longest edge of the first simplex, as a share of each range.
     pub size: f64,
+    /// A descent ends when J differs by less than this share of the accuracy over its simplex.
+    pub settled: f64,
 }
 
 /// More and more shots for fewer and fewer candidates.
@@ -22,21 +25,35 @@ pub(super) const STAGES: [Stage; 3] = [
         shots: 256,
         candidates: 6,
         size: 0.4,
+        settled: 0.1,
     },
     Stage {
         shots: 1024,
         candidates: 2,
         size: 0.3,
+        settled: 0.1,
     },
     Stage {
         shots: 4096,
         candidates: 1,
         size: 0.15,
+        settled: 0.1,
     },
 ];
 
-/// A descent ends when J differs by less than this share of the accuracy over its simplex.
-const SETTLED: f64 = 0.1;
+/// The same for nozzles that are set exactly: a descent that looks more closely finds hollows of the few
+/// shots, which makes more of them necessary than J does.
+pub(super) const STAGES_SET_EXACTLY: [Stage; 3] = [
+    Stage {
+        settled: 0.5,
+        ..STAGES[0]
+    },
+    Stage {
+        settled: 0.3,
+        ..STAGES[1]
+    },
+    STAGES[2],
+];
 
 impl Stage {
     /// What follows the last stage while the answer is not accurate enough.
@@ -45,6 +62,7 @@ impl Stage {
             shots,
             candidates: 1,
             size: 0.06,
+            settled: 0.1,
         }
     }
 }
@@ -119,7 +137,7 @@ impl Search {
             .into_par_iter()
             .map(|start| {
                 let start = Candidate::at(space, judge, &start.point);
-                polish(space, judge, start, stage.size, SETTLED * accuracy)
+                polish(space, judge, start, stage.size, stage.settled * accuracy)
             })
             .collect();
         self.sort();
@@ -135,7 +153,15 @@ impl Search {
     ) {
         let here = Candidate::at(&self.space, judge, &self.best().point);
         let found = self.beside(&here, leader, judge, stage, accuracy);
-        let own = || polish(&self.space, judge, here, stage.size, SETTLED * accuracy);
+        let own = || {
+            polish(
+                &self.space,
+                judge,
+                here,
+                stage.size,
+                stage.settled * accuracy,
+            )
+        };
         self.candidates = vec![found.unwrap_or_else(own)];
     }
 
@@ -177,7 +203,13 @@ impl Search {
         Some(if is_close && !gains {
             start
         } else {
-            polish(&self.space, judge, start, stage.size, SETTLED * accuracy)
+            polish(
+                &self.space,
+                judge,
+                start,
+                stage.size,
+                stage.settled * accuracy,
+            )
         })
     }
 }
