@@ -157,12 +157,21 @@ fn ray_is_right(triangles: &[Triangle], ray: &Ray, hit: Option<&Hit>) {
         let [a, b, c] = triangles[hit.spot.piece as usize];
         let off = distance(&hit.point, &[a, b, c]);
         // Where a ray runs within a plane but for rounding, where it crosses is as uncertain.
-        let along = ROUNDING / ray.direction.dot(&hit.normal).abs();
+        let height = ROUNDING + height_rounding(&[a, b, c]);
+        let along = height / ray.direction.dot(&hit.normal).abs();
         assert!(
             off < OFF + along,
             "{ray:?}: {hit:?} is {off} off {a} {b} {c}"
         );
     }
+}
+
+/// How far rounding tilts the plane of a sliver, from one end to the other.
+fn height_rounding(triangle: &Triangle) -> f64 {
+    let [a, b, c] = triangle;
+    let lengths = [b - a, c - b, a - c].map(|edge| edge.norm());
+    let doubled_area = (b - a).cross(&(c - a)).norm();
+    f64::EPSILON * lengths.iter().product::<f64>() / doubled_area
 }
 
 /// The sphere touches a triangle at its hit, and enters none before.
