@@ -49,7 +49,7 @@ pub(super) const STAGES_SET_EXACTLY: [Stage; 3] = [
         ..STAGES[0]
     },
     Stage {
-        settled: 0.3,
+        settled: 0.2,
         ..STAGES[1]
     },
     STAGES[2],
