@@ -164,7 +164,7 @@ fn a_goal_that_is_reached_to_rounding_is_reached() {
             let solution = solve(&exact, &control);
             assert!(best_objective(&solution) < 1e-29);
             assert_eq!(solution.status, Status::Converged, "{wanted} {seed}");
-            assert_eq!(solution.shots_per_pose, 4096);
+            assert_eq!(solution.shots_per_pose, 1024);
         }
     }
 }
