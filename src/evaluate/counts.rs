@@ -52,13 +52,18 @@ impl Counts {
         }
     }
 
+    /// Of several sets of shots.
+    pub fn together(setup: &Setup, each: impl IntoIterator<Item = Self>) -> Self {
+        let each = each.into_iter();
+        each.fold(Self::none(setup), |all, one| all.plus(&one))
+    }
+
     /// Fires sets of fresh shots and measures nothing else.
     pub fn on(setup: &Setup, choice: &Choice, sets: &[Replicate]) -> Self {
         let of_set =
             |set: &Replicate| Self::of_ledger(setup, choice, &Ledger::of(setup, choice, set));
         let each: Vec<Self> = sets.par_iter().map(of_set).collect();
-        each.iter()
-            .fold(Self::none(setup), |all, one| all.plus(one))
+        Self::together(setup, each)
     }
 
     fn of_ledger(setup: &Setup, choice: &Choice, ledger: &Ledger) -> Self {

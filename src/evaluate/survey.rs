@@ -9,7 +9,6 @@ use crate::setup::Setup;
 use crate::trace::{End, Tracer, Volley, Witness};
 
 /// The impacts of some shots, per unit of launch speed.
-#[derive(Default)]
 pub(crate) struct Survey {
     tally: Tally,
     /// First hits on target that stick.

@@ -65,6 +65,11 @@ impl Stage {
             settled: 0.1,
         }
     }
+
+    /// Where a descent from a candidate ends.
+    fn descent(&self, space: &Space, judge: &Judge, start: Candidate, accuracy: f64) -> Candidate {
+        polish(space, judge, start, self.size, self.settled * accuracy)
+    }
 }
 
 /// The search for one contact.
@@ -137,7 +142,7 @@ impl Search {
             .into_par_iter()
             .map(|start| {
                 let start = Candidate::at(space, judge, &start.point);
-                polish(space, judge, start, stage.size, stage.settled * accuracy)
+                stage.descent(space, judge, start, accuracy)
             })
             .collect();
         self.sort();
@@ -153,15 +158,7 @@ impl Search {
     ) {
         let here = Candidate::at(&self.space, judge, &self.best().point);
         let found = self.beside(&here, leader, judge, stage, accuracy);
-        let own = || {
-            polish(
-                &self.space,
-                judge,
-                here,
-                stage.size,
-                stage.settled * accuracy,
-            )
-        };
+        let own = || stage.descent(&self.space, judge, here, accuracy);
         self.candidates = vec![found.unwrap_or_else(own)];
     }
 
@@ -203,13 +200,7 @@ impl Search {
         Some(if is_close && !gains {
             start
         } else {
-            polish(
-                &self.space,
-                judge,
-                start,
-                stage.size,
-                stage.settled * accuracy,
-            )
+            stage.descent(&self.space, judge, start, accuracy)
         })
     }
 }

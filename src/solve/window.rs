@@ -104,6 +104,11 @@ trait Shots {
 /// Scramblings that are fired together.
 const SETS: usize = 8;
 
+/// Some of the sets, those that are fired together; `None` beyond the last.
+fn sets(fresh: &Replicates, part: usize) -> Option<&[Replicate]> {
+    fresh.sets.chunks(SETS).nth(part)
+}
+
 /// Shots that are traced at every choice.
 struct Traced<'a> {
     setup: &'a Setup,
@@ -112,8 +117,7 @@ struct Traced<'a> {
 
 impl Shots for Traced<'_> {
     fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
-        let sets = self.fresh.sets.chunks(SETS).nth(part)?;
-        Some(Counts::on(self.setup, choice, sets))
+        Some(Counts::on(self.setup, choice, sets(self.fresh, part)?))
     }
 }
 
@@ -121,8 +125,8 @@ impl Shots for Traced<'_> {
 struct Recorded<'a> {
     setup: &'a Setup,
     choice: &'a Choice,
-    unseen: std::slice::Chunks<'a, Replicate>,
-    /// One survey of each set.
+    fresh: &'a Replicates,
+    /// One survey of each set that was asked for.
     seen: Vec<Vec<Survey>>,
 }
 
@@ -131,7 +135,7 @@ impl<'a> Recorded<'a> {
         Self {
             setup,
             choice,
-            unseen: fresh.sets.chunks(SETS),
+            fresh,
             seen: Vec::new(),
         }
     }
@@ -141,12 +145,12 @@ impl Shots for Recorded<'_> {
     fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
         if part == self.seen.len() {
             let survey = |set: &Replicate| Survey::of(self.setup, self.choice, &set.jet.deviates);
-            let sets = self.unseen.next()?;
-            self.seen.push(sets.par_iter().map(survey).collect());
+            let sets = sets(self.fresh, part)?.par_iter();
+            self.seen.push(sets.map(survey).collect());
         }
-        let surveys = self.seen.get(part)?.iter();
-        let counts = surveys.map(|survey| survey.counts(self.setup, choice.speed));
-        Some(counts.fold(Counts::none(self.setup), |all, one| all.plus(&one)))
+        let counts = |survey: &Survey| survey.counts(self.setup, choice.speed);
+        let each = self.seen.get(part)?.iter().map(counts);
+        Some(Counts::together(self.setup, each))
     }
 }
 
