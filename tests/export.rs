@@ -238,3 +238,21 @@ fn a_record_without_evidence_has_nothing_to_export() {
     assert_eq!(Format::with_ending("GLB"), Some(Format::Glb));
     assert_eq!(Format::with_ending("stl"), None);
 }
+
+#[test]
+fn corners_and_impulses_that_a_record_does_not_have_are_left_out() {
+    let sound = record();
+    let mut odd = record();
+    let evidence = odd.evidence.as_mut().unwrap();
+    let points = evidence.surfaces[0].points_m.len() as u32;
+    evidence.surfaces[0]
+        .triangles
+        .extend([[0, 1, points], [u32::MAX, 0, 1]]);
+    evidence.hits.normal_impulse.push(1.0);
+    for format in Format::ALL {
+        assert!(
+            exported(&odd, format) == exported(&sound, format),
+            "{format:?}"
+        );
+    }
+}

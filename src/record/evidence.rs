@@ -56,6 +56,16 @@ pub struct SurfaceShapeRecord {
     pub triangles: Vec<[u32; 3]>,
 }
 
+impl SurfaceShapeRecord {
+    /// Its triangles, but for those with corners that it does not have: records may come from
+    /// elsewhere.
+    pub fn whole_triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let exists = |corner: &u32| (*corner as usize) < self.points_m.len();
+        let triangles = self.triangles.iter().copied();
+        triangles.filter(move |corners| corners.iter().all(exists))
+    }
+}
+
 /// What a hit on a surface counts as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -5,7 +5,9 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Point3, Vector3};
 
-use crate::record::{BodyRecord, EvidenceRecord, PathRecord, RoleRecord, SurfaceShapeRecord};
+use crate::record::{
+    BodyRecord, EvidenceRecord, HitsRecord, PathRecord, RoleRecord, SurfaceShapeRecord,
+};
 
 /// Something with a name and a colour of its own.
 pub(super) struct Piece {
@@ -52,13 +54,7 @@ pub(super) fn all(evidence: &EvidenceRecord, exit: [f64; 3]) -> Vec<Piece> {
         pieces.push(nozzle(body, number, &Point3::from(exit)));
     }
     pieces.extend(paths(evidence));
-    pieces.push(Piece {
-        name: "hits".into(),
-        color: HIT,
-        opacity: 1.0,
-        points: evidence.hits.points_m.clone(),
-        cells: Cells::Points(evidence.hits.normal_impulse.clone()),
-    });
+    pieces.push(hits(&evidence.hits));
     pieces.retain(|piece| !piece.points.is_empty());
     pieces
 }
@@ -74,7 +70,19 @@ fn surface(shape: &SurfaceShapeRecord) -> Piece {
         color,
         opacity,
         points: shape.points_m.clone(),
-        cells: Cells::Triangles(shape.triangles.clone()),
+        cells: Cells::Triangles(shape.whole_triangles().collect()),
+    }
+}
+
+fn hits(hits: &HitsRecord) -> Piece {
+    let pairs = hits.points_m.iter().zip(&hits.normal_impulse);
+    let (points, impulses) = pairs.unzip();
+    Piece {
+        name: "hits".into(),
+        color: HIT,
+        opacity: 1.0,
+        points,
+        cells: Cells::Points(impulses),
     }
 }
 

@@ -92,9 +92,9 @@ fn patch(evidence: &EvidenceRecord) -> impl Iterator<Item = [[f64; 2]; 3]> {
         .iter()
         .filter(|s| s.role == RoleRecord::Target);
     targets.flat_map(move |shape| {
-        let corner = move |index: u32| shape.points_m.get(index as usize).copied().map(flat);
-        let triangles = shape.triangles.iter();
-        triangles.filter_map(move |&[a, b, c]| Some([corner(a)?, corner(b)?, corner(c)?]))
+        let corner = move |index: u32| flat(shape.points_m[index as usize]);
+        let triangles = shape.whole_triangles();
+        triangles.map(move |corners| corners.map(corner))
     })
 }
 

@@ -125,7 +125,7 @@ fn surface<'a>(frame: &FrameRecord, shape: &'a SurfaceShapeRecord) -> Surface<'a
         name: &shape.name,
         role: shape.role,
         points: points(frame, &shape.points_m),
-        triangles: shape.triangles.concat(),
+        triangles: shape.whole_triangles().flatten().collect(),
     }
 }
 

@@ -265,12 +265,7 @@ impl View {
 }
 
 fn triangles(shape: &SurfaceShapeRecord) -> impl Iterator<Item = [Corner; 3]> {
-    let corner = |index: u32| {
-        let at = shape.points_m.get(index as usize)?;
-        Some(Point3::from(at.map(f64::from)))
-    };
-    shape
-        .triangles
-        .iter()
-        .filter_map(move |&[a, b, c]| Some([corner(a)?, corner(b)?, corner(c)?]))
+    let corner = |index: u32| Point3::from(shape.points_m[index as usize].map(f64::from));
+    let triangles = shape.whole_triangles();
+    triangles.map(move |corners| corners.map(corner))
 }
