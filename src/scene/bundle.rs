@@ -11,7 +11,7 @@ const LANES: usize = 4;
 /// One to four triangles.
 #[derive(Clone)]
 pub(super) struct Bundle {
-    /// By corner and coordinate, m.
+    /// By coordinate and corner, m.
     corners: [[f64x4; 3]; 3],
     triangles: [u32; LANES],
     count: usize,
@@ -34,14 +34,18 @@ impl WideShear {
         }
     }
 
+    /// The corners of a bundle as the ray sees them.
     #[inline(always)]
-    fn apply(&self, corner: &[f64x4; 3]) -> [f64x4; 3] {
-        let [x, y, z] = [0, 1, 2].map(|axis| corner[self.axes[axis]] - self.origin[axis]);
-        [
-            x - self.shear[0] * z,
-            y - self.shear[1] * z,
-            self.shear[2] * z,
-        ]
+    fn apply(&self, corners: &[[f64x4; 3]; 3]) -> [[f64x4; 3]; 3] {
+        let [xs, ys, zs] = self.axes.map(|axis| &corners[axis]);
+        [0, 1, 2].map(|corner| {
+            let z = zs[corner] - self.origin[2];
+            [
+                xs[corner] - self.origin[0] - self.shear[0] * z,
+                ys[corner] - self.origin[1] - self.shear[1] * z,
+                self.shear[2] * z,
+            ]
+        })
     }
 }
 
@@ -55,9 +59,9 @@ impl Bundle {
         };
         for (lane, &index) in indices.iter().enumerate() {
             bundle.triangles[lane] = index;
-            for (of_bundle, of_triangle) in bundle.corners.iter_mut().zip(corners(index)) {
+            for (corner, point) in corners(index).iter().enumerate() {
                 for axis in 0..3 {
-                    of_bundle[axis].as_mut_array()[lane] = of_triangle[axis];
+                    bundle.corners[axis][corner].as_mut_array()[lane] = point[axis];
                 }
             }
         }
@@ -69,13 +73,20 @@ impl Bundle {
         &self.triangles[..self.count]
     }
 
+    /// The corner points of one of them.
+    #[inline(always)]
+    pub fn corners(&self, lane: usize) -> [Point3<f64>; 3] {
+        let of = |axis: usize, corner: usize| self.corners[axis][corner].as_array()[lane];
+        [0, 1, 2].map(|corner| Point3::new(of(0, corner), of(1, corner), of(2, corner)))
+    }
+
     /// How a ray's line passes each triangle, and a bit for each that it
     /// [may cross](Weights::may_cross).
     ///
     /// The same arithmetic as [`Weights`] of a single triangle, to the last bit.
     #[inline(always)]
     pub fn weights(&self, shear: &WideShear, doubt: f64) -> (WideWeights, u32) {
-        let [a, b, c] = self.corners.each_ref().map(|corner| shear.apply(corner));
+        let [a, b, c] = shear.apply(&self.corners);
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
         let w = b[0] * a[1] - b[1] * a[0];
@@ -94,12 +105,12 @@ impl Bundle {
     /// A bit for each triangle whose box, loosened by `slack`, holds a point.
     #[inline(always)]
     pub fn near(&self, point: &Point3<f64>, slack: f64) -> u32 {
-        let [a, b, c] = &self.corners;
         let slack = f64x4::splat(slack);
         let holds = |axis: usize| {
             let at = f64x4::splat(point[axis]);
-            let low = a[axis].fast_min(b[axis]).fast_min(c[axis]) - slack;
-            let high = a[axis].fast_max(b[axis]).fast_max(c[axis]) + slack;
+            let [a, b, c] = self.corners[axis];
+            let low = a.fast_min(b).fast_min(c) - slack;
+            let high = a.fast_max(b).fast_max(c) + slack;
             at.simd_ge(low) & at.simd_le(high)
         };
         (holds(0) & holds(1) & holds(2)).to_bitmask() & self.occupied()

@@ -119,6 +119,12 @@ impl Facets {
         self.corners[index as usize].map(|corner| self.vertices[corner as usize])
     }
 
+    /// The same, from where rays have just found the triangle.
+    #[inline(always)]
+    fn corners_of(&self, facet: Facet) -> [Point3<f64>; 3] {
+        self.bundles[facet.leaf as usize].corners(facet.lane)
+    }
+
     /// The surface of a triangle.
     pub fn surface(&self, index: u32) -> u32 {
         self.surfaces[index as usize]
@@ -143,9 +149,10 @@ impl Facets {
     ) -> Option<(Crossing, Vector3<f64>)> {
         let start = Start::of(leaving, on_this_part);
         let Nearest {
-            t, front, index, ..
+            t, front, facet, ..
         } = self.nearest(ray, &start, limit)?;
-        let corners = self.corners(index);
+        let index = facet.index;
+        let corners = self.corners_of(facet);
         let plane = Plane::new(self.normals[index as usize], &corners);
         let distance = plane.refined(t, ray, &corners);
         let crossing = Crossing {
@@ -165,7 +172,7 @@ impl Facets {
         let mut best = Nearest {
             t: limit,
             front: true,
-            index: 0,
+            facet: Facet::default(),
             farther: 0.0,
         };
         self.tree.walk(ray, limit, |leaf, starts_inside| {
@@ -185,10 +192,11 @@ impl Facets {
                     continue;
                 }
                 let weights = weights.of(lane);
+                let facet = Facet { index, leaf, lane };
                 let found = if near >> lane & 1 == 1 {
-                    self.crossing_from_near(index, ray, &weights, start)
+                    self.crossing_from_near(facet, ray, &weights, start)
                 } else {
-                    self.crossing(index, ray, &weights, weights.distance(), start)
+                    self.crossing(facet, ray, &weights, weights.distance(), start)
                 };
                 if let Some(found) = found {
                     best.improve(found);
@@ -203,13 +211,13 @@ impl Facets {
     #[inline(always)]
     fn crossing_from_near(
         &self,
-        index: u32,
+        facet: Facet,
         ray: &Ray,
         weights: &Weights,
         start: &Start,
     ) -> Option<Nearest> {
-        let corners = self.corners(index);
-        let plane = Plane::new(self.normals[index as usize], &corners);
+        let corners = self.corners_of(facet);
+        let plane = Plane::new(self.normals[facet.index as usize], &corners);
         let height = plane.height(&ray.origin);
         let approach = ray.direction.dot(&plane.normal);
         let starts_near = start.front.is_some() && height.abs() <= self.slack;
@@ -217,7 +225,7 @@ impl Facets {
             return start.enters(approach).then_some(Nearest {
                 t: 0.0,
                 front: approach < 0.0,
-                index,
+                facet,
                 farther: 0.0,
             });
         }
@@ -233,14 +241,14 @@ impl Facets {
         } else {
             weights.distance()
         };
-        self.crossing(index, ray, weights, t, start)
+        self.crossing(facet, ray, weights, t, start)
     }
 
     /// Where a ray that may cross a triangle on which it does not start does so.
     #[inline(always)]
     fn crossing(
         &self,
-        index: u32,
+        facet: Facet,
         ray: &Ray,
         weights: &Weights,
         t: f64,
@@ -253,11 +261,11 @@ impl Facets {
             (0.0, self.slack)
         };
         let is_seen = margin > 0.0;
-        let crosses = || weights.crosses(|| self.corners(index), margin);
-        let normal = self.normals[index as usize];
+        let crosses = || weights.crosses(|| self.corners_of(facet), margin);
+        let normal = self.normals[facet.index as usize];
         let approach = ray.direction.dot(&normal);
         let (t, meets) = if approach.abs() <= GRAZING {
-            let corners = self.corners(index);
+            let corners = self.corners_of(facet);
             let runs_along = Start::runs_along(approach);
             let meets = if is_seen {
                 crosses() || (!runs_along && passes_over(ray, &corners, front, margin))
@@ -271,13 +279,13 @@ impl Facets {
             let may_slide_off = meets && !is_seen && weights.is_near_edge();
             (
                 t,
-                meets && !(may_slide_off && self.slides_off(index, ray, t)),
+                meets && !(may_slide_off && self.slides_off(facet.index, ray, t)),
             )
         };
         meets.then_some(Nearest {
             t,
             front,
-            index,
+            facet,
             farther,
         })
     }
@@ -290,10 +298,18 @@ fn doubtful_weight(mesh: &Mesh, slack: f64) -> f64 {
     2.0 * longest * LIFT * slack
 }
 
+/// A triangle and where it is among the bundles.
+#[derive(Clone, Copy, Default)]
+struct Facet {
+    index: u32,
+    leaf: u32,
+    lane: usize,
+}
+
 struct Nearest {
     t: f64,
     front: bool,
-    index: u32,
+    facet: Facet,
     /// Where a ray passes over the edge between a facet that it sees and one that it sees from
     /// behind, the one behind counts as farther.
     farther: f64,
@@ -309,7 +325,7 @@ impl Nearest {
     #[inline(always)]
     fn improve(&mut self, other: Self) {
         let (cost, so_far) = (other.cost(), self.cost());
-        if cost < so_far || (cost == so_far && other.index < self.index) {
+        if cost < so_far || (cost == so_far && other.facet.index < self.facet.index) {
             *self = other;
         }
     }

@@ -23,15 +23,14 @@ pub(super) fn lies_on(point: &Point3<f64>, corners: &[Point3<f64>; 3], slack: f6
         return false;
     }
     let area_normal = (b - a).cross(&(c - a));
-    let twice_area = area_normal.norm();
+    // Squares, which need no roots.
+    let margin = slack * slack * area_normal.norm_squared();
     let inside = |from: Point3<f64>, to: Point3<f64>| {
         let edge = to - from;
-        edge.cross(&(point - from)).dot(&area_normal) >= -slack * edge.norm() * twice_area
+        let side = edge.cross(&(point - from)).dot(&area_normal);
+        side >= 0.0 || side * side <= margin * edge.norm_squared()
     };
-    (point - a).dot(&area_normal).abs() <= slack * twice_area
-        && inside(a, b)
-        && inside(b, c)
-        && inside(c, a)
+    (point - a).dot(&area_normal).powi(2) <= margin && inside(a, b) && inside(b, c) && inside(c, a)
 }
 
 /// The change of coordinates that turns a ray into the positive z axis.
@@ -50,14 +49,11 @@ impl Shear {
         if direction[z] < 0.0 {
             std::mem::swap(&mut x, &mut y);
         }
+        let inverse = 1.0 / direction[z];
         Self {
             origin: ray.origin.coords,
             axes: [x, y, z],
-            shear: [
-                direction[x] / direction[z],
-                direction[y] / direction[z],
-                1.0 / direction[z],
-            ],
+            shear: [direction[x] * inverse, direction[y] * inverse, inverse],
         }
     }
 }

@@ -318,6 +318,42 @@ fn triangles_in_one_place_can_be_divided() {
 }
 
 #[test]
+fn slivers_are_wider_by_a_lift_on_every_side() {
+    for size in [0.01, 1.0, 100.0] {
+        let slack = 1e-9 * size;
+        let (half, height, lift) = (0.5 * size, 1e-6 * size, LIFT * slack);
+        let corners = [[-half, 0.0, 0.0], [half, 0.0, 0.0], [0.0, height, 0.0]];
+        for turn in 0..3 {
+            let place = |mut point: [f64; 3]| {
+                point.rotate_right(turn);
+                point
+            };
+            let mesh = Mesh {
+                vertices: corners.map(|corner| place(corner).into()).to_vec(),
+                triangles: vec![Triangle {
+                    corners: [0, 1, 2],
+                    surface: 0,
+                }],
+                ..Mesh::default()
+            };
+            let facets = Facets::new(mesh, 0, slack);
+            let is_hit = |y: f64, side: f64| {
+                let ray = Ray::of(place([0.0, y, side * size]), place([0.0, 0.0, -side]));
+                let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
+                found.is_some()
+            };
+            // A ray from elsewhere sees fronts.
+            for (side, seen) in [(1.0, true), (-1.0, false)] {
+                let below = [-0.1, 0.9, 1.1].map(|lifts| is_hit(-lifts * lift, side));
+                let above = [-0.1, 0.9, 1.1].map(|lifts| is_hit(height + lifts * lift, side));
+                let expected = [true, seen, false];
+                assert_eq!([below, above], [expected; 2], "{size}, {turn}, {side}");
+            }
+        }
+    }
+}
+
+#[test]
 fn an_empty_mesh_is_never_hit() {
     let facets = Facets::new(Mesh::default(), 0, 0.0);
     let ray = Ray {
