@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use nalgebra::{Point2, UnitQuaternion};
 
 use super::*;
-use crate::scene::lanes::put;
+use crate::scene::lanes::{LANES, put};
 use crate::scene::profile::{Curve, Piece};
 use crate::scene::rays::{Hits, Rays};
 
@@ -110,6 +110,56 @@ fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
         let passing = Ray::of([0.0, y, -10.0], UP);
         assert!(touch(&passing, None, f64::INFINITY).is_none(), "{y}");
     }
+}
+
+#[test]
+fn many_shots_touch_the_rims_of_a_pipe_as_one_does() {
+    const RADIUS: f64 = 0.5;
+    let open = pipe(false, false);
+    let mut flights = Vec::new();
+    for z in [-3.0, -0.4, 0.2, 5.0, 9.9, 10.3, 13.0] {
+        for step in -30..30 {
+            for tilt in -9..=9 {
+                let (sin, cos) = (0.16 * f64::from(tilt)).sin_cos();
+                let origin = [0.21 * f64::from(step), 0.3, z];
+                let upwards = Vector3::new(sin, 0.02, cos).normalize();
+                flights.push(Ray::of(origin, upwards.into()));
+                flights.push(Ray::of(
+                    origin,
+                    Vector3::new(sin, 0.02, -cos).normalize().into(),
+                ));
+            }
+        }
+    }
+    let (mut entry_rims, mut exit_rims) = (0, 0);
+    for some in flights.chunks(LANES) {
+        let mut rays = Rays::<f64>::none();
+        rays.count = some.len();
+        rays.are_spheres = true;
+        rays.radius = [RADIUS; LANES];
+        for (i, flight) in some.iter().enumerate() {
+            put(&mut rays.origin, i, flight.origin.into());
+            put(&mut rays.direction, i, flight.direction.into());
+        }
+        let mut hits = Hits::none();
+        open.cross(0, &rays, &mut hits);
+        for (i, flight) in some.iter().enumerate() {
+            let alone = open.first_touch(flight, RADIUS, None, false, f64::INFINITY);
+            let distance = alone.map_or(f64::INFINITY, |(crossing, _)| crossing.distance);
+            assert_eq!(hits.distance[i], distance, "{flight:?}");
+            let z = flight.origin.z + flight.direction.z * distance;
+            let comes_from_outside = !(0.0..=10.0).contains(&flight.origin.z);
+            if distance.is_finite() && comes_from_outside && !(0.0..=10.0).contains(&z) {
+                let is_entry = (z < 0.0) == (flight.origin.z < 0.0);
+                entry_rims += usize::from(is_entry);
+                exit_rims += usize::from(!is_entry);
+            }
+        }
+    }
+    assert!(
+        entry_rims > 100 && exit_rims > 10,
+        "{entry_rims}, {exit_rims}"
+    );
 }
 
 #[test]
