@@ -130,9 +130,9 @@ impl Verdict {
         high <= self.allowed || low > self.allowed
     }
 
-    /// Whether more shots of the same kind would not turn it: they had to be four standard errors off.
+    /// Whether more shots of the same kind would not turn it: they had to be three standard errors off.
     pub fn is_beyond_doubt(&self) -> bool {
-        let [low, high] = self.wilson(4.0);
+        let [low, high] = self.wilson(3.0);
         high <= self.allowed || low > self.allowed
     }
 

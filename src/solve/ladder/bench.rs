@@ -27,21 +27,25 @@ pub(in crate::solve) fn fewer<'a>(
     reduced: &Setup,
     whole: &'a [Deviate],
 ) -> Cow<'a, [Deviate]> {
-    let (with, without) = (&setup.problem, &reduced.problem);
-    let draws_alike = with.jet == without.jet
-        && with.shot == without.shot
-        && Effect::Roughness.is_in(with) == Effect::Roughness.is_in(without)
-        && with.has_one_ray() == without.has_one_ray();
-    if draws_alike {
+    if draw_alike(setup, reduced) {
         return whole.into();
     }
-    let mut shots = Samples::with_rim(without, Stream::Search, whole.len()).deviates;
+    let mut shots = Samples::with_rim(&reduced.problem, Stream::Search, whole.len()).deviates;
     if shots.len() == whole.len() {
         for (shot, with) in shots.iter_mut().zip(whole) {
             shot.weight = with.weight;
         }
     }
     shots.into()
+}
+
+/// Whether the shots of two setups are the same.
+fn draw_alike(one: &Setup, other: &Setup) -> bool {
+    let (one, other) = (&one.problem, &other.problem);
+    one.jet == other.jet
+        && one.shot == other.shot
+        && Effect::Roughness.is_in(one) == Effect::Roughness.is_in(other)
+        && one.has_one_ray() == other.has_one_ray()
 }
 
 /// J at a choice.
@@ -163,9 +167,11 @@ impl<'a> Bench<'a> {
 
     /// The whole model at the first leading choice.
     pub(super) fn start(&self) -> Start {
-        let verdicts = passes(self.setup, &self.leading[0]).into_iter();
+        let fresh = fresh(self.setup);
+        let verdicts = passes(self.setup, &self.leading[0], &fresh).into_iter();
         Start {
             passes: verdicts.map(|(_, pass)| pass).collect(),
+            fresh,
             best: self.descend(self.setup, self.few_shots()),
         }
     }
@@ -181,7 +187,9 @@ impl<'a> Bench<'a> {
         let [without, with] =
             [&best_without, &best_with].map(|choice| objective(self.setup, choice, whole));
         let before = start.passes.iter();
-        let turned = passes(&reduced, &self.leading[0])
+        let redrawn = (!draw_alike(self.setup, &reduced)).then(|| fresh(&reduced));
+        let fresh = redrawn.as_ref().unwrap_or(&start.fresh);
+        let turned = passes(&reduced, &self.leading[0], fresh)
             .into_iter()
             .zip(before)
             .filter(|((_, without), with)| without != *with)
@@ -228,6 +236,8 @@ fn largest(changes: &[f64]) -> f64 {
 pub(super) struct Start {
     /// Whether each verdict passes.
     passes: Vec<bool>,
+    /// The shots that tell.
+    fresh: Replicates,
     /// The best settings nearby.
     best: Choice,
 }
@@ -239,10 +249,14 @@ const DESCENT_SIZE: f64 = 0.1;
 const DESCENT_SETTLED: f64 = 0.3;
 const TIMED_TURNS: usize = 3;
 
+/// Shots that tell whether verdicts pass.
+fn fresh(setup: &Setup) -> Replicates {
+    Replicates::without_rim(&setup.problem, purpose::EFFECTS, SHOTS)
+}
+
 /// Whether each verdict on a choice passes.
-fn passes(setup: &Setup, choice: &Choice) -> Vec<(Subject, bool)> {
-    let fresh = Replicates::without_rim(&setup.problem, purpose::EFFECTS, SHOTS);
-    let verdicts = Verdict::all(setup, &evaluate(setup, choice, &fresh));
+fn passes(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Vec<(Subject, bool)> {
+    let verdicts = Verdict::all(setup, &evaluate(setup, choice, fresh));
     let verdict = |verdict: &Verdict| (verdict.subject, verdict.passes());
     verdicts.iter().map(verdict).collect()
 }
