@@ -64,6 +64,13 @@ impl SurfaceShapeRecord {
         let triangles = self.triangles.iter().copied();
         triangles.filter(move |corners| corners.iter().all(exists))
     }
+
+    /// The corner points of these triangles, m.
+    pub fn faces(&self) -> impl Iterator<Item = [[f32; 3]; 3]> + '_ {
+        let point = |corner: u32| self.points_m[corner as usize];
+        self.whole_triangles()
+            .map(move |corners| corners.map(point))
+    }
 }
 
 /// What a hit on a surface counts as.

@@ -105,7 +105,7 @@ trait Shots {
 const SETS: usize = 8;
 
 /// Some of the sets, those that are fired together; `None` beyond the last.
-fn sets(fresh: &Replicates, part: usize) -> Option<&[Replicate]> {
+fn sets_of(fresh: &Replicates, part: usize) -> Option<&[Replicate]> {
     fresh.sets.chunks(SETS).nth(part)
 }
 
@@ -117,7 +117,7 @@ struct Traced<'a> {
 
 impl Shots for Traced<'_> {
     fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
-        Some(Counts::on(self.setup, choice, sets(self.fresh, part)?))
+        Some(Counts::on(self.setup, choice, sets_of(self.fresh, part)?))
     }
 }
 
@@ -145,7 +145,7 @@ impl Shots for Recorded<'_> {
     fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
         if part == self.seen.len() {
             let survey = |set: &Replicate| Survey::of(self.setup, self.choice, &set.jet.deviates);
-            let sets = sets(self.fresh, part)?.par_iter();
+            let sets = sets_of(self.fresh, part)?.par_iter();
             self.seen.push(sets.map(survey).collect());
         }
         let counts = |survey: &Survey| survey.counts(self.setup, choice.speed);

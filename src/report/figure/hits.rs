@@ -13,7 +13,9 @@ use self::histogram::histograms;
 use self::map::maps;
 use super::sheet::{Fault, drawn, headline};
 use super::style::INK;
-use crate::record::{EvidenceRecord, GoalsRecord, HitsRecord, Record, RoleRecord};
+use crate::record::{
+    EvidenceRecord, GoalsRecord, HitsRecord, Record, RoleRecord, SurfaceShapeRecord,
+};
 use crate::report::number::{count, share_asked, significant};
 
 const SIZE: (u32, u32) = (2000, 1230);
@@ -91,11 +93,8 @@ fn patch(evidence: &EvidenceRecord) -> impl Iterator<Item = [[f64; 2]; 3]> {
         .surfaces
         .iter()
         .filter(|s| s.role == RoleRecord::Target);
-    targets.flat_map(move |shape| {
-        let corner = move |index: u32| flat(shape.points_m[index as usize]);
-        let triangles = shape.whole_triangles();
-        triangles.map(move |corners| corners.map(corner))
-    })
+    let faces = targets.flat_map(SurfaceShapeRecord::faces);
+    faces.map(move |corners| corners.map(flat))
 }
 
 /// The edges of the target patch: those that belong to one triangle only.

@@ -26,6 +26,24 @@ fn pipe(near_closed: bool, far_closed: bool) -> Prism {
     Prism::new(&profile, 10.0, ends, &Place::default(), 7, 1e-9)
 }
 
+/// Of the shots.
+const RADIUS: f64 = 0.5;
+
+/// What shots touch first that fly side by side.
+fn touched_by_many(prism: &Prism, flights: &[Ray]) -> Hits<f64> {
+    let mut rays = Rays::none();
+    rays.count = flights.len();
+    rays.are_spheres = true;
+    rays.radius = [RADIUS; LANES];
+    for (i, flight) in flights.iter().enumerate() {
+        put(&mut rays.origin, i, flight.origin.into());
+        put(&mut rays.direction, i, flight.direction.into());
+    }
+    let mut hits = Hits::none();
+    prism.cross(0, &rays, &mut hits);
+    hits
+}
+
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 
@@ -114,7 +132,6 @@ fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
 
 #[test]
 fn many_shots_touch_the_rims_of_a_pipe_as_one_does() {
-    const RADIUS: f64 = 0.5;
     let open = pipe(false, false);
     let mut flights = Vec::new();
     for z in [-3.0, -0.4, 0.2, 5.0, 9.9, 10.3, 13.0] {
@@ -122,27 +139,16 @@ fn many_shots_touch_the_rims_of_a_pipe_as_one_does() {
             for tilt in -9..=9 {
                 let (sin, cos) = (0.16 * f64::from(tilt)).sin_cos();
                 let origin = [0.21 * f64::from(step), 0.3, z];
-                let upwards = Vector3::new(sin, 0.02, cos).normalize();
-                flights.push(Ray::of(origin, upwards.into()));
-                flights.push(Ray::of(
-                    origin,
-                    Vector3::new(sin, 0.02, -cos).normalize().into(),
-                ));
+                for upwards in [cos, -cos] {
+                    let direction = Vector3::new(sin, 0.02, upwards).normalize();
+                    flights.push(Ray::of(origin, direction.into()));
+                }
             }
         }
     }
     let (mut entry_rims, mut exit_rims) = (0, 0);
     for some in flights.chunks(LANES) {
-        let mut rays = Rays::<f64>::none();
-        rays.count = some.len();
-        rays.are_spheres = true;
-        rays.radius = [RADIUS; LANES];
-        for (i, flight) in some.iter().enumerate() {
-            put(&mut rays.origin, i, flight.origin.into());
-            put(&mut rays.direction, i, flight.direction.into());
-        }
-        let mut hits = Hits::none();
-        open.cross(0, &rays, &mut hits);
+        let hits = touched_by_many(&open, some);
         for (i, flight) in some.iter().enumerate() {
             let alone = open.first_touch(flight, RADIUS, None, false, f64::INFINITY);
             let distance = alone.map_or(f64::INFINITY, |(crossing, _)| crossing.distance);
@@ -224,24 +230,18 @@ fn an_edge_belongs_to_the_surface_on_whose_side_it_is_touched() {
     });
     for place in places {
         let step = Prism::new(&profile, 10.0, Ends::default(), &place, tread, 1e-9);
-        let mut rays = Rays::<f64>::none();
-        rays.are_spheres = true;
         // Straight at the edge, more and more from above.
         let angles = [0.05, 0.1, 0.15, 0.2, 0.3, 0.35, 0.4, 0.45].map(|half_turns| half_turns * PI);
-        for (i, angle) in angles.iter().enumerate() {
+        let flights = angles.map(|angle| {
             let outwards = Vector3::new(angle.cos(), angle.sin(), 0.0);
             let origin = outwards * 4.0 + Vector3::new(0.0, 0.0, 5.0);
             let origin = place.rotation * origin + place.shift;
-            put(&mut rays.origin, i, origin.into());
-            put(&mut rays.direction, i, (place.rotation * -outwards).into());
-            rays.radius[i] = 0.5;
-            rays.count += 1;
-        }
-        let mut hits = Hits::none();
-        step.cross(0, &rays, &mut hits);
+            Ray::of(origin.into(), (place.rotation * -outwards).into())
+        });
+        let hits = touched_by_many(&step, &flights);
         for (i, angle) in angles.iter().enumerate() {
             let expected = if *angle < 0.25 * PI { riser } else { tread };
-            let single = step.first_touch(&rays.at(i), 0.5, None, false, f64::INFINITY);
+            let single = step.first_touch(&flights[i], RADIUS, None, false, f64::INFINITY);
             let single = single.expect("the edge").0;
             assert_eq!([single.surface, hits.surface[i]], [expected; 2], "{angle}");
             assert!((single.distance - 3.5).abs() < 1e-12);

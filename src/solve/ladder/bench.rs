@@ -167,7 +167,7 @@ impl<'a> Bench<'a> {
 
     /// The whole model at the first leading choice.
     pub(super) fn start(&self) -> Start {
-        let fresh = fresh(self.setup);
+        let fresh = draw_fresh(self.setup);
         let verdicts = passes(self.setup, &self.leading[0], &fresh).into_iter();
         Start {
             passes: verdicts.map(|(_, pass)| pass).collect(),
@@ -187,7 +187,7 @@ impl<'a> Bench<'a> {
         let [without, with] =
             [&best_without, &best_with].map(|choice| objective(self.setup, choice, whole));
         let before = start.passes.iter();
-        let redrawn = (!draw_alike(self.setup, &reduced)).then(|| fresh(&reduced));
+        let redrawn = (!draw_alike(self.setup, &reduced)).then(|| draw_fresh(&reduced));
         let fresh = redrawn.as_ref().unwrap_or(&start.fresh);
         let turned = passes(&reduced, &self.leading[0], fresh)
             .into_iter()
@@ -250,7 +250,7 @@ const DESCENT_SETTLED: f64 = 0.3;
 const TIMED_TURNS: usize = 3;
 
 /// Shots that tell whether verdicts pass.
-fn fresh(setup: &Setup) -> Replicates {
+fn draw_fresh(setup: &Setup) -> Replicates {
     Replicates::without_rim(&setup.problem, purpose::EFFECTS, SHOTS)
 }
 

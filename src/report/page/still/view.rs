@@ -265,7 +265,6 @@ impl View {
 }
 
 fn triangles(shape: &SurfaceShapeRecord) -> impl Iterator<Item = [Corner; 3]> {
-    let corner = |index: u32| Point3::from(shape.points_m[index as usize].map(f64::from));
-    let triangles = shape.whole_triangles();
-    triangles.map(move |corners| corners.map(corner))
+    let corner = |at: [f32; 3]| Point3::from(at.map(f64::from));
+    shape.faces().map(move |corners| corners.map(corner))
 }
