@@ -3,57 +3,30 @@
 use nalgebra::Point3;
 use wide::f64x4;
 
+use super::lanes::{larger, smaller};
 use super::triangle::{CLEARLY_OUTSIDE, Shear, Weights};
 
 /// Triangles of a bundle.
 const LANES: usize = 4;
 
+/// One number of each triangle.
+type Four = [f64; LANES];
+
 /// One to four triangles.
 #[derive(Clone)]
+#[repr(align(32))]
 pub(super) struct Bundle {
     /// By coordinate and corner, m.
-    corners: [[f64x4; 3]; 3],
+    corners: [[Four; 3]; 3],
     triangles: [u32; LANES],
     count: usize,
-}
-
-/// A [`Shear`] for four triangles at once.
-pub(super) struct WideShear {
-    axes: [usize; 3],
-    origin: [f64x4; 3],
-    shear: [f64x4; 3],
-}
-
-impl WideShear {
-    #[inline(always)]
-    pub fn new(shear: &Shear) -> Self {
-        Self {
-            axes: shear.axes,
-            origin: shear.axes.map(|axis| f64x4::splat(shear.origin[axis])),
-            shear: shear.shear.map(f64x4::splat),
-        }
-    }
-
-    /// The corners of a bundle as the ray sees them.
-    #[inline(always)]
-    fn apply(&self, corners: &[[f64x4; 3]; 3]) -> [[f64x4; 3]; 3] {
-        let [xs, ys, zs] = self.axes.map(|axis| &corners[axis]);
-        [0, 1, 2].map(|corner| {
-            let z = zs[corner] - self.origin[2];
-            [
-                xs[corner] - self.origin[0] - self.shear[0] * z,
-                ys[corner] - self.origin[1] - self.shear[1] * z,
-                self.shear[2] * z,
-            ]
-        })
-    }
 }
 
 impl Bundle {
     /// The triangles of these indices, of which there are one to four.
     pub fn new(indices: &[u32], corners: impl Fn(u32) -> [Point3<f64>; 3]) -> Self {
         let mut bundle = Self {
-            corners: [[f64x4::ZERO; 3]; 3],
+            corners: [[[0.0; LANES]; 3]; 3],
             triangles: [0; LANES],
             count: indices.len(),
         };
@@ -61,7 +34,7 @@ impl Bundle {
             bundle.triangles[lane] = index;
             for (corner, point) in corners(index).iter().enumerate() {
                 for axis in 0..3 {
-                    bundle.corners[axis][corner].as_mut_array()[lane] = point[axis];
+                    bundle.corners[axis][corner][lane] = point[axis];
                 }
             }
         }
@@ -76,8 +49,14 @@ impl Bundle {
     /// The corner points of one of them.
     #[inline(always)]
     pub fn corners(&self, lane: usize) -> [Point3<f64>; 3] {
-        let of = |axis: usize, corner: usize| self.corners[axis][corner].as_array()[lane];
-        [0, 1, 2].map(|corner| Point3::new(of(0, corner), of(1, corner), of(2, corner)))
+        [0, 1, 2].map(|corner| self.corner(lane, corner))
+    }
+
+    /// A corner point of one of them.
+    #[inline(always)]
+    pub fn corner(&self, lane: usize, corner: usize) -> Point3<f64> {
+        let [x, y, z] = self.corners.each_ref().map(|corners| corners[corner][lane]);
+        Point3::new(x, y, z)
     }
 
     /// How a ray's line passes each triangle, and a bit for each that it
@@ -85,33 +64,55 @@ impl Bundle {
     ///
     /// The same arithmetic as [`Weights`] of a single triangle, to the last bit.
     #[inline(always)]
-    pub fn weights(&self, shear: &WideShear, doubt: f64) -> (WideWeights, u32) {
-        let [a, b, c] = shear.apply(&self.corners);
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
-        let determinant = u + v + w;
-        let depth = u * a[2] + v * b[2] + w * c[2];
-        let zero = f64x4::ZERO;
-        let least = determinant
-            .simd_gt(zero)
-            .select(u.fast_min(v).fast_min(w), -u.fast_max(v).fast_max(w));
-        let bound = determinant.abs() * f64x4::splat(CLEARLY_OUTSIDE) - f64x4::splat(doubt);
-        let may_cross = least.simd_ge(bound) & determinant.simd_ne(zero);
-        let weights = WideWeights([u, v, w, determinant, depth].map(f64x4::to_array));
-        (weights, may_cross.to_bitmask() & self.occupied())
+    pub fn weights(&self, shear: &Shear, doubt: f64) -> (WideWeights, u32) {
+        let [xs, ys, zs] = shear.axes.map(|axis| &self.corners[axis]);
+        let origin = shear.axes.map(|axis| shear.origin[axis]);
+        let mut all = WideWeights([[0.0; LANES]; 5]);
+        let (mut inside, mut bound) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let seen = |corner: usize| {
+                let z = zs[corner][lane] - origin[2];
+                [
+                    xs[corner][lane] - origin[0] - shear.shear[0] * z,
+                    ys[corner][lane] - origin[1] - shear.shear[1] * z,
+                    shear.shear[2] * z,
+                ]
+            };
+            let (a, b, c) = (seen(0), seen(1), seen(2));
+            let u = c[0] * b[1] - c[1] * b[0];
+            let v = a[0] * c[1] - a[1] * c[0];
+            let w = b[0] * a[1] - b[1] * a[0];
+            let determinant = u + v + w;
+            let depth = u * a[2] + v * b[2] + w * c[2];
+            let (least, most) = (smaller(smaller(u, v), w), larger(larger(u, v), w));
+            inside[lane] = if determinant > 0.0 { least } else { -most };
+            bound[lane] = determinant.abs() * CLEARLY_OUTSIDE - doubt;
+            all.0[0][lane] = u;
+            all.0[1][lane] = v;
+            all.0[2][lane] = w;
+            all.0[3][lane] = determinant;
+            all.0[4][lane] = depth;
+        }
+        let determinant = f64x4::new(all.0[3]);
+        let may_cross =
+            f64x4::new(inside).simd_ge(f64x4::new(bound)) & determinant.simd_ne(f64x4::ZERO);
+        (all, may_cross.to_bitmask() & self.occupied())
     }
 
     /// A bit for each triangle whose box, loosened by `slack`, holds a point.
     #[inline(always)]
     pub fn near(&self, point: &Point3<f64>, slack: f64) -> u32 {
-        let slack = f64x4::splat(slack);
+        let (mut low, mut high) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
+        for axis in 0..3 {
+            let [a, b, c] = &self.corners[axis];
+            for lane in 0..LANES {
+                low[axis][lane] = smaller(smaller(a[lane], b[lane]), c[lane]) - slack;
+                high[axis][lane] = larger(larger(a[lane], b[lane]), c[lane]) + slack;
+            }
+        }
         let holds = |axis: usize| {
             let at = f64x4::splat(point[axis]);
-            let [a, b, c] = self.corners[axis];
-            let low = a.fast_min(b).fast_min(c) - slack;
-            let high = a.fast_max(b).fast_max(c) + slack;
-            at.simd_ge(low) & at.simd_le(high)
+            at.simd_ge(f64x4::new(low[axis])) & at.simd_le(f64x4::new(high[axis]))
         };
         (holds(0) & holds(1) & holds(2)).to_bitmask() & self.occupied()
     }

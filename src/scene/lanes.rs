@@ -27,3 +27,15 @@ pub fn put<R: Copy>(lanes: &mut [Lane<R>; 3], index: usize, value: [R; 3]) {
     lanes[1][index] = value[1];
     lanes[2][index] = value[2];
 }
+
+/// The larger of two numbers; of what is not a number it is the second.
+#[inline(always)]
+pub fn larger<R: PartialOrd>(a: R, b: R) -> R {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers, likewise.
+#[inline(always)]
+pub fn smaller<R: PartialOrd>(a: R, b: R) -> R {
+    if a < b { a } else { b }
+}

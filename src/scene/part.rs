@@ -3,8 +3,7 @@
 use nalgebra::Vector3;
 
 use super::Walls;
-use super::facets::Facets;
-use super::lanes::put;
+use super::facets::{self, Facets};
 use super::mesh::Mesh;
 use super::mesh_file::{self, MeshWarning};
 use super::prism::Prism;
@@ -208,39 +207,8 @@ impl BuiltPart {
     pub fn cross<R: Real>(&self, index: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
         match &self.prism {
             Some(prism) => prism.cross(index, rays, hits),
-            None => self.cross_facets(index, rays, hits),
-        }
-    }
-
-    fn cross_facets<R: Real>(&self, index: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
-        for i in 0..rays.count {
-            let leaving = rays.leaving.as_ref().map(|spots| spots.at(i));
-            let on_it = leaving.is_some_and(|spot| spot.part == index);
-            let limit = hits.distance[i].wide();
-            let ray = rays.at(i);
-            let crossing = if rays.are_spheres {
-                let radius = rays.radius[i].wide();
-                self.touch_facets(&ray, radius, leaving, on_it, limit)
-            } else {
-                self.facets.first_crossing(&ray, leaving, on_it, limit)
-            };
-            let Some((crossing, normal)) = crossing else {
-                continue;
-            };
-            hits.distance[i] = R::of(crossing.distance);
-            hits.above[i] = R::of(crossing.above);
-            hits.surface[i] = crossing.surface;
-            put(
-                &mut hits.normal,
-                i,
-                [normal.x, normal.y, normal.z].map(R::of),
-            );
-            let spot = Spot {
-                part: index,
-                piece: crossing.piece,
-                front: crossing.front,
-            };
-            hits.spots.set(i, spot);
+            None if rays.are_spheres => facets::touch(&self.facets, index, rays, hits),
+            None => facets::cross(&self.facets, index, rays, hits),
         }
     }
 }

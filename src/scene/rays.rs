@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::lanes::{LANES, Lane, components};
-use super::ray::{Ray, Spot};
+use super::lanes::{LANES, Lane, components, put};
+use super::ray::{Crossing, Ray, Spot};
 use super::stand::Stands;
 use crate::precision::Real;
 
@@ -115,5 +115,26 @@ impl<R: Real> Hits<R> {
             surface: [0; LANES],
             spots: Spots::none(),
         }
+    }
+
+    /// Sets one of them, on the part of an index in the scene; `normal` is that on the front.
+    #[inline(always)]
+    pub(super) fn set(
+        &mut self,
+        index: usize,
+        part: u32,
+        crossing: &Crossing,
+        normal: Vector3<f64>,
+    ) {
+        self.distance[index] = R::of(crossing.distance);
+        self.above[index] = R::of(crossing.above);
+        self.surface[index] = crossing.surface;
+        put(
+            &mut self.normal,
+            index,
+            [normal.x, normal.y, normal.z].map(R::of),
+        );
+        let (piece, front) = (crossing.piece, crossing.front);
+        self.spots.set(index, Spot { part, piece, front });
     }
 }

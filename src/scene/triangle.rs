@@ -42,6 +42,7 @@ pub(super) struct Shear {
 }
 
 impl Shear {
+    #[inline(always)]
     pub fn new(ray: &Ray) -> Self {
         let direction = ray.direction;
         let z = direction.iamax();

@@ -35,8 +35,7 @@ pub(super) struct Plane {
 
 impl Plane {
     #[inline(always)]
-    pub fn new(normal: Vector3<f64>, corners: &[Point3<f64>; 3]) -> Self {
-        let point = corners[0];
+    pub fn new(normal: Vector3<f64>, point: Point3<f64>) -> Self {
         Self { normal, point }
     }
 
@@ -60,7 +59,7 @@ impl Plane {
     /// plane allows. The weights of a sliver are so uncertain that the place may lie off its plane or
     /// beyond its edges, out of sight of the neighbours.
     #[inline(always)]
-    pub fn refined(&self, t: f64, ray: &Ray, corners: &[Point3<f64>; 3]) -> f64 {
+    pub fn refined(&self, t: f64, ray: &Ray, corners: impl FnOnce() -> [Point3<f64>; 3]) -> f64 {
         if t == 0.0 {
             return t;
         }
@@ -69,7 +68,7 @@ impl Plane {
         let refined = if approach.abs() > GRAZING {
             on_plane
         } else {
-            self.over_triangle(on_plane, ray, corners)
+            self.over_triangle(on_plane, ray, &corners())
         };
         if refined > 0.0 && refined.is_finite() {
             refined
@@ -111,7 +110,7 @@ mod tests {
     use crate::scene::triangle::CORNERS;
 
     fn plane() -> Plane {
-        Plane::new(normal(&CORNERS), &CORNERS)
+        Plane::new(normal(&CORNERS), CORNERS[0])
     }
 
     fn ray(origin: [f64; 3], direction: [f64; 3]) -> Ray {
@@ -145,7 +144,7 @@ mod tests {
     #[test]
     fn steep_rays_cross_where_the_plane_is() {
         let refined = |t: f64, origin: [f64; 3], direction: [f64; 3]| {
-            plane().refined(t, &ray(origin, direction), &CORNERS)
+            plane().refined(t, &ray(origin, direction), || CORNERS)
         };
         let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
         assert!(near(refined(2.1, [1.0, 1.0, 3.0], [0.0, 0.0, -1.0]), 2.0));
@@ -170,7 +169,7 @@ mod tests {
 
         // So flat that it meets the plane 1 behind the triangle.
         let flat = ray([-1.0, 1.5, 1.0 + 4e-4], [1.0, 0.0, -1e-4]);
-        let found = plane().refined(3.5, &flat, &CORNERS);
+        let found = plane().refined(3.5, &flat, || CORNERS);
         assert!((found - 3.0).abs() < 1e-6, "{found}");
     }
 }

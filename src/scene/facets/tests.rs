@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::plane::{GRAZING, Plane, normal};
-use super::{DOUBT, Facets, doubtful_weight};
+use super::{Facets, doubtful_weight};
 use crate::problem::part::Ends;
 use crate::scene::LIFT;
 use crate::scene::mesh::{Mesh, Triangle};
@@ -50,8 +50,8 @@ fn search(
     }
     let (_, crossing) = best?;
     let corners = mesh.corners(&mesh.triangles[crossing.piece as usize]);
-    let plane = Plane::new(normal(&corners), &corners);
-    let distance = plane.refined(crossing.distance, ray, &corners);
+    let plane = Plane::new(normal(&corners), corners[0]);
+    let distance = plane.refined(crossing.distance, ray, || corners);
     (distance < limit).then_some(Crossing {
         distance,
         above: plane.above(distance, crossing.front, &ray.origin),
@@ -67,16 +67,13 @@ fn crossing(
     start: &Start,
 ) -> Option<(f64, bool)> {
     let corners = mesh.corners(triangle);
-    let plane = Plane::new(normal(&corners), &corners);
+    let plane = Plane::new(normal(&corners), corners[0]);
     let height = plane.height(&ray.origin);
     let approach = ray.direction.dot(&plane.normal);
     let distance = -height / approach;
     let starts_near = start.front.is_some() && height.abs() <= slack;
     if starts_near && lies_on(&ray.origin, &corners, slack) {
         return start.enters(approach).then_some((0.0, approach < 0.0));
-    }
-    if !starts_near && approach.abs() > GRAZING && distance < -DOUBT * slack {
-        return None;
     }
     let weights = weights(&Shear::new(ray), &corners);
     let front = weights.front();

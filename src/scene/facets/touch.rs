@@ -26,6 +26,7 @@ impl Facets {
     /// heads towards it, and never otherwise: the distance to it, a convex body, then only grows.
     /// The piece of `leaving`, if it is `on_this_part`, is not hit, unless it was left at an edge and the
     /// sphere heads into the face beside that.
+    #[inline(always)]
     pub fn first_touch(
         &self,
         ray: &Ray,
@@ -113,7 +114,10 @@ impl Search<'_> {
         let mut best: Option<Found> = None;
         let mut cost = limit;
         let tree = &self.facets.tree;
-        tree.walk_sphere(ray, radius, limit, |leaf, starts_inside| {
+        let flat = tree.flat_sphere(ray, radius);
+        let mut walk = tree.walk(&flat);
+        walk.start(&tree.entered(&flat, limit));
+        while let Some((leaf, starts_inside)) = walk.next(cost) {
             let bundle = &self.facets.bundles[leaf as usize];
             let plates = &self.plates[leaf as usize];
             let reached = plates.reached(&wide, cost, self.all_folds);
@@ -141,8 +145,7 @@ impl Search<'_> {
                     }
                 }
             }
-            cost
-        });
+        }
         best
     }
 

@@ -5,12 +5,14 @@ use arrayvec::ArrayVec;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::{Frame, LEAF, Node, WIDTH, WideTree};
+use super::flat::Frame;
+use super::{LEAF, Node, WIDTH, WideTree};
+use crate::scene::lanes::{larger, smaller};
 
 /// Triangles of a leaf.
 const LEAF_SIZE: usize = 4;
 /// Bins that the triangles of a set are sorted into along each axis before it is split.
-const BINS: usize = 16;
+const BINS: usize = 32;
 /// Sets larger than this are built by all threads.
 const PARALLEL: usize = 1 << 13;
 /// Below this depth sets are halved, so that no mesh makes the tree deeper than [`DEEPEST`].
@@ -66,16 +68,6 @@ impl Bounds {
         let [x, y, z] = [0, 1, 2].map(|axis| self.high[axis] - self.low[axis]);
         x * y + y * z + z * x
     }
-}
-
-/// The smaller of two numbers; unlike `f32::min` a single instruction, as there is no NaN here.
-fn smaller(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-/// The larger of two numbers, likewise.
-fn larger(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
 }
 
 /// A part of the tree with the leaves below it.
@@ -139,8 +131,8 @@ impl Branch {
         for (lane, set) in sets.iter().enumerate() {
             let node = &mut self.nodes[index];
             for axis in 0..3 {
-                node.sides[axis].as_mut_array()[lane] = set.bounds.low[axis];
-                node.sides[axis + 3].as_mut_array()[lane] = set.bounds.high[axis];
+                node.sides[axis][lane] = set.bounds.low[axis];
+                node.sides[axis + 3][lane] = set.bounds.high[axis];
             }
         }
         let children: ArrayVec<u32, WIDTH> = if parallel {
@@ -204,7 +196,7 @@ fn eight_sets(items: &mut [Item], depth: usize) -> Vec<Set<'_>> {
                 set.items.len() as f32
             } else {
                 // By area alone, small parts with many triangles would end up too deep.
-                set.bounds.area() * (set.items.len() as f32).sqrt()
+                set.bounds.area() * (set.items.len() as f32).sqrt().sqrt()
             }
         };
         let divisible = |(_, set): &(usize, &Set)| set.items.len() > LEAF_SIZE;

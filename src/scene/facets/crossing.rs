@@ -1,0 +1,252 @@
+//! One ray against triangles.
+
+use nalgebra::{Point3, Vector3};
+
+use super::Facets;
+use super::plane::{GRAZING, Plane};
+use crate::scene::LIFT;
+use crate::scene::ray::{Crossing, Ray, Spot};
+use crate::scene::start::Start;
+use crate::scene::triangle::{Shear, Weights, lies_on, passes_over};
+use crate::scene::wide_tree::{Entered, FlatRay};
+
+impl Facets {
+    /// The first crossing of a ray nearer than `limit`, and the front normal there. Of crossings
+    /// at the same distance it is that of the triangle with the lowest index.
+    ///
+    /// `leaving` is the spot that the ray starts from; `on_this_part` says whether it is on this
+    /// mesh.
+    pub fn first_crossing(
+        &self,
+        ray: &Ray,
+        leaving: Option<Spot>,
+        on_this_part: bool,
+        limit: f64,
+    ) -> Option<(Crossing, Vector3<f64>)> {
+        let start = Start::of(leaving, on_this_part);
+        let sight = self.sight(ray);
+        let entered = self.tree.entered(&sight.flat, limit);
+        let nearest = self.nearest(ray, &sight, &entered, &start, limit)?;
+        self.refined(ray, &nearest, limit)
+    }
+
+    /// The corner points of a triangle, from where rays have just found it.
+    #[inline(always)]
+    fn corners_of(&self, facet: Facet) -> [Point3<f64>; 3] {
+        self.bundles[facet.leaf as usize].corners(facet.lane)
+    }
+
+    /// The plane of such a triangle.
+    #[inline(always)]
+    fn plane_of(&self, facet: Facet) -> Plane {
+        let point = self.bundles[facet.leaf as usize].corner(facet.lane, 0);
+        Plane::new(self.normals[facet.index as usize], point)
+    }
+
+    /// A ray as the boxes and the triangles see it.
+    #[inline(always)]
+    pub(super) fn sight(&self, ray: &Ray) -> Sight {
+        Sight {
+            flat: self.tree.flat(ray),
+            shear: Shear::new(ray),
+        }
+    }
+
+    /// The nearest crossing as exactly as can be said, if it is nearer than `limit`, and the front
+    /// normal there.
+    #[inline(always)]
+    pub(super) fn refined(
+        &self,
+        ray: &Ray,
+        nearest: &Nearest,
+        limit: f64,
+    ) -> Option<(Crossing, Vector3<f64>)> {
+        let &Nearest {
+            t, front, facet, ..
+        } = nearest;
+        let index = facet.index;
+        let plane = self.plane_of(facet);
+        let distance = plane.refined(t, ray, || self.corners_of(facet));
+        let crossing = Crossing {
+            distance,
+            above: plane.above(distance, front, &ray.origin),
+            front,
+            piece: index,
+            surface: self.surface(index),
+        };
+        (distance < limit).then_some((crossing, plane.normal))
+    }
+
+    /// The nearest crossing of a ray within `limit`.
+    #[inline(always)]
+    pub(super) fn nearest(
+        &self,
+        ray: &Ray,
+        sight: &Sight,
+        entered: &Entered,
+        start: &Start,
+        limit: f64,
+    ) -> Option<Nearest> {
+        let mut best = Nearest {
+            t: limit,
+            front: true,
+            facet: Facet::default(),
+            farther: 0.0,
+        };
+        let mut walk = self.tree.walk(&sight.flat);
+        walk.start(entered);
+        while let Some((leaf, starts_inside)) = walk.next(best.cost()) {
+            let bundle = &self.bundles[leaf as usize];
+            let (weights, crossed) = bundle.weights(&sight.shear, self.doubtful_weight);
+            let near = if starts_inside && start.front.is_some() {
+                bundle.near(&ray.origin, self.slack)
+            } else {
+                0
+            };
+            let mut lanes = crossed | near;
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
+                let index = bundle.triangles()[lane];
+                if start.piece == Some(index) {
+                    continue;
+                }
+                let weights = weights.of(lane);
+                let facet = Facet { index, leaf, lane };
+                let found = if near >> lane & 1 == 1 {
+                    self.crossing_from_near(facet, ray, &weights, start)
+                } else {
+                    self.crossing(facet, ray, &weights, weights.distance(), start)
+                };
+                if let Some(found) = found {
+                    best.improve(found);
+                }
+            }
+        }
+        (best.cost() < limit).then_some(best)
+    }
+
+    /// Where a ray crosses a triangle on which it may start.
+    #[inline(always)]
+    fn crossing_from_near(
+        &self,
+        facet: Facet,
+        ray: &Ray,
+        weights: &Weights,
+        start: &Start,
+    ) -> Option<Nearest> {
+        let plane = self.plane_of(facet);
+        let height = plane.height(&ray.origin);
+        let approach = ray.direction.dot(&plane.normal);
+        let starts_near = start.front.is_some() && height.abs() <= self.slack;
+        let distance = -height / approach;
+        let leads_away = approach.abs() > GRAZING && distance < 0.0;
+        if leads_away && !(starts_near && start.enters(approach)) {
+            return None;
+        }
+        if starts_near && lies_on(&ray.origin, &self.corners_of(facet), self.slack) {
+            return start.enters(approach).then_some(Nearest {
+                t: 0.0,
+                front: approach < 0.0,
+                facet,
+                farther: 0.0,
+            });
+        }
+        if !weights.may_cross(self.doubtful_weight) {
+            return None;
+        }
+        // So near, the weights may put it on the wrong side of the start.
+        let is_clear = distance.is_finite() && distance.abs() > 0.0;
+        let t = if is_clear {
+            distance
+        } else {
+            weights.distance()
+        };
+        self.crossing(facet, ray, weights, t, start)
+    }
+
+    /// Where a ray that may cross a triangle on which it does not start does so.
+    #[inline(always)]
+    fn crossing(
+        &self,
+        facet: Facet,
+        ray: &Ray,
+        weights: &Weights,
+        t: f64,
+        start: &Start,
+    ) -> Option<Nearest> {
+        let front = weights.front();
+        let (margin, farther) = if start.sees(front) {
+            (self.slack * LIFT, 0.0)
+        } else {
+            (0.0, self.slack)
+        };
+        let is_seen = margin > 0.0;
+        let crosses = || weights.crosses(|| self.corners_of(facet), margin);
+        let normal = self.normals[facet.index as usize];
+        let approach = ray.direction.dot(&normal);
+        let (t, meets) = if approach.abs() <= GRAZING {
+            let corners = self.corners_of(facet);
+            let runs_along = Start::runs_along(approach);
+            let meets = if is_seen {
+                crosses() || (!runs_along && passes_over(ray, &corners, front, margin))
+            } else {
+                !runs_along && crosses()
+            };
+            let t = Plane::new(normal, corners[0]).over_triangle(t, ray, &corners);
+            (t, meets && t > 0.0)
+        } else {
+            let meets = t > 0.0 && crosses();
+            let may_slide_off = meets && !is_seen && weights.is_near_edge();
+            (
+                t,
+                meets && !(may_slide_off && self.slides_off(facet.index, ray, t)),
+            )
+        };
+        meets.then_some(Nearest {
+            t,
+            front,
+            facet,
+            farther,
+        })
+    }
+}
+
+/// A ray as boxes and as triangles see it.
+pub(super) struct Sight {
+    pub flat: FlatRay<false>,
+    shear: Shear,
+}
+
+/// A triangle and where it is among the bundles.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Facet {
+    index: u32,
+    leaf: u32,
+    lane: usize,
+}
+
+pub(super) struct Nearest {
+    t: f64,
+    front: bool,
+    facet: Facet,
+    /// Where a ray passes over the edge between a facet that it sees and one that it sees from
+    /// behind, the one behind counts as farther.
+    farther: f64,
+}
+
+impl Nearest {
+    #[inline(always)]
+    fn cost(&self) -> f64 {
+        self.t + self.farther
+    }
+
+    /// Takes another crossing that is nearer, or as near and of a triangle with a lower index.
+    #[inline(always)]
+    fn improve(&mut self, other: Self) {
+        let (cost, so_far) = (other.cost(), self.cost());
+        if cost < so_far || (cost == so_far && other.facet.index < self.facet.index) {
+            *self = other;
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Walks through the tree along a ray.
+
+use arrayvec::ArrayVec;
+
+use super::flat::FlatRay;
+use super::{Entered, LEAF, Node, WIDTH, WideTree, build};
+
+/// A walk along a ray.
+pub(in crate::scene) struct Walk<'a, const GROWN: bool> {
+    tree: &'a WideTree,
+    ray: &'a FlatRay<GROWN>,
+    /// Where it has yet to go, the nearest last.
+    stops: ArrayVec<Stop, { build::MOST_STOPS }>,
+}
+
+impl<'a, const GROWN: bool> Walk<'a, GROWN> {
+    #[inline(always)]
+    pub fn new(tree: &'a WideTree, ray: &'a FlatRay<GROWN>) -> Self {
+        Self {
+            tree,
+            ray,
+            stops: ArrayVec::new(),
+        }
+    }
+
+    /// Starts from where the ray [enters](WideTree::entered) the tree.
+    #[inline(always)]
+    pub fn start(&mut self, entered: &Entered) {
+        if let Some(nearest) = self.enter(&self.tree.nodes[0], entered) {
+            self.stops.push(nearest);
+        }
+    }
+
+    /// The next leaf that the ray may meet within `limit` (m), and whether the ray may start inside
+    /// its box.
+    #[inline(always)]
+    pub fn next(&mut self, limit: f64) -> Option<(u32, bool)> {
+        let limit = self.tree.frame.limit(limit, self.ray);
+        loop {
+            let mut stop = self.stops.pop()?;
+            if stop.entry() > limit {
+                continue;
+            }
+            loop {
+                if stop.child() & LEAF != 0 {
+                    return Some((stop.child() & !LEAF, stop.entry() == 0.0));
+                }
+                let node = &self.tree.nodes[stop.child() as usize];
+                let entered = node.entered(self.ray, limit);
+                let Some(nearest) = self.enter(node, &entered) else {
+                    break;
+                };
+                stop = nearest;
+            }
+        }
+    }
+
+    /// The nearest child of a node that the ray enters; the others have to wait.
+    #[inline(always)]
+    fn enter(&mut self, node: &Node, entered: &Entered) -> Option<Stop> {
+        let mut lanes = entered.lanes;
+        let mut next = || {
+            let lane = lanes.trailing_zeros() as usize;
+            lanes &= lanes.wrapping_sub(1);
+            (lane < WIDTH).then(|| Stop::new(node.children[lane], entered.entries.as_array()[lane]))
+        };
+        let mut nearest = next()?;
+        let bottom = self.stops.len();
+        while let Some(other) = next() {
+            let (nearer, farther) = if other < nearest {
+                (other, nearest)
+            } else {
+                (nearest, other)
+            };
+            nearest = nearer;
+            self.stops.push(farther);
+            settle_last(&mut self.stops[bottom..]);
+        }
+        Some(nearest)
+    }
+}
+
+/// A child and where the ray enters it, in one number that sorts by the latter.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+pub(super) struct Stop(u64);
+
+impl Stop {
+    #[inline(always)]
+    pub fn new(child: u32, entry: f32) -> Self {
+        Self(u64::from(entry.to_bits()) << 32 | u64::from(child))
+    }
+
+    #[inline(always)]
+    pub fn child(self) -> u32 {
+        self.0 as u32
+    }
+
+    #[inline(always)]
+    pub fn entry(self) -> f32 {
+        f32::from_bits((self.0 >> 32) as u32)
+    }
+}
+
+/// Moves the last stop down to its place among others, of which the nearest is the last.
+#[inline(always)]
+pub(super) fn settle_last(stops: &mut [Stop]) {
+    let mut place = stops.len() - 1;
+    while place > 0 && stops[place - 1] < stops[place] {
+        stops.swap(place - 1, place);
+        place -= 1;
+    }
+}
