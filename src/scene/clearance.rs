@@ -135,7 +135,13 @@ mod tests {
     fn a_rod_is_as_far_from_a_triangle_as_its_nearest_point() {
         let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]].map(Vector::from_array);
         let [a, b, c] = corners;
-        for triangle in [Triangle::new(a, b, c), Triangle::new(c, b, a)] {
+        let away = Vector::new(7.0, -5.0, 2.5);
+        for (triangle, shift) in [
+            (Triangle::new(a, b, c), Vector::ZERO),
+            (Triangle::new(c, b, a), Vector::ZERO),
+            (Triangle::new(a + away, b + away, c + away), away),
+            (Triangle::new(b - away, c - away, a - away), -away),
+        ] {
             for (from, to, distance) in [
                 // Through it, upright and slanted, either way.
                 ([1.0, 1.0, -1.0], [1.0, 1.0, 2.0], 0.0),
@@ -155,7 +161,8 @@ mod tests {
                 ([1.0, 1.0, 0.5], [9.0, 1.0, 0.5], 0.5),
                 ([5.0, 0.0, 0.0], [9.0, 0.0, 0.0], 1.0),
             ] {
-                let segment = Segment::new(Vector::from_array(from), Vector::from_array(to));
+                let ends = [from, to].map(|end| Vector::from_array(end) + shift);
+                let segment = Segment::new(ends[0], ends[1]);
                 let found = segment_triangle(&segment, &triangle);
                 assert!((found - distance).abs() < 1e-12, "{from:?} {to:?}: {found}");
             }

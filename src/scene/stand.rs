@@ -102,3 +102,22 @@ impl<R: Real> Stands<R> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_taken_there_and_back_is_where_it_was() {
+        // Its x axis is the scene's y axis, its y axis z, its z axis x.
+        let axes = [Vector3::y(), Vector3::z(), Vector3::x()];
+        let stand = Stand::new(axes, Point3::new(10.0, 20.0, 30.0));
+        assert_eq!(stand.point_there([11.0, 22.0, 33.0]), [2.0, 3.0, 1.0]);
+        assert_eq!(stand.vector_there([1.0, 2.0, 3.0]), [2.0, 3.0, 1.0]);
+        assert_eq!(stand.vector_back([2.0, 3.0, 1.0]), [1.0, 2.0, 3.0]);
+        let back = stand.point_back(&Point3::new(2.0, 3.0, 1.0));
+        assert_eq!(back, Point3::new(11.0, 22.0, 33.0));
+        let ray = stand.ray_there(&Ray::of([10.0, 20.0, 35.0], [1.0, 0.0, 0.0]));
+        assert_eq!(ray, Ray::of([0.0, 5.0, 0.0], [0.0, 0.0, 1.0]));
+    }
+}

@@ -53,3 +53,48 @@ impl Start {
         !Self::runs_along(approach) && self.front == Some(approach < 0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spot(front: bool) -> Spot {
+        Spot {
+            part: 3,
+            piece: 5,
+            front,
+        }
+    }
+
+    #[test]
+    fn a_shot_enters_a_wall_from_the_side_that_it_is_on() {
+        for front in [true, false] {
+            let start = Start::of(Some(spot(front)), true);
+            let towards = if front { -1.0 } else { 1.0 };
+            for steepness in [1.0, 0.5, 1e-14] {
+                assert!(start.enters(towards * steepness), "{front}, {steepness}");
+                assert!(!start.enters(-towards * steepness), "{front}, {steepness}");
+            }
+            // So flat that it is rounding.
+            assert!(!start.enters(towards * 1e-15));
+        }
+        // What starts on no surface enters none.
+        let nowhere = Start::of(None, false);
+        assert!(!nowhere.enters(-1.0) && !nowhere.enters(1.0));
+    }
+
+    #[test]
+    fn a_shot_sees_the_side_on_which_it_leaves_a_part() {
+        for front in [true, false] {
+            let here = Start::of(Some(spot(front)), true);
+            assert_eq!((here.piece, here.front), (Some(5), Some(front)));
+            assert!(here.sees(front) && !here.sees(!front));
+            // Of another part it sees the fronts.
+            let elsewhere = Start::of(Some(spot(front)), false);
+            assert_eq!((elsewhere.piece, elsewhere.front), (None, Some(front)));
+            assert!(elsewhere.sees(true) && !elsewhere.sees(false));
+        }
+        let nowhere = Start::of(None, false);
+        assert!(nowhere.sees(true) && !nowhere.sees(false));
+    }
+}

@@ -113,3 +113,57 @@ fn add_cap(mesh: &mut Mesh, outline: &[Point2<f64>], corners: &[u32], front_up: 
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{UnitQuaternion, Vector3};
+
+    use super::*;
+
+    /// Free space is inside a bore, so that its fronts look inwards.
+    #[test]
+    fn the_mesh_of_a_closed_prism_is_closed_and_its_fronts_look_to_free_space() {
+        for (near_closed, far_closed) in [(true, true), (true, false), (false, true)] {
+            let ends = Ends {
+                near_closed,
+                far_closed,
+            };
+            for (sides, size) in [(4, 1.0), (5, 1.0), (60, 1.0), (60, 1e-8), (60, 1e6)] {
+                let angle = std::f64::consts::TAU / f64::from(sides);
+                let mesh = prism(&Profile::circle(4.0 * size), 3.0 * size, ends, angle);
+                let topology = mesh.topology();
+                assert_eq!(topology.inconsistent_edges, 0, "{ends:?}, {sides}");
+                let open_ends = usize::from(!near_closed) + usize::from(!far_closed);
+                assert_eq!(topology.open_edges, open_ends * sides as usize);
+                assert_eq!(mesh.is_closed(), open_ends == 0);
+                if open_ends == 0 {
+                    // A triangle with two sides of 2 for each side, times 3.
+                    let volume = 6.0 * f64::from(sides) * angle.sin();
+                    let found = topology.signed_volume / (size * size * size);
+                    assert!((found + volume).abs() < 1e-9, "{sides}: {found}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_mesh_is_turned_about_its_origin_and_then_shifted() {
+        let mesh = block(Point3::new(1.0, 2.0, 3.0), Point3::new(4.0, 6.0, 8.0));
+        let quarter =
+            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.5 * std::f64::consts::PI);
+        let place = Place {
+            rotation: quarter,
+            shift: Vector3::new(10.0, 20.0, -30.0),
+        };
+        let (low, high) = placed(mesh, &place).bounds().expect("it has corners");
+        // x becomes y, and y becomes -x.
+        assert!(
+            (low - Point3::new(4.0, 21.0, -27.0)).norm() < 1e-12,
+            "{low}"
+        );
+        assert!(
+            (high - Point3::new(8.0, 24.0, -22.0)).norm() < 1e-12,
+            "{high}"
+        );
+    }
+}

@@ -200,13 +200,15 @@ mod tests {
         // Beyond a sharp corner the sides alone would hold it.
         let sliver = [[0.0, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         for turn in 0..3 {
-            let turned = |mut point: [f64; 3]| {
-                point.rotate_right(turn);
-                Point3::from(point)
-            };
+            let turned =
+                |point: [f64; 3]| Point3::from([0, 1, 2].map(|axis| point[(axis + turn) % 3]));
             let corners = sliver.map(turned);
-            assert!(lies_on(&turned([100.05, 0.0, 0.0]), &corners, 0.1));
-            assert!(!lies_on(&turned([101.0, 0.0, 0.0]), &corners, 0.1));
+            let (near, far) = (turned([100.05, 0.0, 0.0]), turned([101.0, 0.0, 0.0]));
+            assert!(lies_on(&near, &corners, 0.1));
+            assert!(!lies_on(&far, &corners, 0.1));
+            let mirrored = corners.map(|corner| -corner);
+            assert!(lies_on(&-near, &mirrored, 0.1));
+            assert!(!lies_on(&-far, &mirrored, 0.1));
         }
     }
 

@@ -129,6 +129,23 @@ mod tests {
     }
 
     #[test]
+    fn normals_of_slivers_lose_no_digits() {
+        // Whole numbers, so that edges are exact and an exact product shows how far off a normal is.
+        let sliver = [[0, 0, 0], [1_000_000_007, 3, -400_000_009], [3, -2, 5]];
+        for turn in 0..6 {
+            let [one, other] = if turn < 3 { [1, 2] } else { [2, 1] };
+            let order = [turn, turn + one, turn + other].map(|corner| corner % 3);
+            let [a, b, c] = order.map(|corner| sliver[corner].map(i128::from));
+            let edge = |from: [i128; 3], to: [i128; 3]| [0, 1, 2].map(|axis| to[axis] - from[axis]);
+            let ([x, y, z], [u, v, w]) = (edge(a, b), edge(a, c));
+            let exact = [y * w - z * v, z * u - x * w, x * v - y * u].map(|it| it as f64);
+            let corners = [a, b, c].map(|corner| Point3::from(corner.map(|it| it as f64)));
+            let off = normal(&corners) - Vector3::from(exact).normalize();
+            assert!(off.norm() < 1e-15, "{order:?}: {off}");
+        }
+    }
+
+    #[test]
     fn heights_are_measured_from_the_front() {
         let plane = plane();
         assert_eq!(plane.height(&Point3::new(7.0, -5.0, 3.0)), 2.0);

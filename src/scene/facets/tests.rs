@@ -351,6 +351,37 @@ fn slivers_are_wider_by_a_lift_on_every_side() {
 }
 
 #[test]
+fn of_triangles_at_one_distance_the_first_is_hit() {
+    // In one plane and over one place, side by side in the order of their indices or against it.
+    for (count, step) in [(2, 0.0), (13, 0.0), (100, 0.01), (100, -0.01)] {
+        let corners = [[-5.0, -5.0], [5.0, -5.0], [0.0, 10.0]];
+        let of = |index: u32| {
+            let shift = step * f64::from(index);
+            corners.map(|[x, y]| Point3::new(x + shift, y, 0.0))
+        };
+        let triangle = |index: u32| Triangle {
+            corners: [0, 1, 2].map(|corner| 3 * index + corner),
+            surface: index,
+        };
+        let mesh = Mesh {
+            vertices: (0..count).flat_map(of).collect(),
+            triangles: (0..count).map(triangle).collect(),
+            ..Mesh::default()
+        };
+        let facets = Facets::new(mesh, 0, 1e-12);
+        for side in [1.0, -1.0] {
+            let ray = Ray::of([0.0, 0.5, side], [0.0, 0.0, -side]);
+            let crossing = facets.first_crossing(&ray, None, false, f64::INFINITY);
+            let (crossing, _) = crossing.expect("it is there");
+            assert_eq!((crossing.piece, crossing.surface), (0, 0), "{count} {step}");
+            let touch = facets.first_touch(&ray, 0.25, None, false, f64::INFINITY);
+            let (touch, _) = touch.expect("it is there");
+            assert_eq!((touch.distance, touch.piece), (0.75, 0), "{count} {step}");
+        }
+    }
+}
+
+#[test]
 fn an_empty_mesh_is_never_hit() {
     let facets = Facets::new(Mesh::default(), 0, 0.0);
     let ray = Ray {

@@ -83,6 +83,7 @@ fn distances_to_a_cylinder_are_those_to_its_arc() {
         ([10.0, 0.0], [5.0, 0.0], 5.0),
         ([2.0, 0.0], [5.0, 0.0], 3.0),
         ([6.0, 8.0], [3.0, 4.0], 5.0),
+        ([3.0, 9.0], [3.0, 4.0], 5.0),
         ([0.0, 4.0], [3.0, 4.0], 3.0),
         ([0.0, -4.0], [3.0, -4.0], 3.0),
         ([-1.0, 7.0], [3.0, 4.0], 5.0),
@@ -173,6 +174,21 @@ fn lines_cross_a_wall_ahead_as_often_as_it_is_there() {
     ] {
         assert_eq!(plane.crossings(place, direction), count, "{place:?}");
     }
+    // 3 down and 4 along, either way.
+    let (forwards, back) = ([0.96, 0.28], [0.0, -1.0]);
+    for (along, direction, count) in [
+        (-4.1, forwards, 0),
+        (-3.9, forwards, 1),
+        (0.9, forwards, 1),
+        (1.1, forwards, 0),
+        (3.9, back, 0),
+        (4.1, back, 1),
+        (8.9, back, 1),
+        (9.1, back, 0),
+    ] {
+        let found = plane.crossings(over(along, 3.0), direction);
+        assert_eq!(found, count, "{along}, {direction:?}");
+    }
     let arc = Form::Cylinder(ARC);
     for (origin, direction, count) in [
         ([-9.0, 0.0], [1.0, 0.0], 1),
@@ -255,6 +271,57 @@ fn rays_meet_a_plane_from_both_sides() {
 }
 
 #[test]
+fn slanted_rays_meet_a_plane_between_its_edges() {
+    // 3 down and 4 along, either way.
+    for (along, direction, meets) in [
+        (-4.1, [0.96, 0.28], false),
+        (-3.9, [0.96, 0.28], true),
+        (0.9, [0.96, 0.28], true),
+        (1.1, [0.96, 0.28], false),
+        (3.9, [0.0, -1.0], false),
+        (4.1, [0.0, -1.0], true),
+        (8.9, [0.0, -1.0], true),
+        (9.1, [0.0, -1.0], false),
+    ] {
+        let met = PLANE.meet::<false>(&flight(over(along, 3.0), direction, 0.0), &EXTENT);
+        assert!(is_near(met.distance, 5.0), "{along}");
+        assert_eq!(met.rank < f64::INFINITY, meets, "{along}");
+    }
+}
+
+#[test]
+fn rays_meet_a_wall_as_far_as_it_reaches_along_z() {
+    // 3 before the plane, or 4 before the far side of the circle, at 0.6 along z for 0.8 across.
+    let met = |z: f64, w: f64| {
+        let mut to_plane = flight(over(2.0, 3.0), [0.8 * 0.8, -0.6 * 0.8], 0.0);
+        let mut to_circle = flight([1.0, 0.0], [0.8, 0.0], 0.0);
+        for flight in [&mut to_plane, &mut to_circle] {
+            flight.origin[2] = z;
+            flight.direction[2] = w;
+        }
+        [
+            PLANE.meet::<false>(&to_plane, &EXTENT).rank,
+            WHOLE.meet::<false>(&to_circle, &EXTENT).rank,
+        ]
+        .map(|rank| rank < f64::INFINITY)
+    };
+    for (z, w, expected) in [
+        (5.0, 0.6, [true, true]),
+        (5.0, -0.6, [true, true]),
+        (7.5, 0.6, [true, false]),
+        (2.5, -0.6, [true, false]),
+        (9.0, 0.6, [false, false]),
+        (1.0, -0.6, [false, false]),
+        (-2.5, 0.6, [false, true]),
+        (12.5, -0.6, [false, true]),
+        (-2.0, 0.6, [true, true]),
+        (12.0, -0.6, [true, true]),
+    ] {
+        assert_eq!(met(z, w), expected, "{z}, {w}");
+    }
+}
+
+#[test]
 fn rays_that_start_on_a_plane_meet_it_at_once_or_never() {
     let (down, up) = ([0.8, -0.6], [-0.8, 0.6]);
     let met = |height: f64, direction: [f64; 2], on_front: bool, from_here: bool| {
@@ -300,6 +367,27 @@ fn rays_meet_a_cylinder_where_it_is() {
     assert_eq!(meet(&WHOLE, [-9.0, 5.1], right), None);
     assert_eq!(meet(&WHOLE, [9.0, 0.0], right), None);
     assert_eq!(meet(&ARC, [1.0, 2.0], [-1.0, 0.0]), None);
+}
+
+/// Seen from its front, and only then.
+#[test]
+fn a_cylinder_is_met_a_little_beyond_its_edges() {
+    // Its upper edge is at (4, 6): straight up from inside, and straight down from outside.
+    let (side, height) = (3.0, 4.0);
+    for beyond in [-0.5 * SLACK, 0.5 * SLACK, 1.5 * SLACK] {
+        let x = 1.0 + side - beyond;
+        let inside = flight([x, 2.0], [0.0, 1.0], 0.0);
+        let outside = flight([x, 12.0], [0.0, -1.0], 0.0);
+        let [from_inside, from_outside] = [inside, outside].map(|flight| {
+            let met = ARC.meet::<false>(&flight, &EXTENT);
+            (met.rank < f64::INFINITY).then_some(met.distance)
+        });
+        let near = |found: Option<f64>, expected: f64| {
+            found.is_some_and(|distance| (distance - expected).abs() < 2.0 * SLACK)
+        };
+        assert_eq!(near(from_inside, height), beyond < SLACK, "{beyond}");
+        assert_eq!(near(from_outside, 10.0 - height), beyond < 0.0, "{beyond}");
+    }
 }
 
 #[test]
@@ -404,6 +492,13 @@ fn shots_touch_a_hollow_from_inside() {
     assert!(touched(&ARC, [1.0, 2.0], [0.61, 0.792_401_43], false).is_some());
     assert_eq!(touched(&ARC, [1.0, 2.0], [0.59, 0.807_403_24], false), None);
     assert_eq!(touched(&ARC, [1.0, 2.0], [-1.0, 0.0], false), None);
+    // Its end, 3 to the right of the centre, but for the slack.
+    for (beyond, is_touched) in [(-0.5, true), (0.5, true), (1.5, false)] {
+        let cos = (3.0 - beyond * SLACK) / 5.0;
+        let towards_end = [cos, (1.0 - cos * cos).sqrt()];
+        let found = touched(&ARC, [1.0, 2.0], towards_end, false);
+        assert_eq!(found.is_some(), is_touched, "{beyond}");
+    }
     // A shot that does not fit in touches nothing from inside.
     let narrow = Cylinder {
         radius: 0.9,
@@ -425,6 +520,9 @@ fn shots_touch_a_pin_from_outside() {
     let (distance, _, normal) = touched(&pin, [-9.0, 3.6], right, false).expect("ahead");
     assert!(is_near(distance, 4.2) && are_near(normal, [-0.8, 0.6]));
     assert_eq!(touched(&pin, [-9.0, 6.1], right, false), None);
+    let up = [0.0, 1.0];
+    let (distance, _, normal) = touched(&pin, [3.6, -9.0], up, false).expect("ahead");
+    assert!(is_near(distance, 4.2) && are_near(normal, [0.6, -0.8]));
     assert_eq!(touched(&pin, [9.0, 0.0], right, false), None);
     for x in [-6.0 - 0.5 * SLACK, -6.0, -5.5] {
         let at_once = touched(&pin, [x, 0.0], right, false);
@@ -472,6 +570,8 @@ fn shots_touch_an_edge_as_a_circle_of_their_radius() {
     assert!(edge.is_of_second(normal) && !edge.is_of_second([-0.8, -0.6]));
     assert_eq!(touched(&edge, [-2.0, 3.1], right, false), None);
     assert_eq!(touched(&edge, [4.0, 2.0], right, false), None);
+    let (distance, _, _) = touched(&edge, [-0.25, 2.0], right, false).expect("ahead");
+    assert!(is_near(distance, 0.25));
     for x in [-0.5 * SLACK, 0.0, 0.5] {
         let at_once = touched(&edge, [x, 2.0], right, false);
         assert!(at_once.is_some_and(|it| it.0 == 0.0), "{x}");

@@ -85,3 +85,81 @@ fn patches(triangles: usize, joints: &[Joint]) -> Vec<Vec<(u32, bool)>> {
     }
     patches
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+
+    /// A strip of triangles one after the other, some of them turned over.
+    fn strip(turned: &[bool]) -> Mesh {
+        let count = turned.len() as u32;
+        let vertices = (0..count + 2).map(|i| Point3::new(f64::from(i), f64::from(i % 2), 0.0));
+        let triangles = (0..count).zip(turned).map(|(i, &is_turned)| {
+            let clockwise = is_turned != (i % 2 == 1);
+            let corners = if clockwise {
+                [i, i + 1, i + 2]
+            } else {
+                [i, i + 2, i + 1]
+            };
+            Triangle {
+                corners,
+                surface: 0,
+            }
+        });
+        Mesh {
+            vertices: vertices.collect(),
+            triangles: triangles.collect(),
+            surfaces: vec!["all".to_owned()],
+        }
+    }
+
+    fn inconsistent_edges(mesh: &Mesh) -> usize {
+        mesh.topology().inconsistent_edges
+    }
+
+    #[test]
+    fn the_fewer_triangles_of_a_patch_are_turned() {
+        for (turned, expected) in [
+            ("..........", vec![]),
+            ("###.......", vec![0, 1, 2]),
+            ("####......", vec![0, 1, 2, 3]),
+            ("######....", vec![6, 7, 8, 9]),
+            ("..#..#.##.", vec![2, 5, 7, 8]),
+            ("##.##.#..#", vec![2, 5, 7, 8]),
+            (".#########", vec![0]),
+        ] {
+            let mut mesh = strip(&turned.bytes().map(|it| it == b'#').collect::<Vec<_>>());
+            let pairs = turned.as_bytes().windows(2);
+            let changes = pairs.filter(|pair| pair[0] != pair[1]).count();
+            assert_eq!(inconsistent_edges(&mesh), changes, "{turned}");
+            let before = mesh.triangles.clone();
+            assert_eq!(unify(&mut mesh), expected, "{turned}");
+            assert_eq!(inconsistent_edges(&mesh), 0, "{turned}");
+            for (position, (old, new)) in before.iter().zip(&mesh.triangles).enumerate() {
+                let is_turned = expected.contains(&(position as u32));
+                assert_eq!(old != new, is_turned, "{turned}: {position}");
+            }
+        }
+    }
+
+    #[test]
+    fn patches_are_turned_one_by_one() {
+        let mut mesh = strip(&[false, false, true, false]);
+        let other = strip(&[true, true, true, false, true]);
+        let (vertices, triangles) = (mesh.vertices.len() as u32, mesh.triangles.len() as u32);
+        let far = other
+            .vertices
+            .iter()
+            .map(|vertex| vertex + nalgebra::Vector3::y() * 9.0);
+        mesh.vertices.extend(far);
+        mesh.triangles
+            .extend(other.triangles.iter().map(|triangle| Triangle {
+                corners: triangle.corners.map(|corner| corner + vertices),
+                ..*triangle
+            }));
+        assert_eq!(unify(&mut mesh), [2, triangles + 3]);
+        assert_eq!(inconsistent_edges(&mesh), 0);
+    }
+}

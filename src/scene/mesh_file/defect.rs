@@ -327,6 +327,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn defects_of_a_region_tell_its_name() {
+        let empty = Defect::EmptyRegion {
+            region: "rim".to_owned(),
+            min: Point3::origin(),
+            max: Point3::origin(),
+        };
+        let covered = Defect::CoveredRegion {
+            region: "floor".to_owned(),
+        };
+        assert_eq!(empty.region(), Some("rim"));
+        assert_eq!(covered.region(), Some("floor"));
+        assert_eq!(Defect::Missing.region(), None);
+    }
+
+    #[test]
     fn what_stands_there_is_shown_up_to_forty_letters() {
         let shown = |found: &str| match Defect::unexpected("any", found.as_bytes()) {
             Defect::Unexpected { found, .. } => found,

@@ -159,8 +159,8 @@ mod tests {
 
     #[test]
     fn hollow_faces_are_cut_without_overlaps() {
-        // An L, a U and a comb, anticlockwise, and the area of each.
-        let shapes: [(&[[f64; 2]], f64); 3] = [
+        // An L, a U, a comb and a spiral, anticlockwise, and the area of each.
+        let shapes: [(&[[f64; 2]], f64); 4] = [
             (
                 &[[0., 0.], [3., 0.], [3., 1.], [1., 1.], [1., 3.], [0., 3.]],
                 5.0,
@@ -194,6 +194,27 @@ mod tests {
                     [0., 2.],
                 ],
                 17.0,
+            ),
+            (
+                &[
+                    [0., 0.],
+                    [7., 0.],
+                    [7., 7.],
+                    [0., 7.],
+                    [0., 2.],
+                    [5., 2.],
+                    [5., 5.],
+                    [2., 5.],
+                    [2., 4.],
+                    [4., 4.],
+                    [4., 3.],
+                    [1., 3.],
+                    [1., 6.],
+                    [6., 6.],
+                    [6., 1.],
+                    [0., 1.],
+                ],
+                31.0,
             ),
         ];
         for (corners, area) in shapes {

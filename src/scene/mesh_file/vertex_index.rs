@@ -69,3 +69,39 @@ fn hash(point: &Point3<f64>) -> u64 {
         mixed ^ (mixed >> 32)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_point_has_one_number() {
+        let mut index = VertexIndex::new();
+        let mut vertices = Vec::new();
+        let points: Vec<Point3<f64>> = (0..5000_u32)
+            .map(|i| {
+                [i % 17, i % 23, i % 29]
+                    .map(|it| f64::from(it) - 8.0)
+                    .into()
+            })
+            .collect();
+        for _ in 0..2 {
+            for (number, point) in (0..).zip(&points) {
+                assert_eq!(index.find_or_add(&mut vertices, *point), Some(number));
+            }
+        }
+        assert_eq!(vertices, points);
+    }
+
+    #[test]
+    fn both_zeros_are_one_point() {
+        let mut index = VertexIndex::new();
+        let mut vertices = Vec::new();
+        for signs in 0..8 {
+            let zero = |bit: u32| if signs >> bit & 1 == 1 { -0.0 } else { 0.0 };
+            let point = Point3::new(zero(0), zero(1), zero(2));
+            assert_eq!(index.find_or_add(&mut vertices, point), Some(0), "{point}");
+        }
+        assert_eq!(vertices.len(), 1);
+    }
+}

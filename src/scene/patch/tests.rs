@@ -84,3 +84,162 @@ fn a_patch_and_what_lies_round_it_are_the_whole_surface() {
         assert!((area(beyond) - (8.0 - inside)).abs() < 1e-12, "{target:?}");
     }
 }
+
+/// A plate seen from both sides; the front of its upper side looks up.
+#[test]
+fn a_target_faces_the_side_that_is_asked_for() {
+    let part = Part {
+        name: "plate".to_owned(),
+        shape: Shape::Box {
+            min: Point3::origin(),
+            max: Point3::new(4.0, 2.0, 1.0),
+        },
+        place: Place::default(),
+        on_nozzle: false,
+    };
+    let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+    let up = Vector3::z();
+    for (facing, expected) in [
+        (None, up),
+        (Some(Vector3::new(3.0, 0.0, 0.1)), up),
+        (Some(Vector3::new(3.0, 0.0, -0.1)), -up),
+    ] {
+        let target = Target {
+            surface: "plate.z_max".to_owned(),
+            within: None,
+            aim: None,
+            along: None,
+            facing,
+        };
+        let patch = Patch::find(&scene, &target).expect("it is there");
+        assert!((patch.frame.normal - expected).norm() < 1e-12, "{facing:?}");
+        assert!((patch.frame.aim - Point3::new(2.0, 1.0, 1.0)).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn hits_are_on_the_target_in_its_box_and_on_its_surface() {
+    let frame = Frame::new(Point3::origin(), Vector3::z(), None).expect("along x");
+    let box_of = |within| Patch {
+        surface: 3,
+        within,
+        frame,
+        area: 1.0,
+    };
+    let hit = |surface: u32, point: [f64; 3]| Hit {
+        distance: 1.0,
+        point: point.into(),
+        normal: Vector3::z(),
+        surface,
+        spot: crate::scene::ray::Spot {
+            part: 0,
+            piece: 0,
+            front: true,
+        },
+    };
+    let limits = (Point3::new(-1.0, -2.0, -3.0), Point3::new(1.0, 2.0, 3.0));
+    let (whole, part) = (box_of(None), box_of(Some(limits)));
+    for axis in 0..3 {
+        let reach = limits.1[axis];
+        for (at, inside) in [
+            (0.9, true),
+            (1.0, true),
+            (1.1, false),
+            (-1.0, true),
+            (-1.1, false),
+        ] {
+            let mut point = [0.5, 0.5, 0.5];
+            point[axis] = at * reach;
+            assert_eq!(part.holds(&hit(3, point)), inside, "{axis}, {at}");
+            assert!(!part.holds(&hit(4, point)));
+            assert!(whole.holds(&hit(3, point)) && !whole.holds(&hit(4, point)));
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_target_is_said() {
+    let part = Part {
+        name: "plate".to_owned(),
+        shape: Shape::Box {
+            min: Point3::new(-0.001, 0.002, 0.0),
+            max: Point3::new(0.004, 0.0025, 0.01),
+        },
+        place: Place::default(),
+        on_nozzle: false,
+    };
+    let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+    let target = |within: Option<[[f64; 3]; 2]>, aim: Option<[f64; 3]>| Target {
+        surface: "plate.z_max".to_owned(),
+        within: within.map(|[low, high]| (low.into(), high.into())),
+        aim: aim.map(Point3::from),
+        along: None,
+        facing: None,
+    };
+    let fault = |target: &Target| {
+        let faults = Patch::find(&scene, target).map(|patch| patch.area);
+        let faults = faults.expect_err("it is at fault");
+        assert_eq!(faults.len(), 1);
+        faults[0].to_string()
+    };
+    let elsewhere = target(Some([[1.0, 1.0, 1.0], [2.0, 2.0, 2.0]]), None);
+    assert_eq!(
+        fault(&elsewhere),
+        "target.within: no part of `plate.z_max` lies in this box: the target is empty; expected a \
+         box that meets x -1.000 to 4.000, y 2.000 to 2.500, z 10.000 to 10.000 mm"
+    );
+    let off = target(None, Some([0.0015, 0.002, 0.0]));
+    assert_eq!(
+        fault(&off),
+        "target.aim: the aim point [1.500, 2.000, 0.000] mm is not on the target; expected a point \
+         on `plate.z_max`, inside `within` if that is given"
+    );
+}
+
+#[test]
+fn an_aim_point_may_be_off_by_a_thousandth_of_the_targets_size() {
+    let part = Part {
+        name: "plate".to_owned(),
+        shape: Shape::Box {
+            min: Point3::origin(),
+            max: Point3::new(8.0, 2.0, 1.0),
+        },
+        place: Place::default(),
+        on_nozzle: false,
+    };
+    let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+    // The root of its area is 4.
+    for (height, is_on_it) in [
+        (3.9e-3, true),
+        (-3.9e-3, true),
+        (4.1e-3, false),
+        (-4.1e-3, false),
+    ] {
+        let target = Target {
+            surface: "plate.z_max".to_owned(),
+            within: None,
+            aim: Some(Point3::new(3.0, 1.0, 1.0 + height)),
+            along: None,
+            facing: None,
+        };
+        assert_eq!(Patch::find(&scene, &target).is_ok(), is_on_it, "{height}");
+    }
+    // Inside its box but for roundings.
+    for (x, is_on_it) in [
+        (2.0 - 0.9e-9, true),
+        (2.0 - 1.1e-9, false),
+        (3.0, true),
+        (4.0 + 0.9e-9, true),
+        (4.0 + 1.1e-9, false),
+        (6.0, false),
+    ] {
+        let target = Target {
+            surface: "plate.z_max".to_owned(),
+            within: Some((Point3::new(2.0, 0.5, 0.5), Point3::new(4.0, 1.5, 1.5))),
+            aim: Some(Point3::new(x, 1.0, 1.0)),
+            along: None,
+            facing: None,
+        };
+        assert_eq!(Patch::find(&scene, &target).is_ok(), is_on_it, "{x}");
+    }
+}

@@ -84,6 +84,201 @@ fn caps_are_as_wide_as_the_cross_section() {
 }
 
 #[test]
+fn slanted_rays_cross_a_cap_where_they_come_to_its_plane() {
+    let pot = pipe(true, true);
+    let meet = |origin: [f64; 3], direction: [f64; 3]| {
+        let found = pot.first_crossing(&Ray::of(origin, direction), None, false, f64::INFINITY);
+        let (crossing, _) = found.expect("it is closed");
+        (crossing.distance, crossing.surface, crossing.front)
+    };
+    let near = |(distance, surface, front): (f64, u32, bool), expected: (f64, u32, bool)| {
+        (distance - expected.0).abs() < 1e-12 && (surface, front) == (expected.1, expected.2)
+    };
+    // 4 along z for 3 across; surfaces: the wall, the cap at z = 0, the cap at z = 10.
+    for [u, v] in [[0.6, 0.0], [0.0, 0.6], [-0.6, 0.0], [0.36, -0.48]] {
+        // From 3 beside the axis to the middle of the cap.
+        let (x, y) = (-5.0 * u, -5.0 * v);
+        assert!(near(meet([x, y, 4.0], [u, v, -0.8]), (5.0, 8, true)));
+        assert!(near(meet([x, y, 6.0], [u, v, 0.8]), (5.0, 9, true)));
+        assert!(near(meet([x, y, -4.0], [u, v, 0.8]), (5.0, 8, false)));
+        assert!(near(meet([x, y, 14.0], [u, v, -0.8]), (5.0, 9, false)));
+        // Where the wall is nearer: 5 across is 20/3 along z.
+        let to_wall = (25.0 / 3.0, 7, true);
+        assert!(near(meet([0.0, 0.0, 7.0], [u, v, -0.8]), to_wall));
+        assert!(near(meet([0.0, 0.0, 3.0], [u, v, 0.8]), to_wall));
+    }
+}
+
+#[test]
+fn rays_that_start_on_a_cap_meet_it_at_once_or_never() {
+    let pot = pipe(true, true);
+    let wall = Spot {
+        part: 0,
+        piece: 0,
+        front: true,
+    };
+    let meet = |z: f64, direction: [f64; 3], leaving: Spot, on_it: bool| {
+        let ray = Ray::of([5.0, 0.0, z], direction);
+        let found = pot.first_crossing(&ray, Some(leaving), on_it, f64::INFINITY);
+        let (crossing, _) = found.expect("it is closed");
+        (crossing.distance, crossing.surface)
+    };
+    // Away from the wall; surfaces: the wall, the cap at z = 0, the cap at z = 10.
+    let (down, up) = ([-0.6, 0.0, -0.8], [-0.6, 0.0, 0.8]);
+    let is_near = |(distance, surface): (f64, u32), expected: (f64, u32)| {
+        (distance - expected.0).abs() < 1e-8 && surface == expected.1
+    };
+    assert!(is_near(meet(4.0, down, wall, true), (5.0, 8)));
+    assert!(is_near(meet(6.0, up, wall, true), (5.0, 9)));
+    for beside in [-0.5e-9, 0.0, 0.5e-9] {
+        assert_eq!(meet(beside, down, wall, true), (0.0, 8));
+        assert!(is_near(meet(beside, up, wall, true), (12.5, 9)));
+        assert_eq!(meet(10.0 + beside, up, wall, true), (0.0, 9));
+        assert!(is_near(meet(10.0 + beside, down, wall, true), (12.5, 8)));
+        // The cap itself is left, whichever way.
+        let cap = Spot { piece: 1, ..wall };
+        assert!(is_near(meet(beside, up, cap, true), (12.5, 9)));
+    }
+}
+
+#[test]
+fn slanted_shots_touch_a_cap_a_radius_before_its_plane() {
+    let pot = pipe(true, true);
+    let touch = |origin: [f64; 3], direction: [f64; 3]| {
+        let found = pot.first_touch(&Ray::of(origin, direction), 1.0, None, false, f64::INFINITY);
+        let (crossing, normal) = found.expect("it is closed");
+        (crossing.distance, crossing.surface, crossing.front, normal)
+    };
+    for [u, v] in [[0.6, 0.0], [0.0, 0.6], [-0.6, 0.0], [0.36, -0.48]] {
+        for (z, w, surface, front) in [
+            (5.0, -0.8, 8, true),
+            (5.0, 0.8, 9, true),
+            (-5.0, 0.8, 8, false),
+            (15.0, -0.8, 9, false),
+        ] {
+            // Centres stay 1 away from the caps, which is 4 along z and 3 across.
+            let (distance, found, is_front, normal) = touch([-5.0 * u, -5.0 * v, z], [u, v, w]);
+            assert!((distance - 5.0).abs() < 1e-12, "{z}, {w}: {distance}");
+            assert_eq!((found, is_front), (surface, front), "{z}, {w}");
+            let towards_inside = if surface == 8 { 1.0 } else { -1.0 };
+            assert_eq!(normal, Vector3::new(0.0, 0.0, towards_inside));
+        }
+    }
+}
+
+/// What has left a rim touches the wall beside it like any other shot.
+#[test]
+fn a_rim_is_another_piece_than_its_wall() {
+    let corners = [[5.0, -5.0], [5.0, 5.0], [-5.0, 5.0], [-5.0, -5.0]].map(Point2::from);
+    let piece = |wall: usize| Piece {
+        curve: Curve::Line {
+            from: corners[wall],
+            to: corners[(wall + 1) % 4],
+        },
+        surface: wall as u32,
+    };
+    let profile = Profile {
+        pieces: (0..4).map(piece).collect(),
+        surfaces: (0..4).map(|wall| format!("wall{wall}")).collect(),
+    };
+    let shaft = |near_closed: bool| {
+        let ends = Ends {
+            near_closed,
+            far_closed: false,
+        };
+        Prism::new(&profile, 10.0, ends, &Place::default(), 7, 1e-9)
+    };
+    let sides = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    for prism in [pipe(false, false), shaft(false), shaft(true)] {
+        let touch = |flight: &Ray, leaving: Option<Spot>| {
+            prism.first_touch(flight, 0.5, leaving, leaving.is_some(), f64::INFINITY)
+        };
+        // Shots that come down on the far rims, and up on the near ones of an open end.
+        let has_cap = !prism.caps.is_empty();
+        let from_ends = if has_cap {
+            vec![(20.0, DOWN)]
+        } else {
+            vec![(20.0, DOWN), (-10.0, UP)]
+        };
+        let mut pieces = Vec::new();
+        for ([x, y], (z, towards)) in sides.into_iter().flat_map(|side| {
+            let ends = from_ends.iter();
+            ends.map(move |end| (side, *end))
+        }) {
+            let outwards = Vector3::new(x, y, 0.0);
+            let inside = Ray::of([0.0, 0.0, 5.0], outwards.into());
+            let (wall, _) = touch(&inside, None).expect("the wall");
+            let over_rim = Ray::of((outwards * 4.7 + Vector3::z() * z).into(), towards);
+            let (rim, normal) = touch(&over_rim, None).expect("the rim");
+            assert_eq!(rim.surface, wall.surface);
+            assert_ne!(rim.piece, wall.piece);
+            pieces.extend([wall.piece, rim.piece]);
+            // As if it had got from the rim to the axis.
+            let spot = Spot {
+                part: 0,
+                piece: rim.piece,
+                front: true,
+            };
+            assert_eq!(touch(&inside, Some(spot)), touch(&inside, None));
+            // Out over the rim, by rounding a little into it: one that has left it does not touch it.
+            let sinking = normal * -1e-9 + outwards * 0.8 - Vector3::z() * 0.6 * towards[2];
+            let grazing = Ray {
+                origin: over_rim.origin + over_rim.direction * rim.distance,
+                direction: sinking.normalize(),
+            };
+            let at_once = touch(&grazing, None).map(|(it, _)| (it.piece, it.distance));
+            assert_eq!(at_once, Some((rim.piece, 0.0)));
+            assert_eq!(touch(&grazing, Some(spot)), None);
+        }
+        pieces.sort_unstable();
+        pieces.dedup();
+        assert_eq!(pieces.len(), prism.walls.len() * (1 + from_ends.len()));
+    }
+}
+
+#[test]
+fn walls_edges_and_rims_of_a_bar_are_pieces_of_their_own() {
+    // Clockwise, so that free space is outside.
+    let corners = [[5.0, 5.0], [5.0, -5.0], [-5.0, -5.0], [-5.0, 5.0]].map(Point2::from);
+    let piece = |wall: usize| Piece {
+        curve: Curve::Line {
+            from: corners[wall],
+            to: corners[(wall + 1) % 4],
+        },
+        surface: wall as u32,
+    };
+    let profile = Profile {
+        pieces: (0..4).map(piece).collect(),
+        surfaces: (0..4).map(|wall| format!("wall{wall}")).collect(),
+    };
+    let bar = Prism::new(&profile, 10.0, Ends::default(), &Place::default(), 7, 1e-9);
+    let half = 0.5_f64.sqrt();
+    let mut pieces = Vec::new();
+    for [x, y] in [[1.0, 0.0], [0.0, -1.0], [-1.0, 0.0], [0.0, 1.0]] {
+        // From 9 out at the wall; along the diagonal at the edge beside it; at its rims.
+        let (u, v) = (half * (x + y), half * (y - x));
+        let flights = [
+            (Ray::of([9.0 * x, 9.0 * y, 5.0], [-x, -y, 0.0]), 3.5),
+            (
+                Ray::of([9.0 * u, 9.0 * v, 5.0], [-u, -v, 0.0]),
+                8.5 - 5.0 / half,
+            ),
+            (Ray::of([5.3 * x, 5.3 * y, 20.0], DOWN), 9.6),
+            (Ray::of([5.3 * x, 5.3 * y, -10.0], UP), 9.6),
+        ];
+        for (flight, distance) in flights {
+            let found = bar.first_touch(&flight, 0.5, None, false, f64::INFINITY);
+            let (crossing, _) = found.expect("the bar");
+            assert!((crossing.distance - distance).abs() < 1e-9, "{flight:?}");
+            pieces.push(crossing.piece);
+        }
+    }
+    pieces.sort_unstable();
+    pieces.dedup();
+    assert_eq!(pieces.len(), 16);
+}
+
+#[test]
 fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
     let open = pipe(false, false);
     let touch = |flight: &Ray, leaving: Option<Spot>, limit: f64| {

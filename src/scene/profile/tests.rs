@@ -49,6 +49,31 @@ fn arcs_go_through_three_points() {
     assert_eq!(line.at(0.5), Point2::new(2.5, 3.0));
 }
 
+/// Of every size, wherever its circle is.
+#[test]
+fn arcs_begin_and_end_where_they_are_said_to() {
+    // From the right of a circle to its top and to its left, over either side.
+    let quarters = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Vector2::from);
+    for size in [1e-8, 1.0, 1e3] {
+        for centre in [[0.0, 0.0], [7.0, -3.0], [-0.5, 20.0]] {
+            let centre = Point2::from(centre) * size;
+            let at = |quarter: usize| centre + quarters[quarter % 4] * size;
+            for first in 0..4 {
+                for (via, last, sweep) in [(1, 2, PI), (1, 3, 1.5 * PI), (2, 1, -1.5 * PI)] {
+                    let (from, via, to) = (at(first), at(first + via), at(first + last));
+                    let arc = Curve::arc_through(from, via, to).expect("they lie on no line");
+                    let off = (arc.at(0.0) - from).norm() + (arc.at(1.0) - to).norm();
+                    assert!(off < 1e-12 * size, "{size}, {centre}, {first}: {off}");
+                    let length = size * sweep.abs();
+                    assert!((arc.length() / length - 1.0).abs() < 1e-12);
+                    let turn = arc.tangent(0.0).dot(&quarters[(first + 1) % 4]);
+                    assert!((turn - sweep.signum()).abs() < 1e-12);
+                }
+            }
+        }
+    }
+}
+
 /// A bore of radius 5 with a groove that leaves it at (3, 4) and (-3, 4).
 fn keyway(root_radius: f64) -> Profile {
     Profile::keyway(&Keyway {

@@ -41,6 +41,27 @@ fn slivers_have_a_plane_as_far_as_rounding_leaves_one() {
 }
 
 #[test]
+fn the_planes_of_slivers_lose_no_digits() {
+    // Whole numbers, so that edges are exact; their product in whole numbers, made a unit vector.
+    let sliver = [
+        [0.0, 0.0, 0.0],
+        [1_000_000_007.0, 3.0, -400_000_009.0],
+        [3.0, -2.0, 5.0],
+    ];
+    let area_normal = [-800_000_003.0, -6_200_000_062.0, -2_000_000_023.0];
+    let expected = Vector3::from(area_normal).normalize();
+    for turn in 0..3 {
+        for (one, other, side) in [(1, 2, 1.0), (2, 1, -1.0)] {
+            let order = [turn, turn + one, turn + other].map(|corner| corner % 3);
+            let corners = order.map(|corner| Point3::from(sliver[corner]));
+            let found = plate(corners, [0, 1, 2], 1.0);
+            let off = found.normal - expected * side;
+            assert!(found.clear && off.norm() < 1e-15, "{order:?}: {off}");
+        }
+    }
+}
+
+#[test]
 fn only_edges_that_the_centre_passes_are_looked_at() {
     let plate = large();
     let passed = |origin: [f64; 3], direction: [f64; 3], limit: f64| {

@@ -115,6 +115,36 @@ fn faces_are_reached_by_what_comes_down_on_them() {
     }
 }
 
+/// By far more than rounding moves the place where they come to its plane.
+#[test]
+fn faces_are_reached_a_little_beyond_their_edges() {
+    let down = [0.0, 0.0, -1.0];
+    for inside in [1e-6, 1e-10, 0.0, -1e-10] {
+        for (x, y) in [(2.0, inside), (inside, 1.5)] {
+            let found = touched([x, y, 5.0], down, 9.0, false);
+            assert_eq!(found, CLEAR | UNCLEAR, "{x} {y}");
+        }
+    }
+}
+
+#[test]
+fn edges_on_the_far_side_are_reached_behind_the_plane() {
+    // It passes the plane after 4, 1.6 beside the first edge, and touches the edge after 5.
+    for (side, folded) in [(1.0, BEHIND), (-1.0, IN_FRONT)] {
+        let slanted = |limit: f64, all_folds: bool| {
+            let origin = [1.0, -4.8, 2.4 * side];
+            touched(origin, [0.0, 0.8, -0.6 * side], limit, all_folds)
+        };
+        assert_eq!(slanted(9.0, false), folded | UNCLEAR);
+        assert_eq!(slanted(9.0, true), CLEAR | UNCLEAR);
+        assert_eq!(slanted(3.9, false), UNCLEAR);
+        // The same from nearer: it touches the edge after 1.5.
+        let origin = [1.0, -2.0, 0.3 * side];
+        let found = touched(origin, [0.0, 0.8, -0.6 * side], 1.6, false);
+        assert_eq!(found, folded | UNCLEAR);
+    }
+}
+
 #[test]
 fn what_passes_level_reaches_edges_only() {
     for (height, folded) in [(0.5, IN_FRONT), (-0.5, BEHIND)] {
