@@ -321,10 +321,7 @@ fn slivers_are_wider_by_a_lift_on_every_side() {
         let (half, height, lift) = (0.5 * size, 1e-6 * size, LIFT * slack);
         let corners = [[-half, 0.0, 0.0], [half, 0.0, 0.0], [0.0, height, 0.0]];
         for turn in 0..3 {
-            let place = |mut point: [f64; 3]| {
-                point.rotate_right(turn);
-                point
-            };
+            let place = |point: [f64; 3]| [0, 1, 2].map(|axis| point[(axis + turn) % 3]);
             let mesh = Mesh {
                 vertices: corners.map(|corner| place(corner).into()).to_vec(),
                 triangles: vec![Triangle {

@@ -220,8 +220,9 @@ mod tests {
         for (corners, area) in shapes {
             for shift in 0..corners.len() {
                 for mirrored in [false, true] {
-                    let mut corners = corners.to_vec();
-                    corners.rotate_left(shift);
+                    let count = corners.len();
+                    let turned = (0..count).map(|corner| corners[(corner + shift) % count]);
+                    let mut corners: Vec<[f64; 2]> = turned.collect();
                     if mirrored {
                         corners.reverse();
                     }
