@@ -203,9 +203,6 @@ impl Prism {
 /// Between which distances a ray is between two heights.
 pub(super) fn between(ray: &Ray, low: f64, high: f64) -> Option<[f64; 2]> {
     let (from, rate) = (ray.origin.z, ray.direction.z);
-    if (rate >= 0.0 && from > high) || (rate <= 0.0 && from < low) {
-        return None;
-    }
     if rate == 0.0 {
         return (low <= from && from <= high).then_some([0.0, f64::INFINITY]);
     }
