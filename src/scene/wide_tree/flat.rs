@@ -2,8 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::precision::{Triple, along};
-use crate::scene::lanes::larger;
+use crate::precision::Triple;
 use crate::scene::ray::Ray;
 
 /// The coordinates of the boxes: the mesh reaches from -1 to 1 along its longest side.
@@ -72,23 +71,6 @@ impl Frame {
         (point - self.centre) * self.scale
     }
 
-    /// Where a ray starts and the inverse of its direction, in the coordinates of the boxes.
-    #[inline(always)]
-    fn line(&self, origin: Triple<f64>, direction: Triple<f64>) -> (Triple<f64>, Triple<f64>) {
-        let centre = [self.centre.x, self.centre.y, self.centre.z];
-        let start = [
-            (origin[0] - centre[0]) * self.scale,
-            (origin[1] - centre[1]) * self.scale,
-            (origin[2] - centre[2]) * self.scale,
-        ];
-        let inverse = [
-            reciprocal(direction[0]),
-            reciprocal(direction[1]),
-            reciprocal(direction[2]),
-        ];
-        (start, inverse)
-    }
-
     /// A ray, `radius` (m) being 0 unless `GROWN`.
     #[inline(always)]
     pub fn ray<const GROWN: bool>(&self, ray: &Ray, radius: f64) -> FlatRay<GROWN> {
@@ -97,15 +79,16 @@ impl Frame {
         } else {
             0.0
         };
-        let (mut origin, inverse) = self.line(ray.origin.into(), ray.direction.into());
+        let mut origin = self.inside(&ray.origin);
+        let inverse = ray.direction.map(reciprocal);
         let mut skipped = 0.0;
-        if farthest(origin) > FAR + grown {
-            let direction: Triple<f64> = ray.direction.into();
-            skipped = entry(origin, inverse, self.reach + grown);
-            origin = along(origin, direction, skipped);
+        if origin.amax() > FAR + grown {
+            skipped = entry(&origin, &inverse, self.reach + grown);
+            origin += ray.direction * skipped;
         }
+        let axes = [0, 1, 2];
         let moved = |by: f64| {
-            [0, 1, 2].map(|axis| {
+            axes.map(|axis| {
                 let forwards = if inverse[axis] < 0.0 { -by } else { by };
                 let moved = if GROWN {
                     origin[axis] + forwards
@@ -115,39 +98,12 @@ impl Frame {
                 moved as f32
             })
         };
-        let origins = [moved(grown), moved(-grown)];
-        FlatRay::new(origins, loosened(inverse), skipped)
-    }
-}
-
-/// Inverse directions towards 0 and away from 0, by more than all rounding on the way to a distance.
-#[inline(always)]
-fn loosened(inverse: Triple<f64>) -> [Triple<f32>; 2] {
-    let rounded = |factor: f64| {
-        [
-            (inverse[0] * factor) as f32,
-            (inverse[1] * factor) as f32,
-            (inverse[2] * factor) as f32,
-        ]
-    };
-    [rounded(1.0 - ROUNDING), rounded(1.0 + ROUNDING)]
-}
-
-/// The largest coordinate.
-#[inline(always)]
-fn farthest(origin: Triple<f64>) -> f64 {
-    larger(larger(origin[0].abs(), origin[1].abs()), origin[2].abs())
-}
-
-impl<const GROWN: bool> FlatRay<GROWN> {
-    #[inline(always)]
-    fn new(origins: [Triple<f32>; 2], inverse: [Triple<f32>; 2], skipped: f64) -> Self {
         // The sign of the inverse, which tells -0 from 0.
-        let backwards = inverse[0].map(|component| usize::from(component < 0.0));
-        let axes = [0, 1, 2];
-        Self {
-            origins,
-            inverse,
+        let backwards = axes.map(|axis| usize::from(inverse[axis] < 0.0));
+        FlatRay {
+            origins: [moved(grown), moved(-grown)],
+            inverse: [1.0 - ROUNDING, 1.0 + ROUNDING]
+                .map(|factor| axes.map(|axis| (inverse[axis] * factor) as f32)),
             sides: [
                 axes.map(|axis| axis + 3 * backwards[axis]),
                 axes.map(|axis| axis + 3 - 3 * backwards[axis]),
@@ -159,7 +115,7 @@ impl<const GROWN: bool> FlatRay<GROWN> {
 
 /// Where a ray from outside enters the box from -`reach` to `reach`; infinite where it does not.
 #[cold]
-pub(super) fn entry(origin: Triple<f64>, inverse: Triple<f64>, reach: f64) -> f64 {
+pub(super) fn entry(origin: &Vector3<f64>, inverse: &Vector3<f64>, reach: f64) -> f64 {
     let (mut near, mut far) = (0.0_f64, f64::INFINITY);
     for axis in 0..3 {
         let a = (-reach - origin[axis]) * inverse[axis];

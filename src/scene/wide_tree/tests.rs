@@ -3,8 +3,9 @@ use super::walk::{Stop, settle_last};
 
 #[test]
 fn rays_from_afar_enter_the_box_round_the_mesh() {
-    let enters =
-        |origin: [f64; 3], direction: [f64; 3]| entry(origin, direction.map(reciprocal), 2.0);
+    let enters = |origin: [f64; 3], direction: [f64; 3]| {
+        entry(&origin.into(), &direction.map(reciprocal).into(), 2.0)
+    };
     assert_eq!(enters([-5.0, 0.0, 0.0], [1.0, 0.0, 0.0]), 3.0);
     assert_eq!(enters([0.0, 9.0, 1.0], [0.0, -1.0, 0.0]), 7.0);
     assert_eq!(enters([-5.0, 3.0, 0.0], [1.0, 0.0, 0.0]), f64::INFINITY);
