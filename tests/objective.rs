@@ -248,12 +248,20 @@ fn check_terms(
     let goals = &problem.goals;
     let limit = goals.tangential_impulse.unwrap();
     let rebound = goals.rebound.unwrap();
-    let samples = Samples::new(problem, Stream::Fresh(3), 500);
+    let mut samples = Samples::new(problem, Stream::Fresh(3), 500);
+    // As if drawn towards the rim.
+    for deviate in samples.deviates.iter_mut().step_by(3) {
+        (deviate.weight, deviate.of_jet) = (0.5, false);
+    }
     let tracer = Tracer::new(setup, choice, choice.speed);
-    let (mut normal, mut tangential, mut harm, mut hits) = (0.0, 0.0, 0.0, 0.0);
+    let (mut normal, mut tangential, mut harm) = (0.0, 0.0, 0.0);
+    let (mut weight, mut hits, mut hits_of_jet) = (0.0, 0.0, 0.0);
+    let mut rays = 0;
     for deviate in &samples.deviates {
         let mut path: Vec<PathImpact> = Vec::new();
-        tracer.follow(deviate, |impact| path.push(*impact));
+        let (_, of_path) = tracer.follow(deviate, |impact| path.push(*impact));
+        rays += of_path;
+        weight += deviate.weight;
         assert!(
             path.iter()
                 .enumerate()
@@ -261,29 +269,31 @@ fn check_terms(
         );
         let over_own = |factor: f64| factor / deviate.speed;
         if let Some(first) = path.first().filter(|first| first.on_target) {
-            hits += 1.0;
-            let impulse = first.normal_impulse / goals.normal_impulse.target;
-            normal += mean(&|s| (impulse * over_own(s) - 1.0).powi(2), deviate.speed);
-            tangential += (first.tangential_impulse / limit.limit - 1.0)
-                .max(0.0)
-                .powi(2);
+            hits += deviate.weight;
+            if deviate.of_jet {
+                hits_of_jet += 1.0;
+                let impulse = first.normal_impulse / goals.normal_impulse.target;
+                normal += mean(&|s| (impulse * over_own(s) - 1.0).powi(2), deviate.speed);
+            }
+            let excess = first.tangential_impulse / limit.limit - 1.0;
+            tangential += deviate.weight * excess.max(0.0).powi(2);
         }
         for impact in path.iter().filter(|impact| !impact.on_target) {
             let impulse = impact.normal_impulse / rebound.allow;
-            harm += mean(&|s| (impulse * over_own(s)).powi(2), deviate.speed);
+            harm += deviate.weight * mean(&|s| (impulse * over_own(s)).powi(2), deviate.speed);
         }
     }
-    let shots = samples.deviates.len() as f64;
-    let share = |sum: f64| if hits > 0.0 { sum / hits } else { 0.0 };
+    let share = |sum: f64, hits: f64| if hits > 0.0 { sum / hits } else { 0.0 };
     let expected = Terms {
-        normal_impulse: goals.normal_impulse.weight * share(normal),
-        tangential_impulse: limit.weight * share(tangential),
-        rebound: rebound.weight * harm / shots,
-        miss: goals.miss.weight * (shots - hits) / shots,
+        normal_impulse: goals.normal_impulse.weight * share(normal, hits_of_jet),
+        tangential_impulse: limit.weight * share(tangential, hits),
+        rebound: rebound.weight * harm / weight,
+        miss: goals.miss.weight * (weight - hits) / weight,
     };
     // Traced at this speed, and at another one with the impulses scaled.
     for &traced_at in traced_at {
         let tally = Tally::trace(setup, choice, traced_at, &samples.deviates);
+        assert_eq!((tally.shots, tally.rays), (samples.deviates.len(), rays));
         let found = tally.terms(goals, choice.speed);
         for part in [
             |t: &Terms| t.normal_impulse,

@@ -108,6 +108,19 @@ fn faces_have_three_corners_to_as_many_as_are_bearable() {
     };
     assert!(matches!(corners("2 0 1"), Err(Defect::Unexpected { .. })));
     assert!(corners("3 0 1 2").is_ok());
+    for face in ["3 0 1 1.5", "3.5 0 1 2"] {
+        let found = corners(face);
+        assert!(
+            matches!(
+                found,
+                Err(Defect::Unexpected {
+                    expected: "a whole number",
+                    ..
+                })
+            ),
+            "{found:?}"
+        );
+    }
 }
 
 #[test]
