@@ -177,7 +177,7 @@ proptest! {
         missed in 0.0..100.0_f64,
         rebound in prop_oneof![Just(0.0), 1e-9..1e3_f64],
         speed_variance in prop_oneof![Just(0.0), 1e-6..0.3_f64],
-        limit in prop::option::of(1e-9..1e-3_f64),
+        limit in prop::option::of((-8.0..-4.0_f64).prop_map(|digits| 10_f64.powf(digits))),
         weights in [0.0..3.0_f64, 0.0..3.0_f64],
         min in 0.01..20.0_f64,
         width in 0.0..100.0_f64,
