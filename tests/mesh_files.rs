@@ -349,6 +349,11 @@ fn faults_of_text_files_name_their_line() {
             ", line 1: expected an OBJ statement such as `v`, `f` or `g`, found `\u{fffd}\u{fffd}`",
         ),
         (
+            "obj",
+            "v\u{e9} 1 2 3\n".to_owned(),
+            ", line 1: expected an OBJ statement such as `v`, `f` or `g`, found `v\u{e9} 1 2 3`",
+        ),
+        (
             "stl",
             "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"
                 .to_owned(),

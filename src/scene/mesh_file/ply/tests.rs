@@ -142,3 +142,24 @@ fn vertices_come_before_faces() {
     };
     assert_eq!(missing, "element `vertex` before the element `face`");
 }
+
+#[test]
+fn other_lists_have_any_length_from_0_on() {
+    let with = |length: i32| {
+        let file = format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+             property float z\nproperty list int int tags\nelement face 1\n\
+             property list int int vertex_indices\nend_header\n\
+             0 0 0 0\n1 0 0 2 7 8\n0 1 0 {length}\n3 0 1 2\n"
+        );
+        mesh(file.as_bytes())
+    };
+    assert!(with(0).is_ok());
+    assert!(matches!(
+        with(-1),
+        Err(Defect::Unexpected {
+            expected: "the length of a list",
+            ..
+        })
+    ));
+}
