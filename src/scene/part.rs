@@ -162,7 +162,9 @@ impl BuiltPart {
         match &self.prism {
             _ if radius <= 0.0 => self.first_crossing(ray, leaving, on_this_part, limit),
             Some(prism) => prism.first_touch(ray, radius, leaving, on_this_part, limit),
-            None => self.touch_facets(ray, radius, leaving, on_this_part, limit),
+            None => self
+                .facets
+                .first_contact(ray, radius, leaving, on_this_part, limit),
         }
     }
 
@@ -186,19 +188,6 @@ impl BuiltPart {
                 .facets
                 .first_crossing(ray, leaving, on_this_part, limit),
         }
-    }
-
-    fn touch_facets(
-        &self,
-        ray: &Ray,
-        radius: f64,
-        leaving: Option<Spot>,
-        on_this_part: bool,
-        limit: f64,
-    ) -> Option<(Crossing, Vector3<f64>)> {
-        let facets = &self.facets;
-        let (crossing, normal) = facets.first_touch(ray, radius, leaving, on_this_part, limit)?;
-        Some((crossing, if crossing.front { normal } else { -normal }))
     }
 
     /// Takes the first crossings that are nearer than what the rays have hit so far; `index` is

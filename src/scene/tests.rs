@@ -6,6 +6,28 @@ use crate::scene::lanes::LANES;
 use crate::scene::rays::Spots;
 use crate::scene::stand::Stands;
 
+fn part(name: &str, shape: Shape, on_nozzle: bool) -> Part {
+    Part {
+        name: name.to_owned(),
+        shape,
+        place: Place::default(),
+        on_nozzle,
+    }
+}
+
+fn block(min: [f64; 3], max: [f64; 3]) -> Shape {
+    Shape::Box {
+        min: min.into(),
+        max: max.into(),
+    }
+}
+
+/// Up to z = 0.
+fn floor() -> Part {
+    let floor = block([-50.0, -50.0, -9.0], [50.0, 50.0, 0.0]);
+    part("floor", floor, false)
+}
+
 #[test]
 fn directions_on_a_spiral_are_even() {
     let directions: Vec<_> = (0..256).map(|index| spiral_direction(index, 256)).collect();
@@ -28,14 +50,8 @@ fn directions_on_a_spiral_are_even() {
 
 #[test]
 fn a_scene_is_as_large_as_its_farthest_coordinate() {
-    let block = |min: Point3<f64>, max: Point3<f64>| Part {
-        name: "block".into(),
-        shape: Shape::Box { min, max },
-        place: Place::default(),
-        on_nozzle: false,
-    };
-    let near = block(Point3::origin(), Point3::new(0.1, 0.2, 0.3));
-    let far = block(Point3::new(-0.1, -0.7, 0.1), Point3::new(0.0, 0.0, 0.2));
+    let near = part("near", block([0.0; 3], [0.1, 0.2, 0.3]), false);
+    let far = part("far", block([-0.1, -0.7, 0.1], [0.0, 0.0, 0.2]), false);
     let scene = Scene::build(&[near, far], Walls::Exact).expect("it is sound");
     assert_eq!(scene.size(), 0.7);
     // Two for each face of a block.
@@ -45,38 +61,14 @@ fn a_scene_is_as_large_as_its_farthest_coordinate() {
 
 #[test]
 fn a_scene_has_no_more_triangles_than_one_mesh_may_have() {
-    let part = Part {
-        name: "hub".into(),
-        shape: Shape::Box {
-            min: Point3::origin(),
-            max: Point3::new(1.0, 1.0, 1.0),
-        },
-        place: Place::default(),
-        on_nozzle: false,
-    };
-    assert_eq!(too_many_triangles(&part, MOST_TRIANGLES), None);
-    let fault = too_many_triangles(&part, MOST_TRIANGLES + 1).expect("one too many");
+    let hub = part("hub", block([0.0; 3], [1.0; 3]), false);
+    assert_eq!(too_many_triangles(&hub, MOST_TRIANGLES), None);
+    let fault = too_many_triangles(&hub, MOST_TRIANGLES + 1).expect("one too many");
     assert_eq!(
         fault.to_string(),
         "scene.hub: up to this part the scene has more than 20000000 triangles; expected \
          fewer or coarser meshes, at most so many triangles together"
     );
-}
-
-fn part(name: &str, shape: Shape, on_nozzle: bool) -> Part {
-    Part {
-        name: name.to_owned(),
-        shape,
-        place: Place::default(),
-        on_nozzle,
-    }
-}
-
-fn block(min: [f64; 3], max: [f64; 3]) -> Shape {
-    Shape::Box {
-        min: min.into(),
-        max: max.into(),
-    }
 }
 
 #[test]
@@ -116,11 +108,7 @@ fn walls_are_exact_where_no_part_is_of_triangles() {
 fn a_nozzle_is_as_clear_as_the_nearest_piece_of_its_body() {
     // A floor at z = 0, a wall at x = -10, and something that moves along.
     let parts = [
-        part(
-            "floor",
-            block([-50.0, -50.0, -9.0], [50.0, 50.0, 0.0]),
-            false,
-        ),
+        floor(),
         part(
             "wall",
             block([-19.0, -50.0, 0.0], [-10.0, 50.0, 50.0]),
@@ -169,11 +157,7 @@ fn a_nozzle_is_as_clear_as_the_nearest_piece_of_its_body() {
 #[test]
 fn a_shot_touches_a_scene_a_radius_before_a_point_would() {
     let parts = [
-        part(
-            "floor",
-            block([-50.0, -50.0, -9.0], [50.0, 50.0, 0.0]),
-            false,
-        ),
+        floor(),
         part("lid", block([-50.0, -50.0, 8.0], [50.0, 50.0, 9.0]), false),
     ];
     let scene = Scene::build(&parts, Walls::Exact).expect("it is sound");

@@ -9,7 +9,7 @@ use multiversion::multiversion;
 use super::Facets;
 use super::crossing::{Nearest, Sight};
 use crate::precision::Real;
-use crate::scene::ray::Ray;
+use crate::scene::ray::{Ray, Spot};
 use crate::scene::rays::{Hits, Rays};
 use crate::scene::start::Start;
 use crate::scene::wide_tree::Entered;
@@ -21,6 +21,8 @@ const GROUP: usize = 32;
 struct Flight {
     index: usize,
     ray: Ray,
+    /// How far away it has met something else already, m.
+    limit: f64,
     sight: Sight,
 }
 
@@ -34,48 +36,52 @@ pub fn cross<R: Real>(facets: &Facets, part: u32, rays: &Rays<R>, hits: &mut Hit
         let mut flights = ArrayVec::<Flight, GROUP>::new();
         for index in first..rays.count.min(first + GROUP) {
             let ray = rays.at(index);
-            let sight = facets.sight(&ray);
-            flights.push(Flight { index, ray, sight });
+            flights.push(Flight {
+                index,
+                ray,
+                limit: hits.distance[index].wide(),
+                sight: facets.sight(&ray),
+            });
         }
         let mut entered = ArrayVec::<Entered, GROUP>::new();
         for flight in &flights {
-            let limit = hits.distance[flight.index].wide();
-            entered.push(facets.tree.entered(&flight.sight.flat, limit));
+            entered.push(facets.tree.entered(&flight.sight.flat, flight.limit));
         }
         let mut met = ArrayVec::<(&Flight, Nearest), GROUP>::new();
         for (flight, entered) in flights.iter().zip(&entered) {
-            let leaving = rays.leaving.as_ref().map(|spots| spots.at(flight.index));
-            let on_it = leaving.is_some_and(|spot| spot.part == part);
+            let (leaving, on_it) = leaving(rays, flight.index, part);
             let start = Start::of(leaving, on_it);
-            let limit = hits.distance[flight.index].wide();
-            if let Some(nearest) =
-                facets.nearest(&flight.ray, &flight.sight, entered, &start, limit)
-            {
+            let Flight { ray, sight, .. } = flight;
+            if let Some(nearest) = facets.nearest(ray, sight, entered, &start, flight.limit) {
                 met.push((flight, nearest));
             }
         }
         for (flight, nearest) in &met {
-            let limit = hits.distance[flight.index].wide();
-            if let Some((crossing, normal)) = facets.refined(&flight.ray, nearest, limit) {
+            let refined = facets.refined(&flight.ray, nearest, flight.limit);
+            if let Some((crossing, normal)) = refined {
                 hits.set(flight.index, part, &crossing, normal);
             }
         }
     }
 }
 
-/// Takes the first contacts of spheres in place of rays, likewise; normals are those from the places
-/// of contact to the centres, turned to the front.
+/// Takes the first contacts of spheres in place of rays, likewise.
 #[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
 pub fn touch<R: Real>(facets: &Facets, part: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
     for index in 0..rays.count {
-        let leaving = rays.leaving.as_ref().map(|spots| spots.at(index));
-        let on_it = leaving.is_some_and(|spot| spot.part == part);
+        let (leaving, on_it) = leaving(rays, index, part);
         let limit = hits.distance[index].wide();
         let radius = rays.radius[index].wide();
-        let touch = facets.first_touch(&rays.at(index), radius, leaving, on_it, limit);
-        if let Some((crossing, normal)) = touch {
-            let normal = if crossing.front { normal } else { -normal };
+        let contact = facets.first_contact(&rays.at(index), radius, leaving, on_it, limit);
+        if let Some((crossing, normal)) = contact {
             hits.set(index, part, &crossing, normal);
         }
     }
+}
+
+/// The spot that a ray starts from, and whether it is on the part.
+#[inline(always)]
+fn leaving<R: Real>(rays: &Rays<R>, index: usize, part: u32) -> (Option<Spot>, bool) {
+    let leaving = rays.leaving.as_ref().map(|spots| spots.at(index));
+    (leaving, leaving.is_some_and(|spot| spot.part == part))
 }

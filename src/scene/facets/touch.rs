@@ -64,6 +64,20 @@ impl Facets {
         })
     }
 
+    /// The same with the unit normal on the front, as that of crossings is.
+    #[inline(always)]
+    pub fn first_contact(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        leaving: Option<Spot>,
+        on_this_part: bool,
+        limit: f64,
+    ) -> Option<(Crossing, Vector3<f64>)> {
+        let (crossing, normal) = self.first_touch(ray, radius, leaving, on_this_part, limit)?;
+        Some((crossing, if crossing.front { normal } else { -normal }))
+    }
+
     /// On one thread: made behind a lock, where a thread that shares work out may take up other work
     /// that waits for the same lock.
     fn build_plates(&self) -> Vec<Plates> {

@@ -6,6 +6,27 @@ fn area(polygons: impl IntoIterator<Item = Polygon>) -> f64 {
     area_and_centre(polygons.into_iter()).0
 }
 
+fn plate(min: Point3<f64>, max: Point3<f64>) -> Scene {
+    let part = Part {
+        name: "plate".to_owned(),
+        shape: Shape::Box { min, max },
+        place: Place::default(),
+        on_nozzle: false,
+    };
+    Scene::build(&[part], Walls::Exact).expect("it is sound")
+}
+
+/// The upper side of the plate.
+fn upper_side() -> Target {
+    Target {
+        surface: "plate.z_max".to_owned(),
+        within: None,
+        aim: None,
+        along: None,
+        facing: None,
+    }
+}
+
 #[test]
 fn a_triangle_is_cut_along_the_faces_of_a_box() {
     // Half of a square of 4 by 4.
@@ -53,16 +74,7 @@ fn the_centre_of_a_patch_is_weighed_by_area() {
 
 #[test]
 fn a_patch_and_what_lies_round_it_are_the_whole_surface() {
-    let part = Part {
-        name: "block".to_owned(),
-        shape: Shape::Box {
-            min: Point3::origin(),
-            max: Point3::new(4.0, 2.0, 1.0),
-        },
-        place: Place::default(),
-        on_nozzle: false,
-    };
-    let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+    let scene = plate(Point3::origin(), Point3::new(4.0, 2.0, 1.0));
     for (within, inside) in [
         (None, 8.0),
         (Some(([1.0, 0.5, 0.0], [3.0, 1.0, 2.0])), 1.0),
@@ -70,11 +82,8 @@ fn a_patch_and_what_lies_round_it_are_the_whole_surface() {
         (Some(([-1.0, -1.0, 0.0], [9.0, 9.0, 2.0])), 8.0),
     ] {
         let target = Target {
-            surface: "block.z_max".to_owned(),
             within: within.map(|(low, high)| (low.into(), high.into())),
-            aim: None,
-            along: None,
-            facing: None,
+            ..upper_side()
         };
         let patch = Patch::find(&scene, &target).expect("it is there");
         let (within, beyond) = patch.cut_out(&scene);
@@ -88,16 +97,7 @@ fn a_patch_and_what_lies_round_it_are_the_whole_surface() {
 /// A plate seen from both sides; the front of its upper side looks up.
 #[test]
 fn a_target_faces_the_side_that_is_asked_for() {
-    let part = Part {
-        name: "plate".to_owned(),
-        shape: Shape::Box {
-            min: Point3::origin(),
-            max: Point3::new(4.0, 2.0, 1.0),
-        },
-        place: Place::default(),
-        on_nozzle: false,
-    };
-    let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+    let scene = plate(Point3::origin(), Point3::new(4.0, 2.0, 1.0));
     let up = Vector3::z();
     for (facing, expected) in [
         (None, up),
@@ -105,11 +105,8 @@ fn a_target_faces_the_side_that_is_asked_for() {
         (Some(Vector3::new(3.0, 0.0, -0.1)), -up),
     ] {
         let target = Target {
-            surface: "plate.z_max".to_owned(),
-            within: None,
-            aim: None,
-            along: None,
             facing,
+            ..upper_side()
         };
         let patch = Patch::find(&scene, &target).expect("it is there");
         assert!((patch.frame.normal - expected).norm() < 1e-12, "{facing:?}");
@@ -159,22 +156,14 @@ fn hits_are_on_the_target_in_its_box_and_on_its_surface() {
 
 #[test]
 fn what_is_wrong_with_a_target_is_said() {
-    let part = Part {
-        name: "plate".to_owned(),
-        shape: Shape::Box {
-            min: Point3::new(-0.001, 0.002, 0.0),
-            max: Point3::new(0.004, 0.0025, 0.01),
-        },
-        place: Place::default(),
-        on_nozzle: false,
-    };
-    let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+    let scene = plate(
+        Point3::new(-0.001, 0.002, 0.0),
+        Point3::new(0.004, 0.0025, 0.01),
+    );
     let target = |within: Option<[[f64; 3]; 2]>, aim: Option<[f64; 3]>| Target {
-        surface: "plate.z_max".to_owned(),
         within: within.map(|[low, high]| (low.into(), high.into())),
         aim: aim.map(Point3::from),
-        along: None,
-        facing: None,
+        ..upper_side()
     };
     let fault = |target: &Target| {
         let faults = Patch::find(&scene, target).map(|patch| patch.area);
@@ -198,16 +187,7 @@ fn what_is_wrong_with_a_target_is_said() {
 
 #[test]
 fn an_aim_point_may_be_off_by_a_thousandth_of_the_targets_size() {
-    let part = Part {
-        name: "plate".to_owned(),
-        shape: Shape::Box {
-            min: Point3::origin(),
-            max: Point3::new(8.0, 2.0, 1.0),
-        },
-        place: Place::default(),
-        on_nozzle: false,
-    };
-    let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+    let scene = plate(Point3::origin(), Point3::new(8.0, 2.0, 1.0));
     // The root of its area is 4.
     for (height, is_on_it) in [
         (3.9e-3, true),
@@ -216,11 +196,8 @@ fn an_aim_point_may_be_off_by_a_thousandth_of_the_targets_size() {
         (-4.1e-3, false),
     ] {
         let target = Target {
-            surface: "plate.z_max".to_owned(),
-            within: None,
             aim: Some(Point3::new(3.0, 1.0, 1.0 + height)),
-            along: None,
-            facing: None,
+            ..upper_side()
         };
         assert_eq!(Patch::find(&scene, &target).is_ok(), is_on_it, "{height}");
     }
@@ -234,11 +211,9 @@ fn an_aim_point_may_be_off_by_a_thousandth_of_the_targets_size() {
         (6.0, false),
     ] {
         let target = Target {
-            surface: "plate.z_max".to_owned(),
             within: Some((Point3::new(2.0, 0.5, 0.5), Point3::new(4.0, 1.5, 1.5))),
             aim: Some(Point3::new(x, 1.0, 1.0)),
-            along: None,
-            facing: None,
+            ..upper_side()
         };
         assert_eq!(Patch::find(&scene, &target).is_ok(), is_on_it, "{x}");
     }

@@ -166,10 +166,9 @@ fn slanted_shots_touch_a_cap_a_radius_before_its_plane() {
     }
 }
 
-/// What has left a rim touches the wall beside it like any other shot.
-#[test]
-fn a_rim_is_another_piece_than_its_wall() {
-    let corners = [[5.0, -5.0], [5.0, 5.0], [-5.0, 5.0], [-5.0, -5.0]].map(Point2::from);
+/// Four walls from corner to corner, each a surface.
+fn square(corners: [[f64; 2]; 4]) -> Profile {
+    let corners = corners.map(Point2::from);
     let piece = |wall: usize| Piece {
         curve: Curve::Line {
             from: corners[wall],
@@ -177,10 +176,16 @@ fn a_rim_is_another_piece_than_its_wall() {
         },
         surface: wall as u32,
     };
-    let profile = Profile {
+    Profile {
         pieces: (0..4).map(piece).collect(),
         surfaces: (0..4).map(|wall| format!("wall{wall}")).collect(),
-    };
+    }
+}
+
+/// What has left a rim touches the wall beside it like any other shot.
+#[test]
+fn a_rim_is_another_piece_than_its_wall() {
+    let profile = square([[5.0, -5.0], [5.0, 5.0], [-5.0, 5.0], [-5.0, -5.0]]);
     let shaft = |near_closed: bool| {
         let ends = Ends {
             near_closed,
@@ -239,18 +244,7 @@ fn a_rim_is_another_piece_than_its_wall() {
 #[test]
 fn walls_edges_and_rims_of_a_bar_are_pieces_of_their_own() {
     // Clockwise, so that free space is outside.
-    let corners = [[5.0, 5.0], [5.0, -5.0], [-5.0, -5.0], [-5.0, 5.0]].map(Point2::from);
-    let piece = |wall: usize| Piece {
-        curve: Curve::Line {
-            from: corners[wall],
-            to: corners[(wall + 1) % 4],
-        },
-        surface: wall as u32,
-    };
-    let profile = Profile {
-        pieces: (0..4).map(piece).collect(),
-        surfaces: (0..4).map(|wall| format!("wall{wall}")).collect(),
-    };
+    let profile = square([[5.0, 5.0], [5.0, -5.0], [-5.0, -5.0], [-5.0, 5.0]]);
     let bar = Prism::new(&profile, 10.0, Ends::default(), &Place::default(), 7, 1e-9);
     let half = 0.5_f64.sqrt();
     let mut pieces = Vec::new();
@@ -365,21 +359,7 @@ fn many_shots_touch_the_rims_of_a_pipe_as_one_does() {
 
 #[test]
 fn a_rim_belongs_to_the_surface_of_its_wall() {
-    let corners = [[5.0, -5.0], [5.0, 5.0], [-5.0, 5.0], [-5.0, -5.0]].map(Point2::from);
-    let mut profile = Profile {
-        pieces: Vec::new(),
-        surfaces: Vec::new(),
-    };
-    for (wall, name) in ["right", "top", "left", "bottom"].into_iter().enumerate() {
-        profile.pieces.push(Piece {
-            curve: Curve::Line {
-                from: corners[wall],
-                to: corners[(wall + 1) % 4],
-            },
-            surface: wall as u32,
-        });
-        profile.surfaces.push(name.to_owned());
-    }
+    let profile = square([[5.0, -5.0], [5.0, 5.0], [-5.0, 5.0], [-5.0, -5.0]]);
     for far_closed in [false, true] {
         let ends = Ends {
             near_closed: false,
