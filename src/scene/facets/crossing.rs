@@ -193,8 +193,12 @@ impl Facets {
             } else {
                 !runs_along && crosses()
             };
-            let t = Plane::new(normal, corners[0]).over_triangle(t, ray, &corners);
-            (t, meets && t > 0.0)
+            let plane = Plane::new(normal, corners[0]);
+            let t = plane.over_triangle(t, ray, &corners);
+            // The weights hardly tell where a ray along the plane meets it: what comes first is to
+            // be told by where it ends up.
+            let meets = meets && t > 0.0;
+            (plane.refined(t, ray, || corners), meets)
         } else {
             let meets = t > 0.0 && crosses();
             let may_slide_off = meets && !is_seen && weights.is_near_edge();

@@ -101,7 +101,7 @@ fn crossing(
     let passes = (crosses && (is_seen || !runs_along))
         || (may_pass_over && passes_over(ray, &corners, front, margin));
     let t = plane.over_triangle(t, ray, &corners);
-    (passes && t > 0.0).then_some((t, front))
+    (passes && t > 0.0).then(|| (plane.refined(t, ray, || corners), front))
 }
 
 /// Whether a ray comes to where it crosses a triangle along another one.
@@ -376,6 +376,45 @@ fn of_triangles_at_one_distance_the_first_is_hit() {
             assert_eq!((touch.distance, touch.piece), (0.75, 0), "{count} {step}");
         }
     }
+}
+
+/// Where a ray along a plane meets a triangle of it, rounding decides; what comes before it, it does
+/// not.
+#[test]
+fn a_triangle_across_the_way_comes_before_the_far_corner_of_one_along_it() {
+    let edge = -0.0624999975;
+    let across = [
+        [-0.6875, -5.25, 2.5625],
+        [5.4375, 5.4375, edge],
+        [edge, -0.0625, edge],
+    ];
+    let along = [[5.4375; 3], [edge; 3], [2.0, 0.5625, -6.4375]];
+    let mesh = |triangles: &[[[f64; 3]; 3]]| Mesh {
+        vertices: triangles.concat().into_iter().map(Point3::from).collect(),
+        triangles: (0..triangles.len() as u32)
+            .map(|index| Triangle {
+                corners: [0, 1, 2].map(|corner| 3 * index + corner),
+                surface: index,
+            })
+            .collect(),
+        ..Mesh::default()
+    };
+    let direction = [
+        0.29566326498669354,
+        0.08315529327750756,
+        -0.9516661341759198,
+    ];
+    let ray = Ray::of([0.0; 3], direction);
+    let first = |triangles: &[[[f64; 3]; 3]]| {
+        let facets = Facets::new(mesh(triangles), 0, 1e-11);
+        let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
+        let (crossing, _) = found.expect("they are in the way");
+        (crossing.surface, crossing.distance)
+    };
+    let (_, alone) = first(&[across]);
+    assert!((alone - 0.0582).abs() < 1e-4, "{alone}");
+    assert_eq!(first(&[across, along]), (0, alone));
+    assert_eq!(first(&[along, across]), (1, alone));
 }
 
 #[test]
