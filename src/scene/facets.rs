@@ -139,4 +139,4 @@ fn doubtful_weight(mesh: &Mesh, slack: f64) -> f64 {
 const LARGE_MESH: usize = 20_000;
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -1,11 +1,14 @@
 //! A bounding volume hierarchy for rays, with eight children to a node.
 //!
 //! The boxes of a node lie side by side in single precision, rounded outwards, so that eight of
-//! them are met with a ray at once. What a walk finds does not depend on that: every leaf is
-//! visited that a ray may meet before what was found so far.
+//! them are met with a ray at once, and so are the slabs in the boxes where these are much thinner.
+//! What a walk finds does not depend on that: every leaf is visited that a ray may meet before what
+//! was found so far.
 
 mod build;
 mod flat;
+mod slab;
+mod split;
 mod walk;
 
 use wide::f32x8;
@@ -14,6 +17,7 @@ use super::lanes::{larger, smaller};
 use super::ray::Ray;
 pub(super) use flat::FlatRay;
 use flat::Frame;
+use slab::Slabs;
 pub(super) use walk::Walk;
 
 /// Children of a node.
@@ -23,6 +27,8 @@ const WIDTH: usize = 8;
 #[derive(Clone)]
 pub(super) struct WideTree {
     nodes: Vec<Node>,
+    /// Those of each node, apart: most rays need none.
+    slabs: Vec<Slabs>,
     frame: Frame,
 }
 
@@ -37,6 +43,8 @@ struct Node {
 
 /// This bit tells leaves from nodes.
 const LEAF: u32 = 1 << 31;
+/// This bit tells nodes whose slabs are worth a look from others.
+const THIN: u32 = 1 << 30;
 
 impl Node {
     const EMPTY: Self = Self {
@@ -51,9 +59,15 @@ impl Node {
         children: [0; WIDTH],
     };
 
-    /// Where the ray enters each child's box, and a bit for each that it enters within `limit`.
+    /// Where the ray enters each child's box, and a bit for each that it enters within `limit` and
+    /// whose slab it meets there. A single box is as soon visited as its slab looked at.
     #[inline(always)]
-    fn entered<const GROWN: bool>(&self, ray: &FlatRay<GROWN>, limit: f32) -> Entered {
+    fn entered<const GROWN: bool>(
+        &self,
+        slabs: Option<&Slabs>,
+        ray: &FlatRay<GROWN>,
+        limit: f32,
+    ) -> Entered {
         let sides = ray.sides.map(|axes| axes.map(|side| &self.sides[side]));
         let distance = |end: usize, axis: usize, lane: usize| {
             let origin = ray.origins[if GROWN { end } else { 0 }][axis];
@@ -66,10 +80,16 @@ impl Node {
             entries[lane] = larger(larger(larger(0.0, at(0, 0)), at(0, 1)), at(0, 2));
             exits[lane] = smaller(smaller(smaller(at(1, 0), at(1, 1)), at(1, 2)), limit);
         }
-        let entries = f32x8::new(entries);
+        let enters = f32x8::new(entries).simd_le(f32x8::new(exits));
+        let mut lanes = enters.to_bitmask();
+        if let Some(slabs) = slabs
+            && lanes.count_ones() > 1
+        {
+            lanes &= slabs.met(self, ray, &entries, &exits);
+        }
         Entered {
-            entries,
-            lanes: entries.simd_le(f32x8::new(exits)).to_bitmask(),
+            entries: f32x8::new(entries),
+            lanes,
         }
     }
 }
@@ -98,7 +118,7 @@ impl WideTree {
     /// Where a ray enters the tree within `limit` (m).
     #[inline(always)]
     pub fn entered<const GROWN: bool>(&self, ray: &FlatRay<GROWN>, limit: f64) -> Entered {
-        self.nodes[0].entered(ray, self.frame.limit(limit, ray))
+        self.nodes[0].entered(None, ray, self.frame.limit(limit, ray))
     }
 
     /// A walk to the leaves that a ray may meet, near ones first, which has yet to

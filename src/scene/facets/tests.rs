@@ -146,10 +146,10 @@ fn weights(shear: &Shear, corners: &[Point3<f64>; 3]) -> Weights {
 }
 
 /// SplitMix64.
-pub(super) struct Random(pub u64);
+pub(in crate::scene) struct Random(pub u64);
 
 impl Random {
-    pub(super) fn bits(&mut self) -> u64 {
+    pub(in crate::scene) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -158,15 +158,20 @@ impl Random {
     }
 
     /// In -1 to 1.
-    pub(super) fn symmetric(&mut self) -> f64 {
+    pub(in crate::scene) fn symmetric(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// In 0 to 1.
+    pub(in crate::scene) fn share(&mut self) -> f64 {
+        self.symmetric().abs()
     }
 
     pub(super) fn vector(&mut self) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.symmetric())
     }
 
-    pub(super) fn direction(&mut self) -> Vector3<f64> {
+    pub(in crate::scene) fn direction(&mut self) -> Vector3<f64> {
         self.vector().normalize()
     }
 

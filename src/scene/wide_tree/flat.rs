@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::slab::{AT_ORIGIN, BY_RADIUS};
 use crate::precision::Triple;
 use crate::scene::ray::Ray;
 
@@ -11,8 +12,8 @@ pub(super) struct Frame {
     centre: Point3<f64>,
     /// 1/m.
     scale: f64,
-    /// How far the boxes reach.
-    reach: f64,
+    /// How far the boxes are loosened.
+    pub slack: f64,
 }
 
 /// A ray in the coordinates of the boxes; `GROWN` where it traces a sphere, for which the boxes
@@ -26,6 +27,11 @@ pub(in crate::scene) struct FlatRay<const GROWN: bool> {
     pub inverse: [Triple<f32>; 2],
     /// Which of a node's sides the ray enters and leaves through.
     pub sides: [[usize; 3]; 2],
+    /// As slabs see the ray, the origin where it is.
+    pub origin: Triple<f32>,
+    pub direction: Triple<f32>,
+    /// The radius, and what rounding makes of heights over slabs because of it and of the origin.
+    pub doubt: f32,
     /// How far the origin was moved along the ray; infinite for a ray that passes the mesh, of which
     /// then nothing is within any limit.
     skipped: f64,
@@ -51,8 +57,13 @@ impl Frame {
         Self {
             centre: nalgebra::center(&low, &high),
             scale,
-            reach: 1.0 + 2.0 * MARGIN + slack * scale,
+            slack: slack * scale,
         }
+    }
+
+    /// How far the boxes reach.
+    fn reach(&self) -> f64 {
+        1.0 + self.margin() + MARGIN
     }
 
     /// A limit along a ray (m) in the coordinates of the boxes.
@@ -64,7 +75,7 @@ impl Frame {
 
     /// How much larger boxes are than the triangles in them.
     pub fn margin(&self) -> f64 {
-        self.reach - 1.0 - MARGIN
+        MARGIN + self.slack
     }
 
     pub fn inside(&self, point: &Point3<f64>) -> Vector3<f64> {
@@ -83,7 +94,7 @@ impl Frame {
         let inverse = ray.direction.map(reciprocal);
         let mut skipped = 0.0;
         if origin.amax() > FAR + grown {
-            skipped = entry(&origin, &inverse, self.reach + grown);
+            skipped = entry(&origin, &inverse, self.reach() + grown);
             origin += ray.direction * skipped;
         }
         let axes = [0, 1, 2];
@@ -108,6 +119,9 @@ impl Frame {
                 axes.map(|axis| axis + 3 * backwards[axis]),
                 axes.map(|axis| axis + 3 - 3 * backwards[axis]),
             ],
+            origin: origin.map(|component| component as f32).into(),
+            direction: ray.direction.map(|component| component as f32).into(),
+            doubt: (grown * (1.0 + BY_RADIUS) + origin.amax() * AT_ORIGIN) as f32,
             skipped,
         }
     }

@@ -1,5 +1,13 @@
-use super::flat::{entry, reciprocal};
+use std::f64::consts::TAU;
+use std::iter;
+
+use nalgebra::{Point3, Rotation3, Vector3};
+
+use super::flat::{FlatRay, entry, reciprocal};
 use super::walk::{Stop, settle_last};
+use super::{WideTree, build};
+use crate::scene::facets::tests::Random;
+use crate::scene::ray::Ray;
 
 #[test]
 fn rays_from_afar_enter_the_box_round_the_mesh() {
@@ -38,4 +46,106 @@ fn reciprocals_stay_finite_and_keep_their_sign() {
     assert_eq!([4.0, -0.5].map(reciprocal), [0.25, -2.0]);
     assert_eq!([0.0, -0.0].map(reciprocal), [1e30, -1e30]);
     assert_eq!([1e-31, -1e-31].map(reciprocal), [1e30, -1e30]);
+}
+
+/// A round wall of this many strips along z, as those that jets skim.
+fn round_wall(strips: u32, length: f64) -> Vec<[Point3<f64>; 3]> {
+    let at = |strip: u32, z: f64| {
+        let angle = TAU * f64::from(strip) / f64::from(strips);
+        Point3::new(angle.cos(), angle.sin(), z)
+    };
+    let strip = |strip: u32| {
+        let [a, b] = [at(strip, 0.0), at(strip, length)];
+        let [c, d] = [at(strip + 1, length), at(strip + 1, 0.0)];
+        [[a, b, c], [a, c, d]]
+    };
+    (0..strips).flat_map(strip).collect()
+}
+
+fn tree(triangles: &[[Point3<f64>; 3]], slack: f64) -> (WideTree, Vec<build::Leaf>) {
+    WideTree::new(triangles.len(), |index| triangles[index as usize], slack)
+}
+
+/// Where the walk of a ray, or of a sphere, stops within `limit`.
+fn visits<'a, const GROWN: bool>(
+    tree: &'a WideTree,
+    flat: &'a FlatRay<GROWN>,
+    limit: f64,
+) -> impl Iterator<Item = u32> + 'a {
+    let mut walk = tree.walk(flat);
+    walk.start(&tree.entered(flat, limit));
+    iter::from_fn(move || walk.next(limit).map(|(leaf, _)| leaf))
+}
+
+#[test]
+fn rays_that_skim_a_curved_wall_visit_few_leaves() {
+    const RAYS: u32 = 200;
+    for strips in [1000, 30_000, 1_000_000] {
+        let triangles = round_wall(strips, 3.0);
+        let (tree, _) = tree(&triangles, 1e-12);
+        let mut leaves = 0;
+        for step in 0..RAYS {
+            let (sine, cosine) = (0.7 + 0.01 * f64::from(step)).sin_cos();
+            // From just inside the wall, at 1 deg to it and as much along it.
+            let inwards = Vector3::new(-cosine, -sine, 0.0);
+            let along = Vector3::new(-sine, cosine, 1.0);
+            let ray = Ray {
+                origin: Point3::new(cosine, sine, 1.0) + inwards * 1e-5,
+                direction: (along + inwards * 0.0175).normalize(),
+            };
+            // The chord of 1 deg to the wall.
+            let flat = tree.flat(&ray);
+            leaves += visits(&tree, &flat, 0.06).count();
+        }
+        let mean = leaves as f64 / f64::from(RAYS);
+        assert!(mean < 3.0, "{strips}: {mean}");
+    }
+}
+
+#[test]
+fn rays_and_spheres_visit_the_leaf_of_what_they_meet() {
+    let mut random = Random(5);
+    let lean = Rotation3::from_euler_angles(0.5, 0.3, 0.1);
+    let turned = |triangle: [Point3<f64>; 3]| triangle.map(|corner| lean * (corner * 0.2));
+    let finer = round_wall(5000, 1.0).into_iter().map(turned);
+    let walls: Vec<_> = round_wall(500, 3.0).into_iter().chain(finer).collect();
+    for (scale, shift) in [(1.0, 0.0), (1e-6, 0.0), (1e3, 1e6)] {
+        let placed = |point: Point3<f64>| point * scale + Vector3::repeat(shift);
+        let triangles: Vec<_> = walls.iter().map(|corners| corners.map(placed)).collect();
+        let slack = 1e-9 * (scale + shift);
+        let (tree, leaves) = tree(&triangles, slack);
+        let holds = |leaf: u32, index: usize| leaves[leaf as usize].contains(&(index as u32));
+        for _ in 0..10_000 {
+            let index = random.bits() as usize % triangles.len();
+            let [a, b, c] = triangles[index];
+            let [along, up] = [b - a, c - a].map(|edge| edge * random.share());
+            let point = a + if random.bits().is_multiple_of(2) {
+                along
+            } else {
+                along + (up - along) * random.share()
+            };
+            let point = point + random.direction() * (0.9 * slack * random.share());
+            // Any way, or almost along the triangle.
+            let skims = (b - a) * random.symmetric() + (c - a) * random.symmetric();
+            let off = 0.1_f64.powi((random.bits() % 8) as i32);
+            let direction = (skims.normalize() + random.direction() * off).normalize();
+            let way = scale * 0.1_f64.powi((random.bits() % 5) as i32) * 30.0 * random.share();
+            let ray = |aim: Point3<f64>| Ray {
+                origin: aim - direction * way,
+                direction,
+            };
+            let flat = tree.flat(&ray(point));
+            assert!(
+                visits(&tree, &flat, way).any(|leaf| holds(leaf, index)),
+                "{scale}: {index}"
+            );
+
+            let radius = scale * 0.1_f64.powi((random.bits() % 4) as i32);
+            let flat = tree.flat_sphere(&ray(point + random.direction() * radius), radius);
+            assert!(
+                visits(&tree, &flat, way).any(|leaf| holds(leaf, index)),
+                "{scale}: {index}"
+            );
+        }
+    }
 }

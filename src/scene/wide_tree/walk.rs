@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 
 use super::flat::FlatRay;
-use super::{Entered, LEAF, Node, WIDTH, WideTree, build};
+use super::{Entered, LEAF, Node, THIN, WIDTH, WideTree, build};
 
 /// A walk along a ray.
 pub(in crate::scene) struct Walk<'a, const GROWN: bool> {
@@ -45,8 +45,10 @@ impl<'a, const GROWN: bool> Walk<'a, GROWN> {
                 if stop.child() & LEAF != 0 {
                     return Some((stop.child() & !LEAF, stop.entry() == 0.0));
                 }
-                let node = &self.tree.nodes[stop.child() as usize];
-                let entered = node.entered(self.ray, limit);
+                let index = (stop.child() & !THIN) as usize;
+                let slabs = (stop.child() & THIN != 0).then(|| &self.tree.slabs[index]);
+                let node = &self.tree.nodes[index];
+                let entered = node.entered(slabs, self.ray, limit);
                 let Some(nearest) = self.enter(node, &entered) else {
                     break;
                 };

@@ -1,0 +1,116 @@
+//! Slabs that hold the triangles of a box more closely than the box does.
+//!
+//! A ray that skims a curved wall passes through the boxes of all facets on its way, of which there
+//! are the more the finer they are, but over their slabs.
+
+use nalgebra::Vector3;
+use wide::f32x8;
+
+use super::flat::FlatRay;
+use super::split::Bounds;
+use super::{Node, WIDTH};
+use crate::scene::lanes::{larger, smaller};
+
+/// Relative rounding of a single operation.
+const UNIT: f64 = 0.5 * f32::EPSILON as f64;
+/// Rounding of a ray's height by how far its origin is along any axis: once for each component of
+/// it, and those of a normal add up to 1.74 at most.
+pub(super) const AT_ORIGIN: f64 = 2.0 * UNIT;
+/// By how far along the ray it is: 5 in what it rises, 4 in what it starts from, 2 in their sum.
+const ALONG_RAY: f32 = (12.0 * UNIT) as f32;
+/// By the width of the box along the normal: 5 in what the ray starts from, and 2 in the height of
+/// the planes.
+const ACROSS_BOX: f64 = 8.0 * UNIT;
+/// By radius: 9 in what the ray starts from, and some in the radius itself.
+pub(super) const BY_RADIUS: f64 = 16.0 * UNIT;
+/// Slabs at least so much thinner than their boxes are worth a look.
+const THIN: f64 = 0.5;
+
+/// What is between two planes.
+pub(super) struct Slab {
+    normal: Vector3<f32>,
+    /// Heights over the lower corner of the box.
+    low: f32,
+    high: f32,
+}
+
+impl Slab {
+    /// The slab along triangles in a box, loosened by `slack`, if it is much thinner than the box.
+    pub fn along(
+        triangles: impl Iterator<Item = [Vector3<f64>; 3]> + Clone,
+        bounds: &Bounds,
+        slack: f64,
+    ) -> Option<Self> {
+        let doubled_area = |[a, b, c]: [Vector3<f64>; 3]| (b - a).cross(&(c - a));
+        let areas: Vector3<f64> = triangles.clone().map(doubled_area).sum();
+        let normal = areas.try_normalize(0.0)?.map(|component| component as f32);
+        let exact = normal.map(f64::from);
+        let [corner, opposite] =
+            [bounds.low, bounds.high].map(|corner| Vector3::from(corner.map(f64::from)));
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for point in triangles.flatten() {
+            let height = (point - corner).dot(&exact);
+            low = smaller(height, low);
+            high = larger(height, high);
+        }
+        let width = exact.abs().dot(&(opposite - corner));
+        let margin = 2.0 * slack + ACROSS_BOX * width;
+        (high - low < THIN * width).then_some(Self {
+            normal,
+            low: (low - margin) as f32,
+            high: (high + margin) as f32,
+        })
+    }
+}
+
+/// The slabs of a node's children.
+#[derive(Clone)]
+#[repr(align(32))]
+pub(super) struct Slabs {
+    normals: [[f32; WIDTH]; 3],
+    low: [f32; WIDTH],
+    high: [f32; WIDTH],
+}
+
+impl Slabs {
+    /// Every ray meets them.
+    pub const ENDLESS: Self = Self {
+        normals: [[0.0; WIDTH]; 3],
+        low: [f32::NEG_INFINITY; WIDTH],
+        high: [f32::INFINITY; WIDTH],
+    };
+
+    pub fn set(&mut self, lane: usize, slab: &Slab) {
+        for axis in 0..3 {
+            self.normals[axis][lane] = slab.normal[axis];
+        }
+        self.low[lane] = slab.low;
+        self.high[lane] = slab.high;
+    }
+
+    /// A bit for each child whose slab a ray meets between where it enters and leaves its box.
+    #[inline(always)]
+    pub fn met<const GROWN: bool>(
+        &self,
+        node: &Node,
+        ray: &FlatRay<GROWN>,
+        entries: &[f32; WIDTH],
+        exits: &[f32; WIDTH],
+    ) -> u32 {
+        let mut misses = [0.0_f32; WIDTH];
+        for lane in 0..WIDTH {
+            let (mut start, mut rise) = (0.0, 0.0);
+            for axis in 0..3 {
+                let normal = self.normals[axis][lane];
+                start += normal * (ray.origin[axis] - node.sides[axis][lane]);
+                rise += normal * ray.direction[axis];
+            }
+            let (first, last) = (start + rise * entries[lane], start + rise * exits[lane]);
+            let doubt = ray.doubt + ALONG_RAY * exits[lane];
+            let passes_over = smaller(first, last) > self.high[lane] + doubt;
+            let passes_under = larger(first, last) < self.low[lane] - doubt;
+            misses[lane] = f32::from(passes_over | passes_under);
+        }
+        f32x8::new(misses).simd_eq(f32x8::ZERO).to_bitmask()
+    }
+}
