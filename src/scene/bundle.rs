@@ -1,9 +1,10 @@
 //! Four triangles side by side, met with a ray at once.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use wide::f64x4;
 
 use super::lanes::{larger, smaller};
+use super::ray::Ray;
 use super::triangle::{CLEARLY_OUTSIDE, Shear, Weights};
 
 /// Triangles of a bundle.
@@ -18,24 +19,34 @@ type Four = [f64; LANES];
 pub(super) struct Bundle {
     /// By coordinate and corner, m.
     corners: [[Four; 3]; 3],
+    /// Unit normals on the fronts, by coordinate.
+    normals: [Four; 3],
     triangles: [u32; LANES],
     count: usize,
 }
 
 impl Bundle {
     /// The triangles of these indices, of which there are one to four.
-    pub fn new(indices: &[u32], corners: impl Fn(u32) -> [Point3<f64>; 3]) -> Self {
+    pub fn new(
+        indices: &[u32],
+        corners: impl Fn(u32) -> [Point3<f64>; 3],
+        normal: impl Fn(&[Point3<f64>; 3]) -> Vector3<f64>,
+    ) -> Self {
         let mut bundle = Self {
             corners: [[[0.0; LANES]; 3]; 3],
+            normals: [[0.0; LANES]; 3],
             triangles: [0; LANES],
             count: indices.len(),
         };
         for (lane, &index) in indices.iter().enumerate() {
             bundle.triangles[lane] = index;
-            for (corner, point) in corners(index).iter().enumerate() {
-                for axis in 0..3 {
+            let corners = corners(index);
+            let normal = normal(&corners);
+            for axis in 0..3 {
+                for (corner, point) in corners.iter().enumerate() {
                     bundle.corners[axis][corner][lane] = point[axis];
                 }
+                bundle.normals[axis][lane] = normal[axis];
             }
         }
         bundle
@@ -57,6 +68,12 @@ impl Bundle {
     pub fn corner(&self, lane: usize, corner: usize) -> Point3<f64> {
         let [x, y, z] = self.corners.each_ref().map(|corners| corners[corner][lane]);
         Point3::new(x, y, z)
+    }
+
+    /// The unit normal on the front of one of them.
+    #[inline(always)]
+    pub fn normal(&self, lane: usize) -> Vector3<f64> {
+        self.normals.each_ref().map(|row| row[lane]).into()
     }
 
     /// How a ray's line passes each triangle, and a bit for each that it
@@ -97,6 +114,37 @@ impl Bundle {
         let may_cross =
             f64x4::new(inside).simd_ge(f64x4::new(bound)) & determinant.simd_ne(f64x4::ZERO);
         (all, may_cross.to_bitmask() & self.occupied())
+    }
+
+    /// A bit for each triangle in whose plane, within `slack`, a ray starts, and for each of those that
+    /// it leaves behind at once: more steeply than `grazing`, away from the side that it is on, which
+    /// `front` tells.
+    #[inline(always)]
+    pub fn started_on(&self, ray: &Ray, front: bool, slack: f64, grazing: f64) -> (u32, u32) {
+        let (mut heights, mut behind) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let normal = self.normals.each_ref().map(|row| row[lane]);
+            let first = self.corners.each_ref().map(|corners| corners[0][lane]);
+            let [x, y, z] = [0, 1, 2].map(|axis| (ray.origin[axis] - first[axis]) * normal[axis]);
+            let height = x + y + z;
+            let [x, y, z] = [0, 1, 2].map(|axis| ray.direction[axis] * normal[axis]);
+            let approach = x + y + z;
+            let leaves = (approach.abs() > grazing) & ((approach < 0.0) != front);
+            let ahead = if approach > 0.0 { height } else { -height };
+            heights[lane] = height.abs();
+            behind[lane] = if leaves { ahead } else { 0.0 };
+        }
+        let on = f64x4::new(heights).simd_le(f64x4::splat(slack));
+        let left = on & f64x4::new(behind).simd_gt(f64x4::ZERO);
+        (on.to_bitmask() & self.occupied(), left.to_bitmask())
+    }
+
+    /// A bit for the triangle of this index, if it is here.
+    #[inline(always)]
+    pub fn lane_of(&self, index: u32) -> u32 {
+        let lanes = self.triangles.iter().enumerate();
+        let bits = lanes.map(|(lane, &triangle)| u32::from(triangle == index) << lane);
+        bits.sum::<u32>() & self.occupied()
     }
 
     /// A bit for each triangle whose box, loosened by `slack`, holds a point.

@@ -12,7 +12,7 @@ mod touch;
 
 use std::sync::OnceLock;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use rayon::prelude::*;
@@ -40,8 +40,6 @@ pub struct Facets {
     corners: Vec<[u32; 3]>,
     surfaces: Vec<u32>,
     vertices: Vec<Point3<f64>>,
-    /// Unit normals on the fronts.
-    normals: Vec<Vector3<f64>>,
     slack: f64,
     /// What a weight may lose to an edge that a ray passes by a lift, m².
     doubtful_weight: f64,
@@ -72,7 +70,7 @@ impl Facets {
             plates: OnceLock::new(),
             bundles: leaves
                 .par_iter()
-                .map(|leaf| Bundle::new(leaf, corners))
+                .map(|leaf| Bundle::new(leaf, corners, plane::normal))
                 .collect(),
             tree,
             corners: mesh.triangles.iter().map(|t| t.corners).collect(),
@@ -80,11 +78,6 @@ impl Facets {
                 .triangles
                 .iter()
                 .map(|t| surface_base + t.surface)
-                .collect(),
-            normals: mesh
-                .triangles
-                .iter()
-                .map(|triangle| plane::normal(&mesh.corners(triangle)))
                 .collect(),
             doubtful_weight: doubtful_weight(&mesh, slack),
             vertices: mesh.vertices,

@@ -39,8 +39,8 @@ impl Facets {
     /// The plane of such a triangle.
     #[inline(always)]
     fn plane_of(&self, facet: Facet) -> Plane {
-        let point = self.bundles[facet.leaf as usize].corner(facet.lane, 0);
-        Plane::new(self.normals[facet.index as usize], point)
+        let bundle = &self.bundles[facet.leaf as usize];
+        Plane::new(bundle.normal(facet.lane), bundle.corner(facet.lane, 0))
     }
 
     /// A ray as the boxes and the triangles see it.
@@ -98,19 +98,20 @@ impl Facets {
         while let Some((leaf, starts_inside)) = walk.next(best.cost()) {
             let bundle = &self.bundles[leaf as usize];
             let (weights, crossed) = bundle.weights(&sight.shear, self.doubtful_weight);
-            let near = if starts_inside && start.front.is_some() {
-                bundle.near(&ray.origin, self.slack)
-            } else {
-                0
-            };
-            let mut lanes = crossed | near;
+            let own = start.piece.map_or(0, |piece| bundle.lane_of(piece));
+            let (mut lanes, mut near) = (crossed & !own, 0);
+            if starts_inside && let Some(front) = start.front {
+                let (on, left) = bundle.started_on(ray, front, self.slack, GRAZING);
+                lanes = (crossed | on) & !(left | own);
+                if lanes != 0 {
+                    near = bundle.near(&ray.origin, self.slack);
+                    lanes &= crossed | near;
+                }
+            }
             while lanes != 0 {
                 let lane = lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
                 let index = bundle.triangles()[lane];
-                if start.piece == Some(index) {
-                    continue;
-                }
                 let weights = weights.of(lane);
                 let facet = Facet { index, leaf, lane };
                 let found = if near >> lane & 1 == 1 {
@@ -183,7 +184,7 @@ impl Facets {
         };
         let is_seen = margin > 0.0;
         let crosses = || weights.crosses(|| self.corners_of(facet), margin);
-        let normal = self.normals[facet.index as usize];
+        let normal = self.bundles[facet.leaf as usize].normal(facet.lane);
         let approach = ray.direction.dot(&normal);
         let (t, meets) = if approach.abs() <= GRAZING {
             let corners = self.corners_of(facet);

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 
-use super::Facets;
+use super::{Facets, plane};
 use crate::scene::LIFT;
 use crate::scene::ray::Ray;
 use crate::scene::start::Start;
@@ -23,7 +23,7 @@ impl Facets {
             let corners = self.corners(other);
             let before = |corner: &Point3<f64>| ray.direction.dot(&(corner - at)) < -margin;
             other != index
-                && Start::runs_along(ray.direction.dot(&self.normals[other as usize]))
+                && Start::runs_along(ray.direction.dot(&plane::normal(&corners)))
                 && corners.iter().any(before)
                 && lies_on(&at, &corners, margin)
         })

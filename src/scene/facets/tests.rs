@@ -75,6 +75,10 @@ fn crossing(
     if starts_near && lies_on(&ray.origin, &corners, slack) {
         return start.enters(approach).then_some((0.0, approach < 0.0));
     }
+    let leads_away = approach.abs() > GRAZING && distance < 0.0;
+    if starts_near && leads_away && !start.enters(approach) {
+        return None;
+    }
     let weights = weights(&Shear::new(ray), &corners);
     let front = weights.front();
     let margin = if start.sees(front) { LIFT * slack } else { 0.0 };

@@ -23,8 +23,8 @@ const ALONG_RAY: f32 = (12.0 * UNIT) as f32;
 const ACROSS_BOX: f64 = 8.0 * UNIT;
 /// By radius: 9 in what the ray starts from, and some in the radius itself.
 pub(super) const BY_RADIUS: f64 = 16.0 * UNIT;
-/// Slabs at least so much thinner than their boxes are worth a look.
-const THIN: f64 = 0.5;
+/// Slabs are worth a look up to this share of their boxes in width.
+const WIDEST_SHARE: f64 = 0.5;
 
 /// What is between two planes.
 pub(super) struct Slab {
@@ -55,7 +55,7 @@ impl Slab {
         }
         let width = exact.abs().dot(&(opposite - corner));
         let margin = 2.0 * slack + ACROSS_BOX * width;
-        (high - low < THIN * width).then_some(Self {
+        (high - low < WIDEST_SHARE * width).then_some(Self {
             normal,
             low: (low - margin) as f32,
             high: (high + margin) as f32,
