@@ -20,6 +20,7 @@ pub(super) struct Assembly {
     vertex_index: VertexIndex,
     surface_numbers: HashMap<String, u32>,
     polygon: Polygon,
+    most_triangles: usize,
 }
 
 impl Assembly {
@@ -30,6 +31,7 @@ impl Assembly {
             vertex_index: VertexIndex::new(),
             surface_numbers: HashMap::new(),
             polygon: Polygon::new(MOST_LOOKS),
+            most_triangles: MOST_TRIANGLES,
         }
     }
 
@@ -82,7 +84,7 @@ impl Assembly {
 
     /// Adds a triangle.
     pub fn triangle(&mut self, corners: [u32; 3], surface: u32) -> Result<(), Defect> {
-        if self.mesh.triangles.len() >= MOST_TRIANGLES {
+        if self.mesh.triangles.len() >= self.most_triangles {
             return Err(Defect::TooManyTriangles);
         }
         self.mesh.triangles.push(Triangle { corners, surface });
@@ -101,7 +103,7 @@ impl Assembly {
         }
         let cut = self.polygon.triangles(corners, &self.mesh.vertices);
         let cut = cut.ok_or(Defect::FacesTooWinding)?;
-        if self.mesh.triangles.len() + cut.len() > MOST_TRIANGLES {
+        if self.mesh.triangles.len() + cut.len() > self.most_triangles {
             return Err(Defect::TooManyTriangles);
         }
         let triangles = cut.iter().map(|&corners| Triangle { corners, surface });
@@ -115,5 +117,75 @@ impl Assembly {
             return Err(Defect::NoTriangles);
         }
         Ok(self.mesh)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An assembly with the corners of a regular polygon.
+    fn polygon(corners: usize) -> (Assembly, Vec<u32>) {
+        let mut assembly = Assembly::new(1.0);
+        let corner = |index: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * index as f64 / corners as f64).sin_cos();
+            assembly.vertex([cos, sin, 0.0]).expect("it is near")
+        };
+        let face = (0..corners).map(corner).collect();
+        (assembly, face)
+    }
+
+    #[test]
+    fn a_mesh_is_full_with_the_triangle_that_reaches_the_limit() {
+        // A square is two triangles: of six, two squares and a triangle leave one.
+        let (mut assembly, square) = polygon(4);
+        assembly.most_triangles = 6;
+        let full = Err(Defect::TooManyTriangles);
+        assert_eq!(assembly.face(&square[..3], 0), Ok(()));
+        assert_eq!(assembly.face(&square, 0), Ok(()));
+        assert_eq!(assembly.face(&square, 0), Ok(()));
+        assert_eq!(assembly.face(&square, 0), full);
+        assert_eq!(assembly.face(&square[..3], 0), Ok(()));
+        assert_eq!(assembly.face(&square[..3], 0), full);
+        assert_eq!(assembly.finish().map(|mesh| mesh.triangles.len()), Ok(6));
+        // The last places may be filled by a square.
+        let (mut assembly, square) = polygon(4);
+        assembly.most_triangles = 5;
+        assert_eq!(assembly.face(&square[..3], 0), Ok(()));
+        assert_eq!(assembly.face(&square, 0), Ok(()));
+        assert_eq!(assembly.face(&square, 0), Ok(()));
+        assert_eq!(assembly.face(&square, 0), full);
+    }
+
+    #[test]
+    fn faces_have_as_many_corners_as_is_bearable() {
+        let (mut assembly, face) = polygon(MOST_CORNERS);
+        assert_eq!(assembly.face(&face, 0), Ok(()));
+        let count = assembly.finish().map(|mesh| mesh.triangles.len());
+        assert_eq!(count, Ok(MOST_CORNERS - 2));
+        let (mut assembly, face) = polygon(MOST_CORNERS + 1);
+        let corners = MOST_CORNERS + 1;
+        assert_eq!(
+            assembly.face(&face, 0),
+            Err(Defect::TooManyCorners { corners })
+        );
+    }
+
+    #[test]
+    fn coordinates_reach_as_far_as_the_limit() {
+        for axis in 0..3 {
+            for sign in [1.0, -1.0] {
+                // In a unit of half a metre.
+                let mut assembly = Assembly::new(0.5);
+                let mut coordinates = [0.0; 3];
+                coordinates[axis] = sign * 2.0 * LARGEST_COORDINATE;
+                assert_eq!(assembly.vertex(coordinates), Ok(0));
+                coordinates[axis] *= 1.0 + f64::EPSILON;
+                assert_eq!(
+                    assembly.vertex(coordinates),
+                    Err(Defect::TooFarOut { coordinates })
+                );
+            }
+        }
     }
 }

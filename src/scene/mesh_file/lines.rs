@@ -155,3 +155,56 @@ pub(super) fn coordinates<'a>(
     }
     Ok(coordinates)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How long the lines of a text are, or the line of the fault.
+    fn lengths(text: &[u8]) -> Result<Vec<usize>, MeshFault> {
+        let mut lines = Lines::new(text);
+        let mut lengths = Vec::new();
+        while let Some(line) = lines.next()? {
+            lengths.push(line.text.len());
+        }
+        Ok(lengths)
+    }
+
+    #[test]
+    fn lines_are_as_long_as_is_bearable() {
+        // Their ends count.
+        let line = |letters: usize, end: &str| {
+            let mut text = vec![b'#'; letters];
+            text.extend(end.bytes());
+            text
+        };
+        for end in ["", "\n", "\r\n"] {
+            let letters = LONGEST_LINE - end.len();
+            assert_eq!(lengths(&line(letters, end)).ok(), Some(vec![letters]));
+            let fault = lengths(&line(letters + 1, end)).expect_err("it is too long");
+            assert_eq!(fault.defect, Defect::LineTooLong, "{end:?}");
+        }
+        let mut text = b"v 0 0 0\n".to_vec();
+        text.extend(line(LONGEST_LINE, "\n"));
+        let fault = lengths(&text).expect_err("the second is too long");
+        assert_eq!(
+            fault.to_string(),
+            Defect::LineTooLong.at(Place::Line(2)).to_string()
+        );
+    }
+
+    #[test]
+    fn continued_lines_are_together_as_long_as_one_may_be() {
+        let continued = |letters: usize| {
+            let text = format!("f\\\n{}\n", "1".repeat(letters));
+            let mut lines = Lines::new(text.as_bytes());
+            let length = lines.next_continued()?.map(|line| line.text.len());
+            Ok::<_, MeshFault>(length)
+        };
+        // The first gives two, a letter and the blank between the two.
+        let room = LONGEST_LINE - 3;
+        assert_eq!(continued(room).ok(), Some(Some(LONGEST_LINE - 1)));
+        let fault = continued(room + 1).expect_err("it is too long");
+        assert_eq!(fault.defect, Defect::LineTooLong);
+    }
+}

@@ -172,3 +172,26 @@ impl Scalar {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_have_as_many_lines_as_is_bearable() {
+        let header = |lines: u64| {
+            let comments = "comment\n".repeat(lines as usize - 3);
+            let text = format!("ply\n{comments}format ascii 1.0\nend_header\n");
+            let read = read(&mut Lines::new(text.as_bytes()));
+            read.map(|header| header.elements.len())
+        };
+        for lines in [3, 100, MOST_LINES, MOST_LINES + 1] {
+            assert_eq!(header(lines).ok(), Some(0), "{lines}");
+        }
+        // Given up behind the first line that is too many and does not end it.
+        let fault = header(MOST_LINES + 2).expect_err("it is too long");
+        let line = format!("line {}", MOST_LINES + 1);
+        assert!(fault.to_string().contains(&line), "{fault}");
+        assert!(header(3 * MOST_LINES).is_err());
+    }
+}
