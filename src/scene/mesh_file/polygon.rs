@@ -247,4 +247,33 @@ mod tests {
             }
         }
     }
+
+    /// A tip that reaches the opposite side divides a face, which is cut on both sides of it.
+    #[test]
+    fn faces_that_touch_their_own_sides_are_cut_without_overlaps() {
+        let notched = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]];
+        for shift in 0..5 {
+            for mirrored in [false, true] {
+                let turned = (0..5).map(|corner| notched[(corner + shift) % 5]);
+                let mut corners: Vec<[f64; 2]> = turned.collect();
+                if mirrored {
+                    corners.reverse();
+                }
+                let vertices: Vec<_> = corners
+                    .iter()
+                    .map(|[x, y]| Point3::new(*x, *y, 7.0))
+                    .collect();
+                let mut polygon = Polygon::new(MOST_LOOKS);
+                let triangles = polygon.triangles(&[0, 1, 2, 3, 4], &vertices);
+                let side = if mirrored { -1.0 } else { 1.0 };
+                let areas = triangles.expect("short").iter().map(|corners| {
+                    let [a, b, c] = corners.map(|corner| vertices[corner as usize]);
+                    side * (b - a).cross(&(c - a)).z / 2.0
+                });
+                let mut areas: Vec<f64> = areas.collect();
+                areas.sort_by(f64::total_cmp);
+                assert_eq!(areas, [0.0, 4.0, 4.0], "{shift} {mirrored}");
+            }
+        }
+    }
 }
