@@ -201,3 +201,35 @@ impl BuiltPart {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+
+    /// Damage that leaves a closed mesh closed does not make anybody doubt its fronts.
+    #[test]
+    fn only_open_and_contradictory_meshes_leave_their_fronts_in_doubt() {
+        let near = Point3::origin();
+        let count = 7;
+        let duplicates = MeshWarning::DuplicateTriangles { count, near };
+        let hole = |small: bool| MeshWarning::OpenEdges { count, near, small };
+        let inside_out = MeshWarning::InsideOut {
+            signed_volume: -1.0,
+        };
+        let contradiction = MeshWarning::InconsistentWinding { count, near };
+        for (warnings, fronts) in [
+            (vec![], Fronts::Free),
+            (vec![duplicates.clone()], Fronts::Free),
+            (vec![MeshWarning::Seams { count, near }], Fronts::Free),
+            (vec![hole(true)], Fronts::Free),
+            (vec![hole(true), inside_out.clone()], Fronts::Solid),
+            (vec![duplicates.clone(), inside_out], Fronts::Solid),
+            (vec![hole(false)], Fronts::Unknown),
+            (vec![duplicates, contradiction], Fronts::Unknown),
+        ] {
+            assert_eq!(Fronts::of(&warnings), fronts, "{warnings:?}");
+        }
+    }
+}

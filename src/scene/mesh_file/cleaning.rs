@@ -207,3 +207,6 @@ fn keep_used<T>(items: &mut Vec<T>, numbers: &mut [u32]) {
         _ => false,
     });
 }
+
+#[cfg(test)]
+mod tests;
