@@ -184,6 +184,19 @@ mod tests {
         let over = |t: f64| plane().over_triangle(t, &back, &CORNERS);
         assert_eq!([1.0, 4.0, 9.0].map(over), [3.0, 4.0, 5.0]);
 
+        // Along an edge, and beside it by rounding.
+        for y in [0.0, 1e-15, -1e-15] {
+            let along = ray([-1.0, y, 1.0], [1.0, 0.0, 0.0]);
+            let over = |t: f64| plane().over_triangle(t, &along, &CORNERS);
+            let found = [0.5, 1.0, 2.0, 5.0, 9.0].map(over);
+            let expected = [1.0, 1.0, 2.0, 5.0, 5.0];
+            let is_near = |(found, expected): (f64, f64)| (found - expected).abs() < 1e-14;
+            assert!(
+                found.into_iter().zip(expected).all(is_near),
+                "{y}: {found:?}"
+            );
+        }
+
         // So flat that it meets the plane 1 behind the triangle.
         let flat = ray([-1.0, 1.5, 1.0 + 4e-4], [1.0, 0.0, -1e-4]);
         let found = plane().refined(3.5, &flat, || CORNERS);

@@ -1,6 +1,7 @@
 //! What the tree and the closed forms find is what a look at every triangle finds that follows the
 //! distance to it by Newton's method.
 
+mod edges;
 mod plates;
 mod rebounds;
 mod search;

@@ -38,6 +38,12 @@ fn slivers_have_a_plane_as_far_as_rounding_leaves_one() {
     assert!(!doubtful.clear && doubtful.normal == Vector3::z());
     let hopeless = of_height(1e-13, 1.0);
     assert!(!hopeless.clear && hopeless.normal == Vector3::zeros());
+    // Four times as long and as high: as much tilted, and by that four times as far off at its tips.
+    let longer = |flat: f64| {
+        let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 4e-10, 0.0]];
+        plate(corners.map(Point3::from), [0, 1, 2], flat)
+    };
+    assert!(longer(2.5e-6).clear && !longer(2e-6).clear);
 }
 
 #[test]

@@ -191,25 +191,40 @@ fn it_is_told_when_planes_come_into_reach() {
 
 #[test]
 fn whatever_is_touched_is_reached() {
+    // Of any size, and from so near that spheres reach the plane at once.
+    for (scale, farthest) in [(1.0, 2.0), (1e-3, 2.0), (1e-3, 0.7), (300.0, 0.7)] {
+        whatever_is_touched_is_reached_from(farthest, scale);
+    }
+}
+
+fn whatever_is_touched_is_reached_from(farthest: f64, scale: f64) {
     let mut random = Random(22);
     let (mut touches, mut tried) = (0, 0);
     for _ in 0..20_000 {
-        let corners = [0, 1, 2].map(|_| random.vector().into());
-        let folds = match random.bits() % 3 {
+        let corners = [0, 1, 2].map(|_| (random.vector() * scale).into());
+        let folds = match random.bits() % 5 {
             0 => Folds::ALL,
             1 => NO_FOLDS,
-            _ => Folds {
+            2 => Folds {
                 front: 0b10_1010,
                 behind: 0b01_0101,
+            },
+            3 => Folds {
+                behind: 0,
+                ..Folds::ALL
+            },
+            _ => Folds {
+                front: 0,
+                ..Folds::ALL
             },
         };
         let triangle = ready(corners, folds);
         let ray = Ray {
-            origin: (random.vector() * 2.0).into(),
+            origin: (random.vector() * (farthest * scale)).into(),
             direction: random.direction(),
         };
-        let sphere = Sphere::new(&ray, 0.3, SLACK);
-        let limit = 3.0;
+        let sphere = Sphere::new(&ray, 0.3 * scale, SLACK);
+        let limit = 3.0 * scale;
         let touch = sphere.touch(&triangle.plate, folds, limit);
         let touch = touch.filter(|touch| (0.0..limit).contains(&touch.distance));
         let found = Plates::new(&[triangle]).reached(&WideSphere::new(&sphere), limit, false);

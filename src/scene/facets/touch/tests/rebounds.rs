@@ -98,3 +98,69 @@ fn a_sphere_that_overlaps_a_wall_leaves_it_or_hits_it_at_once() {
     assert_eq!(touch(-1.0), 0.0);
     assert!((touch(1.0) - 0.65).abs() < 1e-15);
 }
+
+/// Shots come to rest against a wall nearer or farther by rounding.
+#[test]
+fn a_sphere_within_the_slack_of_a_wall_touches_it_at_once() {
+    let block = tessellate::block(Point3::origin(), Point3::new(1.0, 1.0, 1.0));
+    let slack = size(&block) * 1e-12;
+    let facets = facets(&block);
+    for share in [-1.5, -0.9, -0.5, 0.0, 0.5, 0.9] {
+        for x in [-1.0, 1.0] {
+            let ray = Ray {
+                origin: Point3::new(0.25 + share * slack, 0.45, 0.5),
+                direction: Vector3::new(x * 0.6, 0.0, 0.8),
+            };
+            let found = facets.first_touch(&ray, 0.25, None, false, f64::INFINITY);
+            let (crossing, normal) = found.expect("it is closed");
+            if x < 0.0 {
+                assert_eq!((crossing.distance, normal), (0.0, Vector3::x()), "{share}");
+            } else {
+                // 0.25 up to the lid at 0.8 a step.
+                assert!((crossing.distance - 0.3125).abs() < 1e-12, "{share}");
+            }
+        }
+    }
+}
+
+#[test]
+fn of_walls_that_are_touched_at_once_the_first_is_told() {
+    let unit = tessellate::block(Point3::origin(), Point3::new(1.0, 1.0, 1.0));
+    let radius = 0.25;
+    // Whichever triangles a walk comes to before others.
+    for (corner, shift) in (0..8).flat_map(|corner| (0..12).map(move |shift| (corner, shift))) {
+        let mut block = unit.clone();
+        block.triangles.rotate_left(shift);
+        if corner % 2 == 1 {
+            block.triangles.reverse();
+        }
+        let facets = facets(&block);
+        let inwards = [0, 1, 2].map(|axis| if corner >> axis & 1 == 1 { -1.0 } else { 1.0 });
+        let inwards = Vector3::from(inwards);
+        let corner = inwards.map(|x| if x > 0.0 { 0.0 } else { 1.0 });
+        let ray = Ray {
+            origin: (corner + inwards * radius).into(),
+            direction: -inwards.normalize(),
+        };
+        // The triangles whose faces the sphere touches, not their edges.
+        let touched = (0..facets.count() as u32).filter(|&index| {
+            let single = Mesh {
+                triangles: vec![block.triangles[index as usize]],
+                ..block.clone()
+            };
+            let alone = super::facets(&single);
+            let found = alone.first_touch(&ray, radius, None, false, 0.1);
+            found.is_some_and(|(crossing, _)| crossing.distance == 0.0)
+        });
+        let touched: Vec<u32> = touched.collect();
+        assert!(touched.len() >= 3, "{touched:?}");
+        let found = facets.first_touch(&ray, radius, None, false, f64::INFINITY);
+        let (crossing, _) = found.expect("at once");
+        assert_eq!(crossing.distance, 0.0);
+        assert_eq!(
+            Some(&crossing.piece),
+            touched.first(),
+            "{corner}: {touched:?}"
+        );
+    }
+}
