@@ -499,6 +499,15 @@ fn shots_touch_a_hollow_from_inside() {
         let found = touched(&ARC, [1.0, 2.0], towards_end, false);
         assert_eq!(found.is_some(), is_touched, "{beyond}");
     }
+    // In a hollow hardly wider than itself it touches at once, however flat it heads into the wall.
+    let tight = Cylinder {
+        radius: 1.0 + 1e-3,
+        ..WHOLE
+    };
+    for sinking in [1e-3, 1e-6, 1e-9] {
+        let found = touched(&tight, [1e-3, 0.0], [sinking, 1.0], false);
+        assert!(found.is_some_and(|it| it.0 == 0.0), "{sinking}");
+    }
     // A shot that does not fit in touches nothing from inside.
     let narrow = Cylinder {
         radius: 0.9,
