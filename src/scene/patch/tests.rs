@@ -80,6 +80,10 @@ fn a_patch_and_what_lies_round_it_are_the_whole_surface() {
         (Some(([1.0, 0.5, 0.0], [3.0, 1.0, 2.0])), 1.0),
         (Some(([2.0, -1.0, 0.0], [9.0, 9.0, 2.0])), 4.0),
         (Some(([-1.0, -1.0, 0.0], [9.0, 9.0, 2.0])), 8.0),
+        // It lies in a face of the box, as drawings have it.
+        (Some(([1.0, 0.5, 0.0], [3.0, 1.0, 1.0])), 1.0),
+        (Some(([1.0, 0.5, 1.0], [3.0, 1.0, 2.0])), 1.0),
+        (Some(([0.0, 0.0, 1.0], [4.0, 2.0, 1.0])), 8.0),
     ] {
         let target = Target {
             within: within.map(|(low, high)| (low.into(), high.into())),
@@ -103,6 +107,8 @@ fn a_target_faces_the_side_that_is_asked_for() {
         (None, up),
         (Some(Vector3::new(3.0, 0.0, 0.1)), up),
         (Some(Vector3::new(3.0, 0.0, -0.1)), -up),
+        // Level with it: neither side is meant more than the other.
+        (Some(Vector3::new(3.0, 0.0, 0.0)), up),
     ] {
         let target = Target {
             facing,
