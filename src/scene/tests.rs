@@ -161,11 +161,14 @@ fn a_shot_touches_a_scene_a_radius_before_a_point_would() {
         part("lid", block([-50.0, -50.0, 8.0], [50.0, 50.0, 9.0]), false),
     ];
     let scene = Scene::build(&parts, Walls::Exact).expect("it is sound");
-    for (direction, distance, surface) in [
-        ([0.6, 0.0, -0.8], 3.75, "floor.z_max"),
-        ([0.0, 0.6, 0.8], 6.25, "lid.z_min"),
+    for (height, direction, distance, surface) in [
+        (3.0, [0.6, 0.0, -0.8], 3.75, "floor.z_max"),
+        (3.0, [0.0, 0.6, 0.8], 6.25, "lid.z_min"),
+        // From inside the floor, whose fronts are outside.
+        (-3.0, [0.6, 0.0, 0.8], 3.75, "floor.z_max"),
+        (-3.0, [0.0, -0.6, -0.8], 7.5, "floor.z_min"),
     ] {
-        let ray = Ray::of([1.0, 2.0, 3.0], direction);
+        let ray = Ray::of([1.0, 2.0, height], direction);
         let point = scene.first_hit(&ray, None).expect("it is ahead");
         assert!((point.distance - distance).abs() < 1e-12);
         // 0.4 along z is 0.5 on the way.
@@ -180,6 +183,18 @@ fn a_shot_touches_a_scene_a_radius_before_a_point_would() {
         let expected = centre - shot.normal * 0.4;
         assert!((shot.point - expected).norm() < 1e-12);
         assert!((point.point - (ray.origin + ray.direction * distance)).norm() < 1e-9);
+        // The same among many.
+        let mut rays = Rays::<f64>::none();
+        rays.count = 1;
+        rays.are_spheres = true;
+        rays.radius[0] = 0.4;
+        put(&mut rays.origin, 0, ray.origin.into());
+        put(&mut rays.direction, 0, ray.direction.into());
+        let mut hits = Hits::none();
+        scene.first_hits(&rays, &mut hits);
+        assert_eq!(hits.distance[0], shot.distance);
+        assert_eq!(Vector3::from(components(&hits.normal, 0)), shot.normal);
+        assert!((Point3::from(components(&hits.point, 0)) - shot.point).norm() < 1e-12);
     }
 }
 
@@ -289,34 +304,126 @@ fn many_rays_meet_what_each_of_them_meets() {
 /// Where a ray starts on a second wall already, it is put on the side that it comes from.
 #[test]
 fn hits_are_a_lift_above_their_surface_or_as_high_as_the_ray_starts() {
+    let stand = Stand::new([Vector3::x(), Vector3::y(), Vector3::z()], Point3::origin());
+    for on_nozzle in [false, true] {
+        let room = [part("room", block([-2.0; 3], [2.0; 3]), on_nozzle)];
+        let scene = Scene::build(&room, Walls::Exact).expect("it is sound");
+        let lift = 2.0 * LIFT * SLACK;
+        let side = scene.surface_named("room.x_max").expect("it is there");
+        let to_side = Ray::of([0.0, 0.5, 0.5], [1.0, 0.0, 0.0]);
+        let leaving = scene.first_contact(&to_side, 0.0, None, Some(&stand));
+        let leaving = leaving.expect("it is ahead");
+        assert_eq!(leaving.surface, side);
+        assert!((2.0 - leaving.point.x - lift).abs() < 1e-15);
+        for height in [0.0, 0.25, 0.5, 0.9, 2.0, 8.0].map(|lifts| lifts * lift) {
+            // From that wall into the one beside it.
+            let ray = Ray::of([leaving.point.x, 2.0 - height, 0.5], [-0.6, 0.8, 0.0]);
+            let hit = scene.first_contact(&ray, 0.0, Some(leaving.spot), Some(&stand));
+            let hit = hit.expect("at once");
+            assert_eq!(hit.distance, 0.0);
+            assert_eq!(scene.surfaces()[hit.surface as usize], "room.y_max");
+            assert!(
+                (2.0 - hit.point.y - height.max(lift)).abs() < 1e-15,
+                "{height}"
+            );
+            let mut rays = Rays::none();
+            rays.count = 1;
+            put(&mut rays.origin, 0, ray.origin.into());
+            put(&mut rays.direction, 0, ray.direction.into());
+            let mut spots = Spots::none();
+            spots.set(0, leaving.spot);
+            rays.leaving = Some(spots);
+            let mut stands = Stands::none();
+            stands.set(0, &stand);
+            rays.stands = Some(Box::new(stands));
+            let mut hits = Hits::<f64>::none();
+            scene.first_hits(&rays, &mut hits);
+            assert_eq!(hits.distance[0], 0.0, "{height} {on_nozzle}");
+            assert!((hits.point[1][0] - hit.point.y).abs() < 1e-15, "{height}");
+        }
+    }
+}
+
+/// By more than its roundings, or rays would start behind the surface that they leave.
+#[test]
+fn hits_in_single_precision_are_as_much_higher_as_it_is_coarser() {
     let room = [part("room", block([-2.0; 3], [2.0; 3]), false)];
     let scene = Scene::build(&room, Walls::Exact).expect("it is sound");
-    let lift = 2.0 * LIFT * SLACK;
-    let side = scene.surface_named("room.x_max").expect("it is there");
-    let to_side = Ray::of([0.0, 0.5, 0.5], [1.0, 0.0, 0.0]);
-    let leaving = scene.first_hit(&to_side, None).expect("it is ahead");
-    assert_eq!(leaving.surface, side);
-    assert!((2.0 - leaving.point.x - lift).abs() < 1e-15);
-    for height in [0.0, 0.25, 0.5, 0.9, 2.0, 8.0].map(|lifts| lifts * lift) {
-        // From that wall into the one beside it.
-        let ray = Ray::of([leaving.point.x, 2.0 - height, 0.5], [-0.6, 0.8, 0.0]);
-        let hit = scene.first_hit(&ray, Some(leaving.spot)).expect("at once");
-        assert_eq!(hit.distance, 0.0);
-        assert_eq!(scene.surfaces()[hit.surface as usize], "room.y_max");
-        assert!(
-            (2.0 - hit.point.y - height.max(lift)).abs() < 1e-15,
-            "{height}"
-        );
-        let mut rays = Rays::none();
-        rays.count = 1;
-        put(&mut rays.origin, 0, ray.origin.into());
-        put(&mut rays.direction, 0, ray.direction.into());
-        let mut spots = Spots::none();
-        spots.set(0, leaving.spot);
-        rays.leaving = Some(spots);
-        let mut hits = Hits::<f64>::none();
-        scene.first_hits(&rays, &mut hits);
-        assert_eq!(hits.distance[0], 0.0);
-        assert!((hits.point[1][0] - hit.point.y).abs() < 1e-15, "{height}");
+    let lift = 2.0 * LIFT * SLACK * f32::COARSENESS;
+    let mut rays = Rays::<f32>::none();
+    rays.count = 1;
+    put(&mut rays.origin, 0, [0.1, 0.2, 0.3]);
+    put(&mut rays.direction, 0, [0.0, 0.0, -1.0]);
+    let mut hits = Hits::none();
+    scene.first_hits(&rays, &mut hits);
+    let height = f64::from(hits.point[2][0]) + 2.0;
+    let rounding = 2.0 * f64::from(f32::EPSILON);
+    assert!(lift > 2.0 * rounding, "{lift}");
+    assert!((height - lift).abs() < rounding, "{height}");
+}
+
+/// What is a thousandth of the scene away from the wall is beyond the opposite one.
+#[test]
+fn the_wall_of_a_long_and_narrow_bore_faces_its_axis() {
+    let bore = Shape::Bore {
+        diameter: 0.5e-3,
+        length: 1.0,
+        ends: Ends::default(),
+    };
+    let scene = Scene::build(&[part("bore", bore, false)], Walls::Exact).expect("it is sound");
+    for step in 0..20 {
+        let (sin, cos) = (0.31 * f64::from(step)).sin_cos();
+        let from = Point3::new(0.2e-3 * cos, 0.2e-3 * sin, 0.4);
+        let (_, normal) = scene.nearest_on_surface(&from, 0).expect("it is there");
+        let inwards = Vector3::new(-cos, -sin, 0.0);
+        // Facets turn by a degree.
+        assert!(normal.dot(&inwards) > 0.999, "{step}: {normal}");
+    }
+}
+
+#[test]
+fn a_mesh_that_is_inside_out_faces_the_side_behind_its_fronts() {
+    let cube = part("cube", block([0.0; 3], [1.0; 3]), false);
+    let mut scene = Scene::build(&[cube], Walls::Exact).expect("it is sound");
+    let top = scene.surface_named("cube.z_max").expect("it is there");
+    let mut facing = |fronts: Fronts| {
+        scene.parts[0].fronts = fronts;
+        let found = scene.nearest_on_surface(&Point3::new(0.3, 0.4, 1.2), top);
+        found.expect("it is there").1
+    };
+    assert_eq!(facing(Fronts::Free), Vector3::z());
+    assert_eq!(facing(Fronts::Solid), -Vector3::z());
+    // From inside every direction meets the cube.
+    assert_eq!(facing(Fronts::Unknown), -Vector3::z());
+}
+
+/// Sheets of metal that are thinner than the height from which the scene is looked at.
+#[test]
+fn the_enclosed_side_of_a_sheet_is_that_from_which_clearly_more_is_seen() {
+    const THIN: f64 = 1e-8;
+    // A channel of 1 mm by 2 mm, 20 mm long, its floor at z = 0.
+    let floor = block([-0.5e-3, -10e-3, -THIN], [0.5e-3, 10e-3, 0.0]);
+    let side = |x: f64| block([x, -10e-3, 0.0], [x + THIN, 10e-3, 2e-3]);
+    let channel = [floor.clone(), side(-0.5e-3), side(0.5e-3)];
+    // Below it a roof that is seen from a good part of the directions.
+    let below = block([-2e-3, -2e-3, -2e-3 - THIN], [2e-3, 2e-3, -2e-3]);
+    // A lip at one end that is seen from few.
+    let lip = block([-0.5e-3, 9e-3, -1e-3], [0.5e-3, 9e-3 + THIN, 0.0]);
+    let faces = |shapes: &[Shape], front: f64| {
+        let parts = shapes.iter().enumerate();
+        let parts: Vec<Part> = parts
+            .map(|(index, shape)| part(&format!("sheet{index}"), shape.clone(), false))
+            .collect();
+        let scene = Scene::build(&parts, Walls::Exact).expect("it is sound");
+        let at = Point3::new(0.1e-3, 0.2e-3, 0.0);
+        scene.enclosed_side(&at, &(Vector3::z() * front)).z
+    };
+    let mut over_roof = channel.to_vec();
+    over_roof.push(below);
+    for front in [1.0, -1.0] {
+        assert_eq!(faces(&channel, front), 1.0, "{front}");
+        assert_eq!(faces(&over_roof, front), 1.0, "{front}");
+        // Hardly anything is seen from either side: the front stays.
+        assert_eq!(faces(&[floor.clone(), lip.clone()], front), front);
     }
 }
