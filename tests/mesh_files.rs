@@ -13,7 +13,7 @@ use cases::cases;
 use nalgebra::Point3;
 use peenpose::problem::part::Region;
 use peenpose::scene::mesh::Mesh;
-use peenpose::scene::mesh_file::{Defect, MeshFault, MeshWarning, Place, read};
+use peenpose::scene::mesh_file::{Defect, LARGEST_FILE, MeshFault, MeshWarning, Place, read};
 use proptest::prelude::*;
 use sample::{Sample, cube, torus};
 use tempfile::TempDir;
@@ -239,6 +239,17 @@ fn regions_name_triangles_and_the_later_one_wins() {
         "region `lip` holds the centre of no triangle; the mesh reaches from (0, 0, 0) to (1, 1, 1) \
          in the file's unit"
     ), "{message}");
+    // Regions are in metres, and where a file in inches reaches is said in inches.
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("inches.obj");
+    fs::write(&path, "v 1 2 3\nv 2 2 3\nv 1 4 3\nf 1 2 3\n").unwrap();
+    let beside = region("lip", [0.5; 3], [1.0; 3]);
+    let defect = read(&path, 0.0254, &[beside]).unwrap_err().defect;
+    let Defect::EmptyRegion { min, max, .. } = defect else {
+        panic!("{defect:?}")
+    };
+    assert!((min - Point3::new(1.0, 2.0, 3.0)).norm() < 1e-12);
+    assert!((max - Point3::new(2.0, 4.0, 3.0)).norm() < 1e-12);
     let fault = read_bytes("obj", &bytes, &[half, everything]).unwrap_err();
     assert_eq!(
         fault.defect,
@@ -272,6 +283,9 @@ fn files_that_are_no_meshes_are_refused() {
     ] {
         assert_eq!(refused(ending, text).1, Defect::NoTriangles, "{ending}");
     }
+    // Text longer than the header of a binary file is not one that promises anything.
+    let letter = refused("stl", "Dear customer, please find attached\n".repeat(9));
+    assert!(matches!(letter.1, Defect::Unexpected { .. }), "{letter:?}");
     assert_eq!(refused("stl", vec![0; 84]).1, Defect::NoTriangles);
     let flat = refused("obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n").1;
     assert_eq!(flat, Defect::AllDegenerate { triangles: 2 });
@@ -281,16 +295,18 @@ fn files_that_are_no_meshes_are_refused() {
 fn a_file_beyond_the_limit_is_refused_unread() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("huge.stl");
-    fs::File::create(&path)
-        .unwrap()
-        .set_len(1_000_000_001)
-        .unwrap(); // sparse
-    let fault = read(&path, 1.0, &[]).unwrap_err();
-    assert_eq!(
-        fault.defect,
-        Defect::TooLarge {
-            bytes: 1_000_000_001
-        }
+    let file = fs::File::create(&path).unwrap();
+    let refused = |bytes: u64| {
+        file.set_len(bytes).unwrap(); // sparse
+        read(&path, 1.0, &[]).unwrap_err().defect
+    };
+    let bytes = LARGEST_FILE + 1;
+    assert_eq!(refused(bytes), Defect::TooLarge { bytes });
+    // At the limit it is its contents that are wrong.
+    let at_limit = refused(LARGEST_FILE);
+    assert!(
+        matches!(at_limit, Defect::WrongCount { promised: 0, .. }),
+        "{at_limit:?}"
     );
 }
 
@@ -424,6 +440,12 @@ fn a_binary_stl_must_hold_what_it_promises() {
             held: 14
         }
     );
+    // Less than another triangle: it is not short of anything.
+    let with_rest = [whole.as_slice(), &[0; 10]].concat();
+    assert_eq!(
+        refused("stl", with_rest).2,
+        ": the header promises 12 triangles, the file holds 12; it is damaged, export it again"
+    );
     let with_line_end = [whole.as_slice(), b"\r\n"].concat();
     assert!(read_bytes("stl", &with_line_end, &[]).is_ok());
     let mut not_finite = whole;
@@ -531,7 +553,33 @@ fn faults_of_ply_files_say_what_is_missing() {
         refused("ply", cut).2,
         format!(", line {}: {ending}", lines - 1)
     );
+    let vertices_only = good
+        .lines()
+        .take(lines - 12 - 1)
+        .collect::<Vec<_>>()
+        .join("\n");
+    assert_eq!(
+        refused("ply", vertices_only).2,
+        format!(
+            ", line {}: {}",
+            lines - 13,
+            ending.replace("face", "vertex")
+        )
+    );
     let binary = cube().ply("binary_little_endian");
+    let header_ends = binary
+        .windows(11)
+        .position(|it| it == b"end_header\n")
+        .unwrap()
+        + 11;
+    assert_eq!(
+        refused("ply", &binary[..header_ends + 2 * 24]).2,
+        format!(", vertex 2: {}", ending.replace("face", "vertex"))
+    );
+    assert_eq!(
+        refused("ply", &binary[..header_ends + 2 * 24 + 5]).0,
+        Place::Vertex(2)
+    );
     assert_eq!(
         refused("ply", &binary[..binary.len() - 13]).2,
         format!(", face 11: {ending}")
