@@ -119,10 +119,10 @@ fn rays_and_spheres_visit_the_leaf_of_what_they_meet() {
             let index = random.bits() as usize % triangles.len();
             let [a, b, c] = triangles[index];
             let [along, up] = [b - a, c - a].map(|edge| edge * random.share());
-            let point = a + if random.bits().is_multiple_of(2) {
-                along
-            } else {
-                along + (up - along) * random.share()
+            let point = a + match random.bits() % 4 {
+                0 => Vector3::zeros(),
+                1 => along,
+                _ => along + (up - along) * random.share(),
             };
             let point = point + random.direction() * (0.9 * slack * random.share());
             // Any way, or almost along the triangle.
@@ -140,8 +140,15 @@ fn rays_and_spheres_visit_the_leaf_of_what_they_meet() {
                 "{scale}: {index}"
             );
 
-            let radius = scale * 0.1_f64.powi((random.bits() % 4) as i32);
-            let flat = tree.flat_sphere(&ray(point + random.direction() * radius), radius);
+            // Of any size, to any side: above the triangle, or as far along an axis as it gets.
+            let radius = scale * 0.1_f64.powi((random.bits() % 5) as i32) * 10.0;
+            let towards = match random.bits() % 4 {
+                0 => (b - a).cross(&(c - a)).normalize(),
+                1 => Vector3::ith(random.bits() as usize % 3, 1.0),
+                _ => random.direction(),
+            };
+            let side = random.symmetric().signum();
+            let flat = tree.flat_sphere(&ray(point + towards * (side * radius)), radius);
             assert!(
                 visits(&tree, &flat, way).any(|leaf| holds(leaf, index)),
                 "{scale}: {index}"
