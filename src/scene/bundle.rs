@@ -188,3 +188,6 @@ impl WideWeights {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

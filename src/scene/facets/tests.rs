@@ -179,7 +179,7 @@ impl Random {
         self.vector().normalize()
     }
 
-    pub(super) fn of<'a, T>(&mut self, items: &'a [T]) -> &'a T {
+    pub(in crate::scene) fn of<'a, T>(&mut self, items: &'a [T]) -> &'a T {
         &items[self.bits() as usize % items.len()]
     }
 }
