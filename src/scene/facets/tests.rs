@@ -1,5 +1,7 @@
 //! What the tree finds is what a look at every triangle finds, to the last bit.
 
+mod starts;
+
 use nalgebra::{Point3, Vector3};
 
 use super::plane::{GRAZING, Plane, normal};

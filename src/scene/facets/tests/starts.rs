@@ -1,0 +1,63 @@
+//! Rays that start on a facet.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::scene::facets::Facets;
+use crate::scene::mesh::{Mesh, Triangle};
+use crate::scene::ray::{Ray, Spot};
+
+const SLACK: f64 = 1e-9;
+
+/// Two triangles, one above the other, which both face up.
+fn storeys() -> Facets {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]];
+    let storey = |z: f64| corners.map(|[x, y]| Point3::new(x, y, z));
+    let mesh = Mesh {
+        vertices: [storey(0.0), storey(-0.5)].concat(),
+        triangles: vec![
+            Triangle {
+                corners: [0, 1, 2],
+                surface: 0,
+            },
+            Triangle {
+                corners: [3, 4, 5],
+                surface: 1,
+            },
+        ],
+        ..Mesh::default()
+    };
+    Facets::new(mesh, 0, SLACK)
+}
+
+/// Though rounding has put it on the other side, or turned it into the facet.
+#[test]
+fn a_ray_does_not_meet_the_facet_that_it_leaves() {
+    let facets = storeys();
+    for height in [-0.5, -1e-3, 0.0, 1e-3, 0.5] {
+        for sinks in [1e-12, 1e-6, 0.1, 0.6, 1.0] {
+            let ray = Ray {
+                origin: Point3::new(0.1, -0.2, height * SLACK),
+                direction: Vector3::new(0.0, f64::sqrt(1.0 - sinks * sinks), -sinks),
+            };
+            let meet = |piece: u32| {
+                let leaving = Spot {
+                    part: 0,
+                    piece,
+                    front: true,
+                };
+                let found = facets.first_crossing(&ray, Some(leaving), true, f64::INFINITY);
+                found.map(|(crossing, _)| (crossing.piece, crossing.distance))
+            };
+            // What has come from elsewhere hits it at once.
+            assert_eq!(meet(1), Some((0, 0.0)), "{height} {sinks}");
+            // It goes on to what is below, if it does not get past that.
+            let gets_past = sinks < 0.5;
+            let found = meet(0);
+            assert_eq!(found.is_none(), gets_past, "{height} {sinks}");
+            if let Some((piece, distance)) = found {
+                assert_eq!(piece, 1);
+                assert!((distance - 0.5 / sinks).abs() < 1e-8, "{height} {sinks}");
+            }
+        }
+    }
+}
