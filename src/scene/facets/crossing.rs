@@ -127,7 +127,8 @@ impl Facets {
         (best.cost() < limit).then_some(best)
     }
 
-    /// Where a ray crosses a triangle on which it may start.
+    /// Where a ray that leaves a surface crosses a triangle on which it may start, if it has not left
+    /// that behind (`Bundle::started_on`).
     #[inline(always)]
     fn crossing_from_near(
         &self,
@@ -139,10 +140,10 @@ impl Facets {
         let plane = self.plane_of(facet);
         let height = plane.height(&ray.origin);
         let approach = ray.direction.dot(&plane.normal);
-        let starts_near = start.front.is_some() && height.abs() <= self.slack;
+        let starts_near = height.abs() <= self.slack;
         let distance = -height / approach;
         let leads_away = approach.abs() > GRAZING && distance < 0.0;
-        if leads_away && !(starts_near && start.enters(approach)) {
+        if leads_away && !starts_near {
             return None;
         }
         if starts_near && lies_on(&ray.origin, &self.corners_of(facet), self.slack) {
@@ -184,8 +185,8 @@ impl Facets {
         };
         let is_seen = margin > 0.0;
         let crosses = || weights.crosses(|| self.corners_of(facet), margin);
-        let normal = self.bundles[facet.leaf as usize].normal(facet.lane);
-        let approach = ray.direction.dot(&normal);
+        let plane = self.plane_of(facet);
+        let approach = ray.direction.dot(&plane.normal);
         let (t, meets) = if approach.abs() <= GRAZING {
             let corners = self.corners_of(facet);
             let runs_along = Start::runs_along(approach);
@@ -194,7 +195,6 @@ impl Facets {
             } else {
                 !runs_along && crosses()
             };
-            let plane = Plane::new(normal, corners[0]);
             let t = plane.over_triangle(t, ray, &corners);
             // The weights hardly tell where a ray along the plane meets it: what comes first is to
             // be told by where it ends up.

@@ -194,6 +194,20 @@ pub(super) fn room(chord_angle: f64) -> Mesh {
     tessellate::prism(&Profile::circle(1.0), 1.5, ends, chord_angle)
 }
 
+/// Triangles that share no corners, each of a surface of its own.
+pub(super) fn apart(triangles: &[[[f64; 3]; 3]]) -> Mesh {
+    let triangle = |index: u32| Triangle {
+        corners: [0, 1, 2].map(|corner| 3 * index + corner),
+        surface: index,
+    };
+    let corners = triangles.iter().flatten();
+    Mesh {
+        vertices: corners.map(|&corner| corner.into()).collect(),
+        triangles: (0..triangles.len() as u32).map(triangle).collect(),
+        ..Mesh::default()
+    }
+}
+
 /// Triangles of all sizes anywhere, some without an area, some there twice.
 pub(super) fn heap(count: usize, random: &mut Random) -> Mesh {
     let mut mesh = Mesh::default();
@@ -333,15 +347,7 @@ fn slivers_are_wider_by_a_lift_on_every_side() {
         let corners = [[-half, 0.0, 0.0], [half, 0.0, 0.0], [0.0, height, 0.0]];
         for turn in 0..3 {
             let place = |point: [f64; 3]| [0, 1, 2].map(|axis| point[(axis + turn) % 3]);
-            let mesh = Mesh {
-                vertices: corners.map(|corner| place(corner).into()).to_vec(),
-                triangles: vec![Triangle {
-                    corners: [0, 1, 2],
-                    surface: 0,
-                }],
-                ..Mesh::default()
-            };
-            let facets = Facets::new(mesh, 0, slack);
+            let facets = Facets::new(apart(&[corners.map(place)]), 0, slack);
             let is_hit = |y: f64, side: f64| {
                 let ray = Ray::of(place([0.0, y, side * size]), place([0.0, 0.0, -side]));
                 let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
@@ -365,18 +371,10 @@ fn of_triangles_at_one_distance_the_first_is_hit() {
         let corners = [[-5.0, -5.0], [5.0, -5.0], [0.0, 10.0]];
         let of = |index: u32| {
             let shift = step * f64::from(index);
-            corners.map(|[x, y]| Point3::new(x + shift, y, 0.0))
+            corners.map(|[x, y]| [x + shift, y, 0.0])
         };
-        let triangle = |index: u32| Triangle {
-            corners: [0, 1, 2].map(|corner| 3 * index + corner),
-            surface: index,
-        };
-        let mesh = Mesh {
-            vertices: (0..count).flat_map(of).collect(),
-            triangles: (0..count).map(triangle).collect(),
-            ..Mesh::default()
-        };
-        let facets = Facets::new(mesh, 0, 1e-12);
+        let triangles: Vec<_> = (0..count).map(of).collect();
+        let facets = Facets::new(apart(&triangles), 0, 1e-12);
         for side in [1.0, -1.0] {
             let ray = Ray::of([0.0, 0.5, side], [0.0, 0.0, -side]);
             let crossing = facets.first_crossing(&ray, None, false, f64::INFINITY);
@@ -400,16 +398,6 @@ fn a_triangle_across_the_way_comes_before_the_far_corner_of_one_along_it() {
         [edge, -0.0625, edge],
     ];
     let along = [[5.4375; 3], [edge; 3], [2.0, 0.5625, -6.4375]];
-    let mesh = |triangles: &[[[f64; 3]; 3]]| Mesh {
-        vertices: triangles.concat().into_iter().map(Point3::from).collect(),
-        triangles: (0..triangles.len() as u32)
-            .map(|index| Triangle {
-                corners: [0, 1, 2].map(|corner| 3 * index + corner),
-                surface: index,
-            })
-            .collect(),
-        ..Mesh::default()
-    };
     let direction = [
         0.29566326498669354,
         0.08315529327750756,
@@ -417,7 +405,7 @@ fn a_triangle_across_the_way_comes_before_the_far_corner_of_one_along_it() {
     ];
     let ray = Ray::of([0.0; 3], direction);
     let first = |triangles: &[[[f64; 3]; 3]]| {
-        let facets = Facets::new(mesh(triangles), 0, 1e-11);
+        let facets = Facets::new(apart(triangles), 0, 1e-11);
         let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
         let (crossing, _) = found.expect("they are in the way");
         (crossing.surface, crossing.distance)

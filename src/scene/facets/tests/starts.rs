@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::apart;
 use crate::scene::facets::Facets;
-use crate::scene::mesh::{Mesh, Triangle};
 use crate::scene::ray::{Ray, Spot};
 
 const SLACK: f64 = 1e-9;
@@ -11,21 +11,8 @@ const SLACK: f64 = 1e-9;
 /// Two triangles, one above the other, which both face up.
 fn storeys() -> Facets {
     let corners = [[-1.0, -1.0], [1.0, -1.0], [0.0, 1.0]];
-    let storey = |z: f64| corners.map(|[x, y]| Point3::new(x, y, z));
-    let mesh = Mesh {
-        vertices: [storey(0.0), storey(-0.5)].concat(),
-        triangles: vec![
-            Triangle {
-                corners: [0, 1, 2],
-                surface: 0,
-            },
-            Triangle {
-                corners: [3, 4, 5],
-                surface: 1,
-            },
-        ],
-        ..Mesh::default()
-    };
+    let storey = |z: f64| corners.map(|[x, y]| [x, y, z]);
+    let mesh = apart(&[storey(0.0), storey(-0.5)]);
     Facets::new(mesh, 0, SLACK)
 }
 
