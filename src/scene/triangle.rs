@@ -57,6 +57,25 @@ impl Shear {
             shear: [direction[x] * inverse, direction[y] * inverse, inverse],
         }
     }
+
+    /// Whether the ray's line passes the box around a triangle, both seen along the ray, by at most
+    /// twice `margin`. The lines of two edges run apart so slowly beyond a sharp corner that alone they
+    /// hold a ray near far off it; twice, as what is a margin in the triangle's plane looks up to half as
+    /// long again.
+    fn passes_box(&self, corners: &[Point3<f64>; 3], margin: f64) -> bool {
+        let [x, y, z] = self.axes;
+        let seen = corners.map(|corner| {
+            let from = corner.coords - self.origin;
+            [
+                from[x] - self.shear[0] * from[z],
+                from[y] - self.shear[1] * from[z],
+            ]
+        });
+        (0..2).all(|axis| {
+            let [a, b, c] = seen.map(|corner| corner[axis]);
+            a.min(b).min(c) <= 2.0 * margin && a.max(b).max(c) >= -2.0 * margin
+        })
+    }
 }
 
 /// How a ray's line passes a triangle: how far on the inner side of each edge, in doubled areas of
@@ -111,14 +130,19 @@ impl Weights {
     /// Whether the line, which [may cross](Self::may_cross) the triangle, crosses it or passes its
     /// edges by at most `margin`.
     #[inline]
-    pub fn crosses(&self, corners: impl FnOnce() -> [Point3<f64>; 3], margin: f64) -> bool {
-        self.least() >= 0.0
-            || !beyond(
-                &corners(),
-                [self.u, self.v, self.w],
-                self.determinant,
-                margin,
-            )
+    pub fn crosses(
+        &self,
+        shear: &Shear,
+        corners: impl FnOnce() -> [Point3<f64>; 3],
+        margin: f64,
+    ) -> bool {
+        self.least() >= 0.0 || self.passes_by(shear, &corners(), margin)
+    }
+
+    /// Whether the line, which passes the triangle by, does so by at most `margin`.
+    fn passes_by(&self, shear: &Shear, corners: &[Point3<f64>; 3], margin: f64) -> bool {
+        let weights = [self.u, self.v, self.w];
+        !beyond(corners, weights, self.determinant, margin) && shear.passes_box(corners, margin)
     }
 }
 
@@ -130,16 +154,18 @@ pub(super) const CLEARLY_OUTSIDE: f64 = -1e-6;
 /// seen along the ray.
 pub(super) fn passes_over(
     ray: &Ray,
+    shear: &Shear,
     corners: &[Point3<f64>; 3],
     is_front: bool,
     margin: f64,
 ) -> bool {
     let inwards = if is_front { 1.0 } else { -1.0 };
-    (0..3).all(|corner| {
+    let passes_edge = |corner: usize| {
         let from = corners[corner];
         let across = (corners[(corner + 1) % 3] - from).cross(&ray.direction) * inwards;
         (ray.origin - from).dot(&across) >= -margin * across.norm()
-    })
+    };
+    (0..3).all(passes_edge) && shear.passes_box(corners, margin)
 }
 
 /// Whether a point of a triangle's plane, given by its barycentric coordinates times
@@ -212,6 +238,11 @@ mod tests {
         }
     }
 
+    fn down(origin: Point3<f64>) -> Ray {
+        let direction = -Vector3::z();
+        Ray { origin, direction }
+    }
+
     /// The weights of a ray straight down at a point, each the doubled area of what it makes with
     /// a side.
     fn weights(point: &Point3<f64>, scale: f64) -> Weights {
@@ -233,7 +264,10 @@ mod tests {
         for scale in [1.0, -1.0, 7.0] {
             for side in 0..3 {
                 let at = |outwards: f64| weights(&beside(side, outwards, 0.0), scale);
-                let found = [-0.5, 0.09, 0.11].map(|it| at(it).crosses(|| CORNERS, 0.1));
+                let found = [-0.5, 0.09, 0.11].map(|outwards| {
+                    let shear = Shear::new(&down(beside(side, outwards, 8.0)));
+                    at(outwards).crosses(&shear, || CORNERS, 0.1)
+                });
                 assert_eq!(found, [true, true, false], "{scale}, {side}");
                 // Heights of the triangle over its sides: 3, 2.4 and 4.
                 let height = [3.0, 2.4, 4.0][side];
@@ -257,15 +291,11 @@ mod tests {
     #[test]
     fn margins_are_measured_across_the_ray() {
         let [a, b, c] = CORNERS;
-        let down = Vector3::new(0.0, 0.0, -1.0);
         for (corners, is_front) in [(CORNERS, true), ([b, c, a], true), ([c, b, a], false)] {
             for side in 0..3 {
                 let passes = |outwards: f64| {
-                    let ray = Ray {
-                        origin: beside(side, outwards, 8.0),
-                        direction: down,
-                    };
-                    passes_over(&ray, &corners, is_front, 0.1)
+                    let ray = down(beside(side, outwards, 8.0));
+                    passes_over(&ray, &Shear::new(&ray), &corners, is_front, 0.1)
                 };
                 let found = [-0.5, 0.09, 0.11].map(passes);
                 assert_eq!(found, [true, true, false], "{side}");
@@ -275,7 +305,8 @@ mod tests {
         let direction = Vector3::new(0.0, 0.75_f64.sqrt(), -0.5);
         let passes = |y: f64| {
             let origin = Point3::new(2.0, y, 1.0) - direction * 8.0;
-            passes_over(&Ray { origin, direction }, &CORNERS, true, 0.1)
+            let ray = Ray { origin, direction };
+            passes_over(&ray, &Shear::new(&ray), &CORNERS, true, 0.1)
         };
         assert!(passes(-0.19) && !passes(-0.21));
     }

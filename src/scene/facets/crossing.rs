@@ -115,9 +115,9 @@ impl Facets {
                 let weights = weights.of(lane);
                 let facet = Facet { index, leaf, lane };
                 let found = if near >> lane & 1 == 1 {
-                    self.crossing_from_near(facet, ray, &weights, start)
+                    self.crossing_from_near(facet, ray, sight, &weights, start)
                 } else {
-                    self.crossing(facet, ray, &weights, weights.distance(), start)
+                    self.crossing(facet, ray, sight, &weights, weights.distance(), start)
                 };
                 if let Some(found) = found {
                     best.improve(found);
@@ -134,6 +134,7 @@ impl Facets {
         &self,
         facet: Facet,
         ray: &Ray,
+        sight: &Sight,
         weights: &Weights,
         start: &Start,
     ) -> Option<Nearest> {
@@ -164,7 +165,7 @@ impl Facets {
         } else {
             weights.distance()
         };
-        self.crossing(facet, ray, weights, t, start)
+        self.crossing(facet, ray, sight, weights, t, start)
     }
 
     /// Where a ray that may cross a triangle on which it does not start does so.
@@ -173,6 +174,7 @@ impl Facets {
         &self,
         facet: Facet,
         ray: &Ray,
+        sight: &Sight,
         weights: &Weights,
         t: f64,
         start: &Start,
@@ -184,14 +186,15 @@ impl Facets {
             (0.0, self.slack)
         };
         let is_seen = margin > 0.0;
-        let crosses = || weights.crosses(|| self.corners_of(facet), margin);
+        let crosses = || weights.crosses(&sight.shear, || self.corners_of(facet), margin);
         let plane = self.plane_of(facet);
         let approach = ray.direction.dot(&plane.normal);
         let (t, meets) = if approach.abs() <= GRAZING {
             let corners = self.corners_of(facet);
             let runs_along = Start::runs_along(approach);
             let meets = if is_seen {
-                crosses() || (!runs_along && passes_over(ray, &corners, front, margin))
+                crosses()
+                    || (!runs_along && passes_over(ray, &sight.shear, &corners, front, margin))
             } else {
                 !runs_along && crosses()
             };

@@ -81,7 +81,8 @@ fn crossing(
     if starts_near && leads_away && !start.enters(approach) {
         return None;
     }
-    let weights = weights(&Shear::new(ray), &corners);
+    let shear = Shear::new(ray);
+    let weights = weights(&shear, &corners);
     let front = weights.front();
     let margin = if start.sees(front) { LIFT * slack } else { 0.0 };
     let is_near = start.front.is_some() && in_box(&ray.origin, &corners, slack);
@@ -94,7 +95,7 @@ fn crossing(
     if !weights.may_cross(doubtful_weight(mesh, slack)) {
         return None;
     }
-    let crosses = weights.crosses(|| corners, margin);
+    let crosses = weights.crosses(&shear, || corners, margin);
     let is_seen = margin > 0.0;
     if approach.abs() > GRAZING {
         let meets = crosses && t > 0.0;
@@ -105,7 +106,7 @@ fn crossing(
     let runs_along = Start::runs_along(approach);
     let may_pass_over = is_seen && !runs_along;
     let passes = (crosses && (is_seen || !runs_along))
-        || (may_pass_over && passes_over(ray, &corners, front, margin));
+        || (may_pass_over && passes_over(ray, &shear, &corners, front, margin));
     let t = plane.over_triangle(t, ray, &corners);
     (passes && t > 0.0).then(|| (plane.refined(t, ray, || corners), front))
 }
@@ -360,6 +361,32 @@ fn slivers_are_wider_by_a_lift_on_every_side() {
                 let expected = [true, seen, false];
                 assert_eq!([below, above], [expected; 2], "{size}, {turn}, {side}");
             }
+        }
+    }
+}
+
+/// Beyond the tip of a needle the lines of its edges are still near each other.
+#[test]
+fn a_needle_ends_at_its_tip() {
+    let needle = [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [2.5e-9, 0.0, 0.0]];
+    // Out of the way, but in one box with the needle.
+    let other = [[5.0, 5.0, -5.0], [5.0, 6.0, -5.0], [5.0, 5.0, 5.0]];
+    for turn in 0..3 {
+        let place = |point: [f64; 3]| [0, 1, 2].map(|axis| point[(axis + turn) % 3]);
+        let triangles = [needle, other].map(|corners| corners.map(place));
+        let facets = Facets::new(apart(&triangles), 0, 1e-10);
+        // Steeply, and so flat that it is grazing.
+        for direction in [[0.0, 0.02, -1.0], [0.0, 1.0, -5e-4], [1e-3, 1.0, -1e-4]] {
+            let direction = Vector3::from(direction).normalize();
+            let is_hit = |y: f64| {
+                let aim = Point3::new(0.0, y, 0.0);
+                let origin = (aim - direction * 0.01).into();
+                let ray = Ray::of(place(origin), place(direction.into()));
+                let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
+                found.is_some()
+            };
+            let found = [1e-4, 0.5, 0.9999, 1.0001].map(is_hit);
+            assert_eq!(found, [true, true, true, false], "{direction} {turn}");
         }
     }
 }
