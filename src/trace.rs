@@ -237,6 +237,9 @@ impl<'a> Tracer<'a> {
         witness: &mut W,
         mut end_volley: impl FnMut(&mut W, &[Deviate], usize),
     ) {
+        if shots.is_empty() {
+            return;
+        }
         let mut volley = Volley::none();
         for shots in shots.chunks(LANES) {
             let rays = fire(self, &mut volley, shots, witness);
