@@ -76,11 +76,37 @@ pub(crate) trait Witness<R> {
 }
 
 /// Fires `deviates` together, at most [`LANES`]; returns the number of rays.
+pub(crate) fn fire<R: Real, W: Witness<R>>(
+    tracer: &Tracer,
+    volley: &mut Volley<R>,
+    deviates: &[Deviate],
+    witness: &mut W,
+) -> usize {
+    if tracer.setup.scene.has_exact_walls() {
+        fire_at_walls(tracer, volley, deviates, witness)
+    } else {
+        fire_at_facets(tracer, volley, deviates, witness)
+    }
+}
+
 #[multiversion(targets(
     "x86_64+avx+avx2+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+bmi1+bmi2+fma",
     "x86_64+avx+avx2+bmi1+bmi2+fma"
 ))]
-pub(crate) fn fire<R: Real, W: Witness<R>>(
+fn fire_at_walls<R: Real, W: Witness<R>>(
+    tracer: &Tracer,
+    volley: &mut Volley<R>,
+    deviates: &[Deviate],
+    witness: &mut W,
+) -> usize {
+    volley.load(tracer, deviates);
+    volley.fly(tracer, deviates, witness)
+}
+
+/// Without AVX-512, for which some processors slow down all that they do; the walk through a tree
+/// gains nothing from it.
+#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
+fn fire_at_facets<R: Real, W: Witness<R>>(
     tracer: &Tracer,
     volley: &mut Volley<R>,
     deviates: &[Deviate],
