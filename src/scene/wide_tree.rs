@@ -90,6 +90,7 @@ impl Node {
         Entered {
             entries: f32x8::new(entries),
             lanes,
+            limit,
         }
     }
 }
@@ -100,6 +101,8 @@ pub(super) struct Entered {
     entries: f32x8,
     /// A bit for each child.
     lanes: u32,
+    /// Up to where they were looked for.
+    limit: f32,
 }
 
 impl WideTree {

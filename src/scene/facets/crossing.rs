@@ -95,7 +95,7 @@ impl Facets {
         };
         let mut walk = self.tree.walk(&sight.flat);
         walk.start(entered);
-        while let Some((leaf, starts_inside)) = walk.next(best.cost()) {
+        while let Some((leaf, starts_inside)) = walk.next() {
             let bundle = &self.bundles[leaf as usize];
             let (weights, crossed) = bundle.weights(&sight.shear, self.doubtful_weight);
             let own = start.piece.map_or(0, |piece| bundle.lane_of(piece));
@@ -121,6 +121,7 @@ impl Facets {
                 };
                 if let Some(found) = found {
                     best.improve(found);
+                    walk.end_at(best.cost());
                 }
             }
         }

@@ -131,7 +131,7 @@ impl Search<'_> {
         let flat = tree.flat_sphere(ray, radius);
         let mut walk = tree.walk(&flat);
         walk.start(&tree.entered(&flat, limit));
-        while let Some((leaf, starts_inside)) = walk.next(cost) {
+        while let Some((leaf, starts_inside)) = walk.next() {
             let bundle = &self.facets.bundles[leaf as usize];
             let plates = &self.plates[leaf as usize];
             let reached = plates.reached(&wide, cost, self.all_folds);
@@ -155,6 +155,7 @@ impl Search<'_> {
                     let first = best.as_ref().is_none_or(|best| index < best.index);
                     if other < cost || (other == cost && best.is_some() && first) {
                         cost = other;
+                        walk.end_at(cost);
                         best = Some(Found { touch, index });
                     }
                 }

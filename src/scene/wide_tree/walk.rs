@@ -11,6 +11,8 @@ pub(in crate::scene) struct Walk<'a, const GROWN: bool> {
     ray: &'a FlatRay<GROWN>,
     /// Where it has yet to go, the nearest last.
     stops: ArrayVec<Stop, { build::MOST_STOPS }>,
+    /// How far along the ray it leads, in the coordinates of the boxes.
+    limit: f32,
 }
 
 impl<'a, const GROWN: bool> Walk<'a, GROWN> {
@@ -20,25 +22,31 @@ impl<'a, const GROWN: bool> Walk<'a, GROWN> {
             tree,
             ray,
             stops: ArrayVec::new(),
+            limit: f32::INFINITY,
         }
     }
 
     /// Starts from where the ray [enters](WideTree::entered) the tree.
     #[inline(always)]
     pub fn start(&mut self, entered: &Entered) {
+        self.limit = entered.limit;
         if let Some(nearest) = self.enter(&self.tree.nodes[0], entered) {
             self.stops.push(nearest);
         }
     }
 
-    /// The next leaf that the ray may meet within `limit` (m), and whether the ray may start inside
-    /// its box.
+    /// From now on it leads to this distance along the ray, m.
     #[inline(always)]
-    pub fn next(&mut self, limit: f64) -> Option<(u32, bool)> {
-        let limit = self.tree.frame.limit(limit, self.ray);
+    pub fn end_at(&mut self, limit: f64) {
+        self.limit = self.tree.frame.limit(limit, self.ray);
+    }
+
+    /// The next leaf that the ray may meet on its way, and whether the ray may start inside its box.
+    #[inline(always)]
+    pub fn next(&mut self) -> Option<(u32, bool)> {
         loop {
             let mut stop = self.stops.pop()?;
-            if stop.entry() > limit {
+            if stop.entry() > self.limit {
                 continue;
             }
             loop {
@@ -48,7 +56,7 @@ impl<'a, const GROWN: bool> Walk<'a, GROWN> {
                 let index = (stop.child() & !THIN) as usize;
                 let slabs = (stop.child() & THIN != 0).then(|| &self.tree.slabs[index]);
                 let node = &self.tree.nodes[index];
-                let entered = node.entered(slabs, self.ray, limit);
+                let entered = node.entered(slabs, self.ray, self.limit);
                 let Some(nearest) = self.enter(node, &entered) else {
                     break;
                 };
