@@ -27,7 +27,7 @@ impl Facets {
         let sight = self.sight(ray);
         let entered = self.tree.entered(&sight.flat, limit);
         let nearest = self.nearest(ray, &sight, &entered, &start, limit)?;
-        self.refined(ray, &nearest, limit)
+        Some(self.told(ray, &nearest))
     }
 
     /// The corner points of a triangle, from where rays have just found it.
@@ -52,29 +52,22 @@ impl Facets {
         }
     }
 
-    /// The nearest crossing as exactly as can be said, if it is nearer than `limit`, and the front
-    /// normal there.
+    /// All about the nearest crossing, and the front normal there.
     #[inline(always)]
-    pub(super) fn refined(
-        &self,
-        ray: &Ray,
-        nearest: &Nearest,
-        limit: f64,
-    ) -> Option<(Crossing, Vector3<f64>)> {
+    pub(super) fn told(&self, ray: &Ray, nearest: &Nearest) -> (Crossing, Vector3<f64>) {
         let &Nearest {
             t, front, facet, ..
         } = nearest;
         let index = facet.index;
         let plane = self.plane_of(facet);
-        let distance = plane.refined(t, ray, || self.corners_of(facet));
         let crossing = Crossing {
-            distance,
-            above: plane.above(distance, front, &ray.origin),
+            distance: t,
+            above: plane.above(t, front, &ray.origin),
             front,
             piece: index,
             surface: self.surface(index),
         };
-        (distance < limit).then_some((crossing, plane.normal))
+        (crossing, plane.normal)
     }
 
     /// The nearest crossing of a ray within `limit`.
@@ -169,7 +162,8 @@ impl Facets {
         self.crossing(facet, ray, sight, weights, t, start)
     }
 
-    /// Where a ray that may cross a triangle on which it does not start does so.
+    /// Where a ray that may cross a triangle on which it does not start does so, at about `t` by the
+    /// first that is known.
     #[inline(always)]
     fn crossing(
         &self,
@@ -190,6 +184,8 @@ impl Facets {
         let crosses = || weights.crosses(&sight.shear, || self.corners_of(facet), margin);
         let plane = self.plane_of(facet);
         let approach = ray.direction.dot(&plane.normal);
+        // Which crossing comes first is to be told by where they end up: the weights hardly tell where
+        // a ray along the plane meets it, or any ray a sliver.
         let (t, meets) = if approach.abs() <= GRAZING {
             let corners = self.corners_of(facet);
             let runs_along = Start::runs_along(approach);
@@ -200,11 +196,9 @@ impl Facets {
                 !runs_along && crosses()
             };
             let t = plane.over_triangle(t, ray, &corners);
-            // The weights hardly tell where a ray along the plane meets it: what comes first is to
-            // be told by where it ends up.
-            let meets = meets && t > 0.0;
-            (plane.refined(t, ray, || corners), meets)
+            (plane.refined(t, ray, &corners), meets && t > 0.0)
         } else {
+            let t = plane.distance(ray);
             let meets = t > 0.0 && crosses();
             let may_slide_off = meets && !is_seen && weights.is_near_edge();
             (

@@ -57,10 +57,8 @@ pub fn cross<R: Real>(facets: &Facets, part: u32, rays: &Rays<R>, hits: &mut Hit
             }
         }
         for (flight, nearest) in &met {
-            let refined = facets.refined(&flight.ray, nearest, flight.limit);
-            if let Some((crossing, normal)) = refined {
-                hits.set(flight.index, part, &crossing, normal);
-            }
+            let (crossing, normal) = facets.told(&flight.ray, nearest);
+            hits.set(flight.index, part, &crossing, normal);
         }
     }
 }

@@ -55,21 +55,17 @@ impl Plane {
         }
     }
 
-    /// The distance `t` (m) at which a ray crosses a triangle of the plane, rounded as little as the
-    /// plane allows. The weights of a sliver are so uncertain that the place may lie off its plane or
-    /// beyond its edges, out of sight of the neighbours.
+    /// The distance along a ray at which it crosses the plane, m; less than 0 behind it.
     #[inline(always)]
-    pub fn refined(&self, t: f64, ray: &Ray, corners: impl FnOnce() -> [Point3<f64>; 3]) -> f64 {
-        if t == 0.0 {
-            return t;
-        }
-        let approach = ray.direction.dot(&self.normal);
-        let on_plane = -self.height(&ray.origin) / approach;
-        let refined = if approach.abs() > GRAZING {
-            on_plane
-        } else {
-            self.over_triangle(on_plane, ray, &corners())
-        };
+    pub fn distance(&self, ray: &Ray) -> f64 {
+        -self.height(&ray.origin) / ray.direction.dot(&self.normal)
+    }
+
+    /// The distance `t` (m) at which a ray that hardly rises crosses a triangle of the plane, rounded as
+    /// little as the plane allows. The weights of a sliver are so uncertain that the place may lie off
+    /// its plane or beyond its edges, out of sight of the neighbours.
+    pub fn refined(&self, t: f64, ray: &Ray, corners: &[Point3<f64>; 3]) -> f64 {
+        let refined = self.over_triangle(self.distance(ray), ray, corners);
         if refined > 0.0 && refined.is_finite() {
             refined
         } else {
@@ -79,16 +75,20 @@ impl Plane {
 
     /// The distance nearest to `t` at which a ray that hardly rises is over the triangle: rounding moves
     /// its crossing with the plane along it, past edges and corners where it meets other triangles.
+    ///
+    /// An edge that the ray passes at a smaller angle than the plane does not tell any better where.
     pub fn over_triangle(&self, t: f64, ray: &Ray, corners: &[Point3<f64>; 3]) -> f64 {
+        let approach = ray.direction.dot(&self.normal).abs();
         let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut nearest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY);
         for (corner, from) in corners.iter().enumerate() {
             let inwards = self.normal.cross(&(corners[(corner + 1) % 3] - from));
             let speed = ray.direction.dot(&inwards);
             let passes = -(ray.origin - from).dot(&inwards) / speed;
-            if speed > 0.0 {
+            let least = approach * inwards.norm();
+            if speed > least {
                 enters = passes.max(enters);
-            } else if speed < 0.0 {
+            } else if speed < -least {
                 leaves = passes.min(leaves);
             }
             let along = ray.direction.dot(&(from - ray.origin));
@@ -159,18 +159,16 @@ mod tests {
     }
 
     #[test]
-    fn steep_rays_cross_where_the_plane_is() {
-        let refined = |t: f64, origin: [f64; 3], direction: [f64; 3]| {
-            plane().refined(t, &ray(origin, direction), || CORNERS)
+    fn rays_cross_where_the_plane_is() {
+        let distance = |origin: [f64; 3], direction: [f64; 3]| {
+            let distance = plane().distance(&ray(origin, direction));
+            (distance * 1e12).round() / 1e12
         };
-        let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
-        assert!(near(refined(2.1, [1.0, 1.0, 3.0], [0.0, 0.0, -1.0]), 2.0));
-        assert!(near(refined(2.1, [1.0, 1.0, -1.0], [0.0, 0.0, 1.0]), 2.0));
+        assert_eq!(distance([1.0, 1.0, 3.0], [0.0, 0.0, -1.0]), 2.0);
+        assert_eq!(distance([1.0, 1.0, -1.0], [0.0, 0.0, 1.0]), 2.0);
+        assert_eq!(distance([1.0, 1.0, 0.5], [0.0, 0.0, -1.0]), -0.5);
         // 4 along for 3 down.
-        assert!(near(refined(5.1, [-3.0, 1.0, 4.0], [4.0, 0.0, -3.0]), 5.0));
-        // What lies behind, or nowhere, is no better than what is known.
-        assert_eq!(refined(0.1, [1.0, 1.0, 0.9], [0.0, 0.0, -1.0]), 0.1);
-        assert_eq!(refined(0.0, [1.0, 1.0, 3.0], [0.0, 0.0, -1.0]), 0.0);
+        assert_eq!(distance([-3.0, 1.0, 4.0], [4.0, 0.0, -3.0]), 5.0);
     }
 
     #[test]
@@ -197,9 +195,27 @@ mod tests {
             );
         }
 
+        // Along an edge as seen from above, but down through the plane.
+        let corners = [[0.0, 0.0, 0.0], [0.7, 0.1, 0.0], [0.0, 1.0, 0.0]].map(Point3::from);
+        let sloping = Plane::new(normal(&corners), corners[0]);
+        for rise in [5e-4, -5e-4, 1e-6, -1e-6] {
+            let way = Vector3::new(0.7, 0.1, 0.0).normalize() - Vector3::z() * rise;
+            let direction = way.normalize();
+            let origin = Point3::new(0.35, 0.05, 0.0) - direction * 3.0;
+            let ray = Ray { origin, direction };
+            let off = sloping.refined(2.5, &ray, &corners) - 3.0;
+            assert!(off.abs() < 1e-15 / rise.abs(), "{rise}: {off}");
+        }
+
         // So flat that it meets the plane 1 behind the triangle.
         let flat = ray([-1.0, 1.5, 1.0 + 4e-4], [1.0, 0.0, -1e-4]);
-        let found = plane().refined(3.5, &flat, || CORNERS);
+        let found = plane().refined(3.5, &flat, &CORNERS);
         assert!((found - 3.0).abs() < 1e-6, "{found}");
+
+        // What lies behind, or nowhere, is no better than what is known.
+        let behind = ray([3.0, 1.5, 1.0 - 1e-7], [1.0, 0.0, -1e-4]);
+        assert_eq!(plane().refined(0.1, &behind, &CORNERS), 0.1);
+        let nowhere = ray([f64::NAN; 3], [1.0, 0.0, -1e-4]);
+        assert_eq!(plane().refined(0.1, &nowhere, &CORNERS), 0.1);
     }
 }

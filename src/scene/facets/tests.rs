@@ -1,5 +1,6 @@
 //! What the tree finds is what a look at every triangle finds, to the last bit.
 
+mod grazing;
 mod starts;
 
 use nalgebra::{Point3, Vector3};
@@ -21,12 +22,10 @@ fn search(
     slack: f64,
     ray: &Ray,
     leaving: Option<Spot>,
+    on_this_part: bool,
     limit: f64,
 ) -> Option<Crossing> {
-    let start = Start {
-        piece: leaving.map(|spot| spot.piece),
-        front: leaving.map(|spot| spot.front),
-    };
+    let start = Start::of(leaving, on_this_part);
     let mut best: Option<(f64, Crossing)> = None;
     for (index, triangle) in mesh.triangles.iter().enumerate() {
         let piece = index as u32;
@@ -53,10 +52,8 @@ fn search(
     let (_, crossing) = best?;
     let corners = mesh.corners(&mesh.triangles[crossing.piece as usize]);
     let plane = Plane::new(normal(&corners), corners[0]);
-    let distance = plane.refined(crossing.distance, ray, || corners);
-    (distance < limit).then_some(Crossing {
-        distance,
-        above: plane.above(distance, crossing.front, &ray.origin),
+    Some(Crossing {
+        above: plane.above(crossing.distance, crossing.front, &ray.origin),
         ..crossing
     })
 }
@@ -98,6 +95,7 @@ fn crossing(
     let crosses = weights.crosses(&shear, || corners, margin);
     let is_seen = margin > 0.0;
     if approach.abs() > GRAZING {
+        let t = plane.distance(ray);
         let meets = crosses && t > 0.0;
         let at_edge = !is_seen && weights.is_near_edge();
         return (meets && !(at_edge && slides(mesh, triangle, slack, ray, t)))
@@ -108,7 +106,7 @@ fn crossing(
     let passes = (crosses && (is_seen || !runs_along))
         || (may_pass_over && passes_over(ray, &shear, &corners, front, margin));
     let t = plane.over_triangle(t, ray, &corners);
-    (passes && t > 0.0).then(|| (plane.refined(t, ray, || corners), front))
+    (passes && t > 0.0).then(|| (plane.refined(t, ray, &corners), front))
 }
 
 /// Whether a ray comes to where it crosses a triangle along another one.
@@ -262,7 +260,7 @@ fn compare(mesh: &Mesh, rays: usize, random: &mut Random) -> usize {
         let mut ray = ray(mesh, size, random);
         let mut leaving = None;
         for _ in 0..4 {
-            let expected = search(mesh, slack, &ray, leaving, f64::INFINITY);
+            let expected = search(mesh, slack, &ray, leaving, true, f64::INFINITY);
             let found = facets.first_crossing(&ray, leaving, true, f64::INFINITY);
             assert_eq!(
                 found.map(|(crossing, _)| crossing),
@@ -274,7 +272,7 @@ fn compare(mesh: &Mesh, rays: usize, random: &mut Random) -> usize {
             };
             hits += 1;
             let at_limit = facets.first_crossing(&ray, leaving, true, crossing.distance);
-            let expected = search(mesh, slack, &ray, leaving, crossing.distance);
+            let expected = search(mesh, slack, &ray, leaving, true, crossing.distance);
             assert_eq!(at_limit.map(|(crossing, _)| crossing), expected);
             let normal = if crossing.front { front } else { -front };
             ray = Ray {
@@ -337,7 +335,7 @@ fn triangles_in_one_place_can_be_divided() {
     let same = [mesh.triangles[0]].repeat(5000);
     mesh.triangles.extend(same);
     let mut random = Random(4);
-    assert!(compare(&mesh, 100, &mut random) > 100);
+    assert!(compare(&mesh, 20, &mut random) > 20);
 }
 
 #[test]
@@ -389,6 +387,21 @@ fn a_needle_ends_at_its_tip() {
             assert_eq!(found, [true, true, true, false], "{direction} {turn}");
         }
     }
+}
+
+/// Rounding of what a needle weighs is no way through the air.
+#[test]
+fn a_ray_from_the_edge_of_a_needle_does_not_meet_it_farther_on() {
+    let edge = -0.0625;
+    let needle = [[edge + 2.5e-9; 3], [edge; 3], [edge, 6.5625, edge]];
+    let facets = Facets::new(apart(&[needle]), 0, 1e-10);
+    let direction = [0.40552048104105876, 0.8331602611069782, 0.37602808241989083];
+    let ray = Ray::of([edge, 2.4375, edge], direction);
+    let found = facets.first_crossing(&ray, None, false, f64::INFINITY);
+    assert!(
+        found.is_none_or(|(crossing, _)| crossing.distance < 1e-12),
+        "{found:?}"
+    );
 }
 
 #[test]

@@ -3,8 +3,10 @@
 use nalgebra::{Point3, Vector3};
 
 use super::apart;
-use crate::scene::facets::Facets;
+use crate::scene::facets::{Facets, cross};
+use crate::scene::lanes::put;
 use crate::scene::ray::{Ray, Spot};
+use crate::scene::rays::{Hits, Rays, Spots};
 
 const SLACK: f64 = 1e-9;
 
@@ -45,6 +47,38 @@ fn a_ray_does_not_meet_the_facet_that_it_leaves() {
                 assert_eq!(piece, 1);
                 assert!((distance - 0.5 / sinks).abs() < 1e-8, "{height} {sinks}");
             }
+        }
+    }
+}
+
+#[test]
+fn many_rays_start_as_one_does() {
+    const COUNT: usize = 40;
+    let facets = storeys();
+    // From either facet, or from that of another part.
+    for (part, piece) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        let front = true;
+        let leaving = Spot { part, piece, front };
+        let mut rays = Rays::<f64>::none();
+        let mut spots = Spots::none();
+        rays.count = COUNT;
+        for index in 0..COUNT {
+            let height = (index as f64 + 0.5) / 20.0 - 1.0;
+            put(&mut rays.origin, index, [0.1, -0.2, height * SLACK]);
+            put(&mut rays.direction, index, [0.0, 0.6, -0.8]);
+            spots.set(index, leaving);
+        }
+        rays.leaving = Some(spots);
+        let mut hits = Hits::none();
+        cross(&facets, 0, &rays, &mut hits);
+        let met = if (part, piece) == (0, 0) { 1 } else { 0 };
+        for index in 0..COUNT {
+            let one =
+                facets.first_crossing(&rays.at(index), Some(leaving), part == 0, f64::INFINITY);
+            let (crossing, _) = one.expect("one of them is in the way");
+            assert_eq!(hits.distance[index], crossing.distance, "{leaving:?}");
+            assert_eq!(hits.spots.at(index).piece, crossing.piece, "{leaving:?}");
+            assert_eq!(crossing.piece, met, "{leaving:?}");
         }
     }
 }
