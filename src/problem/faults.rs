@@ -92,3 +92,34 @@ fn belongs_to(homes: &[String]) -> String {
     let shown: Vec<&str> = shown.collect();
     format!("belongs to {}", any_of(&shown))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    /// A key in the wrong group is not missed in its own as well, unless it could be of very many.
+    #[test]
+    fn misplaced_keys_were_meant_for_where_they_belong() {
+        let reading = crate::problem::read_text("format: 2", Path::new("any.yaml"));
+        let source = reading.expect("it is short enough").source;
+        let faults = Faults::new(&source);
+        let at = Span {
+            line: 1,
+            column: 1,
+            start: 0,
+            end: 6,
+        };
+        let misplace = |name: &str| faults.push_unknown_key("nozzle", name, at, &["body"]);
+        assert!(!faults.misspelt("jet", "divergence"));
+        misplace("divergence");
+        assert!(faults.misspelt("jet", "divergence"));
+        let homes = homes_of("share");
+        assert!(homes.len() > MOST_HOMES);
+        misplace("share");
+        for home in homes {
+            assert!(!faults.misspelt(home, "share"), "{home}");
+        }
+    }
+}

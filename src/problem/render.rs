@@ -138,4 +138,22 @@ mod tests {
         assert_eq!(text.matches("format: wrong").count(), MOST_SHOWN);
         assert!(text.ends_with("... and 7 more faults\n"));
     }
+
+    #[test]
+    fn a_fault_on_one_line_tells_its_place_and_moves_no_cursor() {
+        let reading = crate::problem::read_text("format: 2", Path::new("any.yaml"));
+        let source = reading.expect("it is short enough").source;
+        let mut fault = Fault::at_key(Rule::UnknownFormat, "format", "wrong\u{1b}[2J\nindeed");
+        let message = "format: wrong\u{fffd}[2J\u{fffd}indeed";
+        let line = one_line(&source, &fault);
+        assert_eq!(line, format!("any.yaml: {message}"));
+        fault.at = Some(Span {
+            line: 3,
+            column: 9,
+            start: 0,
+            end: 1,
+        });
+        let line = one_line(&source, &fault);
+        assert_eq!(line, format!("any.yaml:3:9: {message}"));
+    }
 }

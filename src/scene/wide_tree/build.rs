@@ -169,3 +169,37 @@ impl Branch {
         moved(child)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// So that no mesh makes the tree too deep for a walk.
+    #[test]
+    fn depth_is_counted_on_the_way_down() {
+        // Eight clusters of heaps of three, which are divided only deep in a tree.
+        let place = |triangle: u32| {
+            let (cluster, inside) = (triangle / 32, triangle % 32);
+            f64::from(100 * cluster + inside / 3)
+        };
+        let corners = |triangle| [Vector3::x() * place(triangle); 3];
+        let triangles = Triangles {
+            corners: &corners,
+            slack: 0.0,
+        };
+        let item = |triangle| {
+            let at = place(triangle) as f32;
+            let (low, high) = ([at, 0.0, 0.0], [at + 0.1, 0.1, 0.1]);
+            let bounds = Bounds { low, high };
+            Item { bounds, triangle }
+        };
+        let leaves = |depth: usize| {
+            let mut items: Vec<Item> = (0..256).map(item).collect();
+            let mut branch = Branch::default();
+            branch.grow(&mut items, &triangles, depth);
+            branch.leaves.iter().map(Leaf::len).collect::<Vec<_>>()
+        };
+        assert_eq!(leaves(HALVING_DEPTH - 1), [4; 64]);
+        assert_ne!(leaves(HALVING_DEPTH - 2), [4; 64]);
+    }
+}

@@ -184,4 +184,61 @@ mod tests {
         // Half the surface of 3 by 5 by 6.
         assert_eq!(bounds.area(), 15.0 + 30.0 + 18.0);
     }
+
+    /// Small boxes at these places along an axis.
+    fn row(axis: usize, places: impl IntoIterator<Item = f32>) -> Vec<Item> {
+        let item = |(triangle, place): (u32, f32)| {
+            let (mut low, mut high) = ([-0.1; 3], [0.1; 3]);
+            low[axis] += place;
+            high[axis] += place;
+            let bounds = Bounds { low, high };
+            Item { bounds, triangle }
+        };
+        (0..).zip(places).map(item).collect()
+    }
+
+    #[test]
+    fn a_set_is_split_at_the_gap_in_it() {
+        for axis in 0..3 {
+            // Of ten each, so many beyond the gap.
+            for (far, first) in [(1, -4.0), (3, 40.0), (7, -20.0)] {
+                let is_far = |index: u32| index * 3 % 10 < far;
+                let place = |index: u32| {
+                    let gap = if is_far(index) { 10.0 } else { 0.0 };
+                    first + 0.01 * index as f32 + gap
+                };
+                let mut items = row(axis, (0..60).map(place));
+                let near = split(&mut items);
+                assert_eq!(near, 60 - 6 * far as usize, "{axis}");
+                let mut first = items[..near].iter();
+                assert!(first.all(|item| !is_far(item.triangle)), "{axis}, {far}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_lies_in_one_place_is_halved() {
+        let mut items = row(0, [0.5; 41]);
+        assert_eq!(split(&mut items), 20);
+    }
+
+    #[test]
+    fn only_what_is_too_much_for_a_leaf_is_divided() {
+        for count in 1..=LEAF_SIZE + 1 {
+            let mut items = row(1, (0..count).map(|index| index as f32));
+            let sets = eight_sets(&mut items, 0).len();
+            assert_eq!(sets, if count > LEAF_SIZE { 2 } else { 1 }, "{count}");
+        }
+    }
+
+    #[test]
+    fn deep_in_a_tree_sets_are_halved() {
+        let squares = (0..800).map(|index| (index * index) as f32);
+        for (depth, halves) in [(HALVING_DEPTH - 1, false), (HALVING_DEPTH, true)] {
+            let mut items = row(2, squares.clone());
+            let sets = eight_sets(&mut items, depth);
+            let even = sets.iter().all(|set| set.items.len() == 100);
+            assert_eq!((sets.len(), even), (WIDTH, halves), "{depth}");
+        }
+    }
 }

@@ -3,7 +3,7 @@ use std::iter;
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::flat::{FlatRay, entry, reciprocal};
+use super::flat::{FlatRay, Frame, entry, reciprocal};
 use super::walk::{Stop, settle_last};
 use super::{WideTree, build};
 use crate::scene::facets::tests::Random;
@@ -48,6 +48,32 @@ fn reciprocals_stay_finite_and_keep_their_sign() {
     assert_eq!([1e-31, -1e-31].map(reciprocal), [1e30, -1e30]);
 }
 
+#[test]
+fn a_mesh_of_any_size_reaches_from_minus_one_to_one() {
+    let is_near = |found: [f64; 3], expected: [f64; 3]| {
+        let off = Vector3::from(found) - Vector3::from(expected);
+        off.amax() < 1e-6
+    };
+    for size in [1e-6, 0.5, 3e4] {
+        let low = Point3::new(1.0, 2.0, 3.0) * size;
+        let high = low + Vector3::new(4.0, 2.0, 1.0) * size;
+        let frame = Frame::around(low, high, 0.01 * size);
+        let corners = [low, high].map(|corner| frame.inside(&corner));
+        assert!(is_near(corners[0].into(), [-1.0, -0.5, -0.25]), "{size}");
+        assert!(is_near(corners[1].into(), [1.0, 0.5, 0.25]), "{size}");
+        assert!((frame.slack - 0.005).abs() < 1e-9, "{size}");
+        // A sphere on its way from the middle gets a radius farther to either side.
+        let ray = Ray {
+            origin: nalgebra::center(&low, &high),
+            direction: Vector3::new(0.6, -0.8, 0.0),
+        };
+        let flat: FlatRay<true> = frame.ray(&ray, 3.0 * size);
+        let [forwards, back] = flat.origins.map(|origin| origin.map(f64::from));
+        assert!(is_near(forwards, [1.5, -1.5, 1.5]), "{size}");
+        assert!(is_near(back, [-1.5, 1.5, -1.5]), "{size}");
+    }
+}
+
 /// A round wall of this many strips along z, as those that jets skim.
 fn round_wall(strips: u32, length: f64) -> Vec<[Point3<f64>; 3]> {
     let at = |strip: u32, z: f64| {
@@ -74,7 +100,7 @@ fn visits<'a, const GROWN: bool>(
 ) -> impl Iterator<Item = u32> + 'a {
     let mut walk = tree.walk(flat);
     walk.start(&tree.entered(flat, limit));
-    iter::from_fn(move || walk.next(limit).map(|(leaf, _)| leaf))
+    iter::from_fn(move || walk.next().map(|(leaf, _)| leaf))
 }
 
 #[test]
@@ -100,6 +126,20 @@ fn rays_that_skim_a_curved_wall_visit_few_leaves() {
         let mean = leaves as f64 / f64::from(RAYS);
         assert!(mean < 3.0, "{strips}: {mean}");
     }
+}
+
+/// However many boxes lie one behind the other.
+#[test]
+fn a_walk_gets_to_all_leaves_on_its_way() {
+    let sheet = |index: u32| {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        corners.map(|[x, y]| Point3::new(x, y, f64::from(index)))
+    };
+    let triangles: Vec<_> = (0..1 << 20).map(sheet).collect();
+    let (tree, leaves) = tree(&triangles, 1e-9);
+    let ray = Ray::of([0.2, 0.2, -1.0], [0.0, 0.0, 1.0]);
+    let flat = tree.flat(&ray);
+    assert_eq!(visits(&tree, &flat, f64::INFINITY).count(), leaves.len());
 }
 
 #[test]
