@@ -198,9 +198,13 @@ impl<'a> Sphere<'a> {
         let distance = gap / sinking;
         let centre = self.ray.origin + self.ray.direction * distance;
         let margin = self.margin(sinking);
-        let inside =
-            |edge: usize| (centre - plate.corners[edge]).dot(&plate.inward[edge]) >= -margin;
-        (inside(0) && inside(1) && inside(2)).then_some(Touch {
+        let inside = [0, 1, 2].map(|edge| (centre - plate.corners[edge]).dot(&plate.inward[edge]));
+        let [a, b, c] = inside;
+        let least = a.min(b).min(c);
+        let touches = least >= -margin
+            && (least >= 0.0
+                || plate.box_holds(&(centre - normal * self.radius), self.slack + margin));
+        touches.then_some(Touch {
             distance,
             normal,
             on_face: true,
@@ -285,6 +289,14 @@ const OVERLAP: f64 = 2.0;
 impl Plate {
     fn height(&self, point: &Point3<f64>) -> f64 {
         (point - self.corners[0]).dot(&self.normal)
+    }
+
+    /// Whether the box around it, loosened by `margin`, holds a point: beyond a sharp corner the lines of
+    /// its edges alone hold points far off it.
+    fn box_holds(&self, point: &Point3<f64>, margin: f64) -> bool {
+        let [a, b, c] = &self.corners;
+        let (low, high) = (a.inf(b).inf(c), a.sup(b).sup(c));
+        (0..3).all(|axis| point[axis] >= low[axis] - margin && point[axis] <= high[axis] + margin)
     }
 
     fn edge(&self, index: u32) -> (Point3<f64>, Point3<f64>) {
