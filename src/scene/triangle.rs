@@ -8,20 +8,26 @@ use nalgebra::{Point3, Vector3};
 
 use super::ray::Ray;
 
+/// Whether the box around a triangle, loosened by `slack`, holds a point: beyond a sharp corner the lines
+/// of its edges alone hold points far off it.
+#[inline]
+pub(super) fn box_holds(corners: &[Point3<f64>; 3], point: &Point3<f64>, slack: f64) -> bool {
+    let [a, b, c] = corners;
+    let along = |axis: usize| {
+        let low = a[axis].min(b[axis]).min(c[axis]);
+        let high = a[axis].max(b[axis]).max(c[axis]);
+        point[axis] >= low - slack && point[axis] <= high + slack
+    };
+    along(0) && along(1) && along(2)
+}
+
 /// Whether a point is within `slack` of a triangle.
 #[inline]
 pub(super) fn lies_on(point: &Point3<f64>, corners: &[Point3<f64>; 3], slack: f64) -> bool {
-    let [a, b, c] = *corners;
-    let apart = |axis: usize| {
-        let (low, high) = (
-            a[axis].min(b[axis]).min(c[axis]),
-            a[axis].max(b[axis]).max(c[axis]),
-        );
-        point[axis] < low - slack || point[axis] > high + slack
-    };
-    if apart(0) || apart(1) || apart(2) {
+    if !box_holds(corners, point, slack) {
         return false;
     }
+    let [a, b, c] = *corners;
     let area_normal = (b - a).cross(&(c - a));
     // Squares, which need no roots.
     let margin = slack * slack * area_normal.norm_squared();

@@ -99,7 +99,6 @@ fn fire_at_walls<R: Real, W: Witness<R>>(
     deviates: &[Deviate],
     witness: &mut W,
 ) -> usize {
-    volley.load(tracer, deviates);
     volley.fly(tracer, deviates, witness)
 }
 
@@ -112,7 +111,6 @@ fn fire_at_facets<R: Real, W: Witness<R>>(
     deviates: &[Deviate],
     witness: &mut W,
 ) -> usize {
-    volley.load(tracer, deviates);
     volley.fly(tracer, deviates, witness)
 }
 
@@ -214,6 +212,7 @@ impl<R: Real> Volley<R> {
         deviates: &[Deviate],
         witness: &mut W,
     ) -> usize {
+        self.load(tracer, deviates);
         let most_impacts = tracer.setup.problem.paths.impacts as f64;
         let (mut rays, mut flights) = (0, 0);
         while self.rays.count > 0 {

@@ -162,8 +162,8 @@ impl Facets {
         self.crossing(facet, ray, sight, weights, t, start)
     }
 
-    /// Where a ray that may cross a triangle on which it does not start does so, at about `t` by the
-    /// first that is known.
+    /// Where a ray that may cross a triangle on which it does not start does so; `t` (m) is about where,
+    /// for rays that graze it.
     #[inline(always)]
     fn crossing(
         &self,

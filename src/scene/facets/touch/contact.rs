@@ -6,6 +6,7 @@ use nalgebra::{Point3, Vector3};
 use super::folds::Folds;
 use crate::scene::LIFT;
 use crate::scene::ray::Ray;
+use crate::scene::triangle::box_holds;
 
 /// Cosine of the angle to the normal at the contact that a shot must at least head in with: what
 /// is less is rounding.
@@ -203,7 +204,11 @@ impl<'a> Sphere<'a> {
         let least = a.min(b).min(c);
         let touches = least >= -margin
             && (least >= 0.0
-                || plate.box_holds(&(centre - normal * self.radius), self.slack + margin));
+                || box_holds(
+                    &plate.corners,
+                    &(centre - normal * self.radius),
+                    self.slack + margin,
+                ));
         touches.then_some(Touch {
             distance,
             normal,
@@ -289,14 +294,6 @@ const OVERLAP: f64 = 2.0;
 impl Plate {
     fn height(&self, point: &Point3<f64>) -> f64 {
         (point - self.corners[0]).dot(&self.normal)
-    }
-
-    /// Whether the box around it, loosened by `margin`, holds a point: beyond a sharp corner the lines of
-    /// its edges alone hold points far off it.
-    fn box_holds(&self, point: &Point3<f64>, margin: f64) -> bool {
-        let [a, b, c] = &self.corners;
-        let (low, high) = (a.inf(b).inf(c), a.sup(b).sup(c));
-        (0..3).all(|axis| point[axis] >= low[axis] - margin && point[axis] <= high[axis] + margin)
     }
 
     fn edge(&self, index: u32) -> (Point3<f64>, Point3<f64>) {
