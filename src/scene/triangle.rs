@@ -134,19 +134,22 @@ impl Weights {
     }
 
     /// Whether the line, which [may cross](Self::may_cross) the triangle, crosses it or passes its
-    /// edges by at most `margin`.
+    /// edges by at most `margin`; `doubt` is that of [`may_cross`](Self::may_cross).
     #[inline]
     pub fn crosses(
         &self,
         shear: &Shear,
         corners: impl FnOnce() -> [Point3<f64>; 3],
         margin: f64,
+        doubt: f64,
     ) -> bool {
-        self.least() >= 0.0 || self.passes_by(shear, &corners(), margin)
+        let is_sure = self.least() >= 0.0 && self.determinant.abs() > SURE * doubt;
+        is_sure || self.crosses_nearly(shear, &corners(), margin)
     }
 
-    /// Whether the line, which passes the triangle by, does so by at most `margin`.
-    fn passes_by(&self, shear: &Shear, corners: &[Point3<f64>; 3], margin: f64) -> bool {
+    /// Whether the line crosses the triangle or passes it by at most `margin`, even where all that the
+    /// weights tell is rounding.
+    fn crosses_nearly(&self, shear: &Shear, corners: &[Point3<f64>; 3], margin: f64) -> bool {
         let weights = [self.u, self.v, self.w];
         !beyond(corners, weights, self.determinant, margin) && shear.passes_box(corners, margin)
     }
@@ -155,6 +158,10 @@ impl Weights {
 /// Barycentric coordinate of a point that lies beyond an edge by more than the margin of any triangle
 /// that is higher than a million margins.
 pub(super) const CLEARLY_OUTSIDE: f64 = -1e-6;
+
+/// Times the doubt about weights: with a smaller sum, they do not tell where along a needle a ray
+/// crosses it, if at all.
+const SURE: f64 = 1e6;
 
 /// Whether the line of a ray crosses the triangle or passes its edges by at most `margin`, both
 /// seen along the ray.
@@ -272,7 +279,7 @@ mod tests {
                 let at = |outwards: f64| weights(&beside(side, outwards, 0.0), scale);
                 let found = [-0.5, 0.09, 0.11].map(|outwards| {
                     let shear = Shear::new(&down(beside(side, outwards, 8.0)));
-                    at(outwards).crosses(&shear, || CORNERS, 0.1)
+                    at(outwards).crosses(&shear, || CORNERS, 0.1, 0.0)
                 });
                 assert_eq!(found, [true, true, false], "{scale}, {side}");
                 // Heights of the triangle over its sides: 3, 2.4 and 4.

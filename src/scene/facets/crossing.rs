@@ -181,13 +181,15 @@ impl Facets {
             (0.0, self.slack)
         };
         let is_seen = margin > 0.0;
-        let crosses = || weights.crosses(&sight.shear, || self.corners_of(facet), margin);
+        let doubt = self.doubtful_weight;
+        let corners = || self.corners_of(facet);
+        let crosses = || weights.crosses(&sight.shear, corners, margin, doubt);
         let plane = self.plane_of(facet);
         let approach = ray.direction.dot(&plane.normal);
         // Which crossing comes first is to be told by where they end up: the weights hardly tell where
         // a ray along the plane meets it, or any ray a sliver.
         let (t, meets) = if approach.abs() <= GRAZING {
-            let corners = self.corners_of(facet);
+            let corners = corners();
             let runs_along = Start::runs_along(approach);
             let meets = if is_seen {
                 crosses()

@@ -1,6 +1,7 @@
 //! What the tree finds is what a look at every triangle finds, to the last bit.
 
 mod grazing;
+mod needles;
 mod starts;
 
 use nalgebra::{Point3, Vector3};
@@ -89,10 +90,11 @@ fn crossing(
     } else {
         weights.distance()
     };
-    if !weights.may_cross(doubtful_weight(mesh, slack)) {
+    let doubt = doubtful_weight(mesh, slack);
+    if !weights.may_cross(doubt) {
         return None;
     }
-    let crosses = weights.crosses(&shear, || corners, margin);
+    let crosses = weights.crosses(&shear, || corners, margin, doubt);
     let is_seen = margin > 0.0;
     if approach.abs() > GRAZING {
         let t = plane.distance(ray);
