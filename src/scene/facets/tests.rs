@@ -169,7 +169,7 @@ impl Random {
         self.symmetric().abs()
     }
 
-    pub(super) fn vector(&mut self) -> Vector3<f64> {
+    pub(in crate::scene) fn vector(&mut self) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.symmetric())
     }
 

@@ -128,6 +128,38 @@ fn rays_that_skim_a_curved_wall_visit_few_leaves() {
     }
 }
 
+/// Where a ray only touches the corner of a box, it is in it along one axis no sooner than out of it
+/// along another: rounding must not turn them round.
+#[test]
+fn rays_that_touch_the_corner_of_a_box_far_away_enter_it() {
+    const SIZE: f64 = 1e-3;
+    let mut random = Random(9);
+    // Seen from above, the first corner of each triangle is on the lower left of its box, and rays from
+    // the upper left just touch it.
+    let triangle = |at: Vector3<f64>| {
+        [[0.0, 0.0, 0.0], [SIZE, 0.0, 0.0], [0.0, SIZE, SIZE]]
+            .map(|offset| Point3::from(at + Vector3::from(offset)))
+    };
+    let far = Vector3::new(0.9, -0.9, 0.0);
+    let ends = [-1.0, 1.0].map(Vector3::repeat).into_iter();
+    let places = ends.chain((0..200).map(|_| far + random.vector() * 0.1));
+    // As many in one place as fill a leaf.
+    let triangles: Vec<_> = places.flat_map(|at| [triangle(at); 4]).collect();
+    let (tree, leaves) = tree(&triangles, 1e-12);
+    for _ in 0..200_000 {
+        let index = random.bits() as usize % triangles.len();
+        let aim = triangles[index][0];
+        let direction = Vector3::new(1.0, -1.0 - 0.1 * random.symmetric(), 0.0).normalize();
+        let ray = Ray {
+            origin: aim - direction * (2.0 + random.share()),
+            direction,
+        };
+        let flat = tree.flat(&ray);
+        let mut met = visits(&tree, &flat, f64::INFINITY).map(|leaf| &leaves[leaf as usize]);
+        assert!(met.any(|leaf| leaf.contains(&(index as u32))), "{ray:?}");
+    }
+}
+
 /// However many boxes lie one behind the other.
 #[test]
 fn a_walk_gets_to_all_leaves_on_its_way() {
