@@ -6,12 +6,15 @@ use crate::scene::form::Form;
 use crate::scene::lanes::{LANES, Lane, components, padded};
 use crate::scene::prism::Prism;
 
+/// Shots that are looked at together: none of them near an end is common.
+const GROUP: usize = 16;
+
 /// Where shots that leave by an end pass it, and how far aside they may still touch something.
 struct Exits<R> {
-    x: Lane<R>,
-    y: Lane<R>,
+    x: [R; GROUP],
+    y: [R; GROUP],
     /// m; infinite for shots that come from outside.
-    reach: Lane<R>,
+    reach: [R; GROUP],
 }
 
 impl Prism {
@@ -33,29 +36,31 @@ impl Prism {
             *near = (low <= margin) | (high >= extent.length - margin);
         }
         if !has_caps {
-            self.drop_clear_exits(flights, &mut near);
+            let groups = near.chunks_exact_mut(GROUP).enumerate();
+            for (group, near) in groups.filter(|(_, near)| near.contains(&true)) {
+                self.drop_clear_exits(flights, group * GROUP, near);
+            }
         }
         near
     }
 
-    /// Most shots leave far from any rim.
+    /// Most shots leave far from any rim; `first` is the first of the group.
     #[inline(always)]
-    fn drop_clear_exits<R: Real>(&self, flights: &Flights<R>, near: &mut [bool; LANES]) {
-        let exits = self.exits(flights);
-        let count = padded(flights.count);
-        let mut least = [R::INFINITY; LANES];
+    fn drop_clear_exits<R: Real>(&self, flights: &Flights<R>, first: usize, near: &mut [bool]) {
+        let exits = self.exits(flights, first);
+        let mut least = [R::INFINITY; GROUP];
         for wall in &self.walls {
             match wall {
                 Form::Plane(plane) => {
                     let plane = plane.with();
-                    for (i, least) in least.iter_mut().enumerate().take(count) {
+                    for (i, least) in least.iter_mut().enumerate() {
                         let square = plane.squared_distance([exits.x[i], exits.y[i]]);
                         *least = if square < *least { square } else { *least };
                     }
                 }
                 Form::Cylinder(cylinder) => {
                     let cylinder = cylinder.with();
-                    for (i, least) in least.iter_mut().enumerate().take(count) {
+                    for (i, least) in least.iter_mut().enumerate() {
                         let apart = cylinder.distance_to_whole([exits.x[i], exits.y[i]]);
                         let square = apart * apart;
                         *least = if square < *least { square } else { *least };
@@ -63,24 +68,24 @@ impl Prism {
                 }
             }
         }
-        for i in 0..padded(flights.count) {
+        for (i, near) in near.iter_mut().enumerate() {
             let is_clear = least[i] > exits.reach[i] * exits.reach[i];
-            near[i] &= !is_clear;
+            *near &= !is_clear;
         }
     }
 
     #[inline(always)]
-    fn exits<R: Real>(&self, flights: &Flights<R>) -> Exits<R> {
-        let zeros = [R::ZERO; LANES];
+    fn exits<R: Real>(&self, flights: &Flights<R>, first: usize) -> Exits<R> {
+        let zeros = [R::ZERO; GROUP];
         let mut exits = Exits {
             x: zeros,
             y: zeros,
             reach: zeros,
         };
         let extent = self.extent_in::<R>();
-        for i in 0..padded(flights.count) {
-            let [x, y, z] = components(flights.origin, i);
-            let [u, v, w] = components(flights.direction, i);
+        for i in 0..GROUP {
+            let [x, y, z] = components(flights.origin, first + i);
+            let [u, v, w] = components(flights.direction, first + i);
             let outwards = w > R::ZERO;
             let end = if outwards { extent.length } else { R::ZERO };
             let distance = (end - z) / w;
@@ -89,7 +94,7 @@ impl Prism {
             // Beyond the end it can touch something until it is its radius away from the end.
             let aside = (u * u + v * v).sqrt() / w.abs();
             let is_inside = (z >= R::ZERO) & (z <= extent.length) & (w != R::ZERO);
-            let reach = flights.radius[i] * (R::ONE + aside) + extent.slack;
+            let reach = flights.radius[first + i] * (R::ONE + aside) + extent.slack;
             exits.reach[i] = if is_inside { reach } else { R::INFINITY };
         }
         exits
