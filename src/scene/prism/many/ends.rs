@@ -3,7 +3,7 @@
 use super::{Best, Flights};
 use crate::precision::Real;
 use crate::scene::form::Form;
-use crate::scene::lanes::{LANES, Lane, components, padded};
+use crate::scene::lanes::{LANES, components, padded};
 use crate::scene::prism::Prism;
 
 /// Shots that are looked at together: none of them near an end is common.
