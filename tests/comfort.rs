@@ -237,6 +237,55 @@ fn ends_with_the_best_answer(signal: &str) {
     assert!(record["best"]["settings"]["speed_m_s"].as_f64().unwrap() > 0.0);
 }
 
+/// Whenever the signal comes: either nothing is written yet, or the folder is complete.
+#[cfg(unix)]
+#[test]
+fn an_answer_once_found_is_written_whoever_asks_for_an_end() {
+    let solve = |folder: &Path| {
+        let arguments = ["solve", "problems/plate.yaml", "--out"];
+        let mut command = peenpose(&arguments);
+        command.arg(folder).stdout(Stdio::null());
+        command.stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let files = |folder: &Path| {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    let undisturbed = TempDir::new().unwrap();
+    let started = std::time::Instant::now();
+    let status = solve(undisturbed.path()).wait().unwrap().code();
+    let whole = started.elapsed();
+    let all = files(undisturbed.path());
+    assert!(all.contains(&"result.json".into()), "{all:?}");
+
+    let mut completed = 0;
+    for step in 1..20 {
+        let folder = TempDir::new().unwrap();
+        let child = solve(folder.path());
+        std::thread::sleep(whole * step / 20);
+        // Fails where the program has ended by itself.
+        let _ = Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .stderr(Stdio::null())
+            .status()
+            .unwrap();
+        let output = child.wait_with_output().unwrap();
+        let written = files(folder.path());
+        match output.status.code() {
+            // Before the search begins there is nothing to lose.
+            None => assert!(written.is_empty(), "{step}: {written:?}"),
+            code => {
+                assert_eq!(code, status, "{step}: {}", messages(&output));
+                assert_eq!(written, all, "{step}");
+                completed += 1;
+            }
+        }
+    }
+    assert!(completed > 0);
+}
+
 /// A map of the plate; what it says, or why not.
 fn map(arguments: &[&str], folder: &Path) -> Output {
     let out = ["--out", folder.to_str().unwrap()];

@@ -122,7 +122,7 @@ fn searched(args: &MapArgs, setup: &Setup, kept: Option<&Checkpoint>) -> Result<
     };
     let solution = solve(setup, &control);
     let is_stopped = control.is_stopped();
-    watcher.finish();
+    watcher.let_go();
     if is_stopped {
         return Err("stopped while searching: there is no map".to_owned().into());
     }

@@ -7,11 +7,17 @@ use indicatif::{ProgressBar, ProgressStyle};
 use peenpose::chart::Step;
 use peenpose::solve::Progress;
 
+use crate::output;
+
+/// Exit status of a run that was ended before all it had found was written, as shells have it.
+const ENDED: i32 = 130;
+
 /// Shows how far a search is, and notices Ctrl-C.
 pub struct Watcher {
     bar: ProgressBar,
     /// Set when the user asks for an end.
     pub stop: Arc<AtomicBool>,
+    is_writing: Arc<AtomicBool>,
 }
 
 impl Watcher {
@@ -28,11 +34,16 @@ impl Watcher {
         bar.set_message("screening");
         bar.enable_steady_tick(std::time::Duration::from_millis(100));
         let stop = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&stop);
+        let is_writing = Arc::new(AtomicBool::new(false));
+        let (asked, found) = (Arc::clone(&stop), Arc::clone(&is_writing));
         let handler = ctrlc::set_handler(move || {
             // Whoever asks twice does not want to wait for the best answer so far.
-            if flag.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
+            if asked.swap(true, Ordering::SeqCst) {
+                output::note("ended at once: not everything has been written");
+                std::process::exit(ENDED);
+            }
+            if found.load(Ordering::SeqCst) {
+                output::note("the answer is found and being written; once more ends at once");
             }
         });
         if let Err(error) = handler {
@@ -40,7 +51,11 @@ impl Watcher {
                 "warning: Ctrl-C will end the run without an answer: {error}"
             ));
         }
-        Self { bar, stop }
+        Self {
+            bar,
+            stop,
+            is_writing,
+        }
     }
 
     /// Takes a step of the search to the bar.
@@ -62,9 +77,17 @@ impl Watcher {
         });
     }
 
-    /// Takes the bar away. From here on Ctrl-C ends the program at once.
+    /// Takes the bar away when the answer is found: Ctrl-C lets it be written, asked twice it ends
+    /// the program at once.
     pub fn finish(&self) {
-        self.stop.store(true, Ordering::Relaxed);
+        self.is_writing.store(true, Ordering::SeqCst);
+        self.bar.finish_and_clear();
+    }
+
+    /// Takes the bar away where nothing is found yet that could be kept: Ctrl-C ends the program at
+    /// once.
+    pub fn let_go(&self) {
+        self.stop.store(true, Ordering::SeqCst);
         self.bar.finish_and_clear();
     }
 }

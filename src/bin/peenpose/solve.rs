@@ -33,13 +33,13 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     };
     let solution = solve(&setup, &control);
     let setup = setup.as_asked();
-    let windows = passing_windows(&setup, &solution);
     let front = args
         .pareto
         .then(|| front(&setup, &solution.answers, &control));
     let is_stopped = control.is_stopped();
     watcher.finish();
     kept::close(checkpoint.as_ref(), args.start.quiet);
+    let windows = passing_windows(&setup, &solution);
     if is_stopped {
         output::note("stopped: this is the best answer so far");
     }
