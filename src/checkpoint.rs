@@ -21,7 +21,7 @@ use crate::problem::part::{Part, Shape};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use log::Log;
-pub use log::Trouble;
+pub use log::{LARGEST_FILE, Trouble};
 
 /// The file that keeps the work of runs.
 pub struct Checkpoint {
@@ -39,7 +39,8 @@ impl Checkpoint {
     /// Opens the file in a folder, or makes both, for runs on the scene of a setup.
     ///
     /// # Errors
-    /// The file cannot be read or written, another run uses it, or it is damaged before its end.
+    /// The file cannot be read or written, another run uses it, it has more than [`LARGEST_FILE`]
+    /// bytes, or it is damaged before its end.
     pub fn open(folder: &Path, setup: &Setup) -> Result<Self, Trouble> {
         let (log, known) = Log::open(folder)?;
         Ok(Self {

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use peenpose::problem::size;
 use peenpose::scene::mesh_file;
-use peenpose::{chart, problem, record};
+use peenpose::{chart, checkpoint, problem, record};
 use tempfile::TempDir;
 
 /// A row of the table: what is limited, by how much, and what is said beyond.
@@ -234,12 +234,15 @@ fn names_of_groups_do_not_move_the_cursor() {
 fn results_and_tables() {
     let megabytes = |bytes: u64| format!("{} MB", bytes / 1_000_000);
     let (result, table) = (row("`result.json`"), row("table for"));
+    let kept = row("checkpoint");
+    assert_eq!(kept.limit, megabytes(checkpoint::LARGEST_FILE));
     assert_eq!(result.limit, megabytes(record::LARGEST_FILE));
     assert_eq!(table.limit, megabytes(chart::LARGEST_TABLE));
     let folder = TempDir::new().expect("there is room");
     for (name, bytes) in [
         ("result.json", record::LARGEST_FILE),
         ("table.csv", chart::LARGEST_TABLE),
+        ("checkpoint.txt", checkpoint::LARGEST_FILE),
     ] {
         let file = fs::File::create(folder.path().join(name)).expect("there is room");
         file.set_len(bytes + 1).expect("it is sparse");
@@ -252,6 +255,7 @@ fn results_and_tables() {
             &table,
             vec!["chart", &problem, "--out", "c", "--beside", "table.csv"],
         ),
+        (&kept, vec!["solve", &problem, "--checkpoint", "."]),
     ] {
         let said = complaint(&folder, &arguments);
         assert!(

@@ -16,6 +16,8 @@ const HEADING: &str = "peenpose checkpoint 1\n";
 /// What may be lost when a run is killed: work of so long.
 const AT_LEAST_EVERY: Duration = Duration::from_secs(1);
 const MOST_UNWRITTEN: usize = 1 << 16;
+/// Bytes of the largest file that is kept and read, as it is read whole.
+pub const LARGEST_FILE: u64 = 1_000_000_000;
 
 /// Why work cannot be kept.
 #[derive(Debug)]
@@ -24,6 +26,8 @@ pub enum Trouble {
     File(PathBuf, io::Error),
     /// Another run uses it.
     InUse(PathBuf),
+    /// It has more than [`LARGEST_FILE`] bytes.
+    TooLarge(PathBuf),
     /// It does not begin as such files do.
     Foreign(PathBuf),
     /// A line before its end is damaged.
@@ -37,6 +41,12 @@ impl fmt::Display for Trouble {
                 write!(f, "cannot keep work in {}: {error}", path.display())
             }
             Self::InUse(path) => write!(f, "{} is in use by another run", path.display()),
+            Self::TooLarge(path) => write!(
+                f,
+                "{} is too large for a checkpoint, of which at most {} MB are read",
+                path.display(),
+                LARGEST_FILE / 1_000_000
+            ),
             Self::Foreign(path) => write!(f, "{} is not a checkpoint", path.display()),
             Self::Damaged(path, line) => write!(
                 f,
@@ -53,6 +63,8 @@ impl std::error::Error for Trouble {}
 pub(super) struct Log {
     path: PathBuf,
     file: File,
+    /// Bytes in it.
+    length: u64,
     unwritten: String,
     written: Instant,
     added: usize,
@@ -74,7 +86,11 @@ impl Log {
             TryLockError::Error(error) => failed(error),
         })?;
         let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(failed)?;
+        let mut readable = (&mut file).take(LARGEST_FILE + 1);
+        readable.read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(Trouble::TooLarge(path));
+        }
         if HEADING.as_bytes().starts_with(&bytes) {
             bytes.clear();
         }
@@ -85,12 +101,14 @@ impl Log {
         } else {
             read(whole, &path)?
         };
-        file.set_len(whole.len() as u64).map_err(failed)?;
+        let length = whole.len() as u64;
+        file.set_len(length).map_err(failed)?;
         file.seek(SeekFrom::End(0)).map_err(failed)?;
         let unwritten = if bytes.is_empty() { HEADING } else { "" };
         let log = Self {
             path,
             file,
+            length,
             unwritten: unwritten.to_owned(),
             written: Instant::now(),
             added: 0,
@@ -127,8 +145,14 @@ impl Log {
     }
 
     fn write(&mut self) {
-        let written = self.file.write_all(self.unwritten.as_bytes());
-        self.failure = written.and_then(|()| self.file.sync_data()).err();
+        self.length += self.unwritten.len() as u64;
+        self.failure = if self.length > LARGEST_FILE {
+            let most = format!("it would exceed {} MB", LARGEST_FILE / 1_000_000);
+            Some(io::Error::new(io::ErrorKind::FileTooLarge, most))
+        } else {
+            let written = self.file.write_all(self.unwritten.as_bytes());
+            written.and_then(|()| self.file.sync_data()).err()
+        };
         self.unwritten.clear();
         self.written = Instant::now();
     }
