@@ -172,34 +172,53 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         .collect();
     models.choose_precision(&searches, effort, control);
     for (index, stage) in stages.into_iter().enumerate() {
-        let samples = models.draw(stage.shots);
-        let judge = models.judge(&samples, effort, control);
-        let accuracy = models.asked.problem.accuracy;
-        if stage.shots <= CHEAP_SHOTS {
-            let each = searches.par_iter_mut();
-            each.for_each(|search| search.refine(&judge, stage, accuracy));
-        } else {
-            let least = least_objective(&searches);
-            let could_win = |&index: &usize| is_in_reach(&searches[index], least);
-            let open: Vec<usize> = (0..searches.len()).filter(could_win).collect();
-            refine_in_turn(&mut searches, &open, &judge, stage, accuracy);
-        }
-        tell(control, effort, &searches);
+        let before = searches.clone();
+        advance(models, &mut searches, stage, control, effort);
         if control.is_stopped() {
             continue;
         }
         if index == 0 {
             models.climb(&mut searches, effort, control);
         } else if stage.shots < most_shots {
-            let claims = models.claims(&searches, stage.shots);
-            let is_another = models.put_back(&mut searches, &claims, effort, control);
-            let may_end = is_set_exactly && !is_another;
-            if may_end && models.are_sharp(&searches, stage.shots, effort) {
+            let mut claims = models.claims(&searches, stage.shots);
+            // What was found without effects that matter leads astray: once more from where it began.
+            while !control.is_stopped() && models.put_back(&mut searches, &claims, effort, control)
+            {
+                let carried = |search: &Search| search.carried_over(&models.searched);
+                searches = before.iter().map(carried).collect();
+                advance(models, &mut searches, stage, control, effort);
+                claims = models.claims(&searches, stage.shots);
+            }
+            if is_set_exactly && models.are_sharp(&searches, stage.shots, effort) {
                 return (searches, stage.shots);
             }
         }
     }
     (searches, most_shots)
+}
+
+/// Takes the searches through a stage: all of them as long as shots are few, then those that could
+/// win.
+fn advance(
+    models: &Models,
+    searches: &mut [Search],
+    stage: &Stage,
+    control: &Control,
+    effort: &Effort,
+) {
+    let samples = models.draw(stage.shots);
+    let judge = models.judge(&samples, effort, control);
+    let accuracy = models.asked.problem.accuracy;
+    if stage.shots <= CHEAP_SHOTS {
+        let each = searches.par_iter_mut();
+        each.for_each(|search| search.refine(&judge, stage, accuracy));
+    } else {
+        let least = least_objective(searches);
+        let could_win = |&index: &usize| is_in_reach(&searches[index], least);
+        let open: Vec<usize> = (0..searches.len()).filter(could_win).collect();
+        refine_in_turn(searches, &open, &judge, stage, accuracy);
+    }
+    tell(control, effort, searches);
 }
 
 /// Refines some of the searches, the best one first, so that the others can profit from it; the

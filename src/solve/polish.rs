@@ -12,7 +12,7 @@ use crate::problem::setting::Choice;
 /// A point of the search with what it is worth.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// Coordinates in the unit cube.
+    /// Coordinates in the unit cube; any number on a periodic axis.
     pub point: Vec<f64>,
     /// The settings there, with the best speed.
     pub choice: Choice,
@@ -30,7 +30,7 @@ impl Candidate {
     fn beside(best: f64, space: &Space, judge: &Judge, point: &[f64]) -> Self {
         let (choice, standing) = judge.judge(&space.choice(point), best);
         Self {
-            point: point.to_vec(),
+            point: space.within(point),
             choice,
             standing,
         }
@@ -76,7 +76,9 @@ impl CostFunction for &Descent<'_> {
         let place = leading.partition_point(|other| other.standing.rank() <= rank);
         leading.insert(place, candidate);
         leading.truncate(self.corners.len());
-        Ok(rank)
+        // Were it as flat beyond a bound as it is on it, a simplex would fall over to the outside and
+        // never see that it is better inside.
+        Ok(rank * (1.0 + self.space.excess(point)))
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) const STAGES: [Stage; 3] = [
         shots: 1024,
         candidates: 2,
         size: 0.3,
-        settled: 0.1,
+        settled: 0.05,
     },
     Stage {
         shots: 4096,
@@ -49,7 +49,7 @@ pub(super) const STAGES_SET_EXACTLY: [Stage; 3] = [
         ..STAGES[0]
     },
     Stage {
-        settled: 0.2,
+        settled: 0.1,
         ..STAGES[1]
     },
     STAGES[2],
@@ -220,9 +220,11 @@ mod tests {
     use super::*;
     use crate::jet::{Samples, Stream};
     use crate::precision::Precision;
+    use crate::problem::model::Effect;
     use crate::problem::setting::Choice;
     use crate::solve::{Control, Effort};
 
+    const DRY: usize = 0;
     const DAMP: usize = 1;
     const OILED: usize = 2;
     const STAGE: &Stage = &STAGES[2];
@@ -268,6 +270,24 @@ mod tests {
             oiled.follow(damp.best(), judge, STAGE, ACCURACY);
             assert!(rank(&oiled) < 0.97 * rank(&damp), "{}", rank(&oiled));
         });
+    }
+
+    #[test]
+    fn a_descent_that_begins_on_a_bound_finds_what_is_better_inside() {
+        let setup = setup();
+        let space = Space::new(&setup.problem, DRY, false);
+        let point = [0.0, 0.5020436366399129, 0.5086951096852622];
+        let effects = [Effect::ExitWidth, Effect::LaterRebounds, Effect::Spin];
+        let setup = setup.without(&effects, &space.choice(&point));
+        let shots = Samples::with_rim(&setup.problem, Stream::Search, 1024).deviates;
+        let (effort, control) = (Effort::default(), Control::default());
+        let judge = Judge::new(&setup, Precision::F64, &shots, &effort, &control);
+        let candidates = vec![Candidate::at(&space, &judge, &point)];
+        let mut search = Search { space, candidates };
+        // J falls by 3 % from the bound to the cliff at 33.3 deg, and is higher again beyond.
+        let on_bound = rank(&search);
+        search.refine(&judge, &STAGES_SET_EXACTLY[1], ACCURACY);
+        assert!(rank(&search) < 0.98 * on_bound, "{}", rank(&search));
     }
 
     #[test]

@@ -71,6 +71,18 @@ impl Space {
         choice
     }
 
+    /// The nearest point within the bounds; a periodic axis has none.
+    pub fn within(&self, point: &[f64]) -> Vec<f64> {
+        let bounded = |(axis, &x): (&Axis, &f64)| if axis.periodic { x } else { x.clamp(0.0, 1.0) };
+        self.axes.iter().zip(point).map(bounded).collect()
+    }
+
+    /// How far a point is outside the bounds, as a share of the ranges.
+    pub fn excess(&self, point: &[f64]) -> f64 {
+        let pairs = point.iter().zip(self.within(point));
+        pairs.map(|(x, within)| (x - within).abs()).sum()
+    }
+
     /// The point of a choice.
     pub fn point(&self, choice: &Choice) -> Vec<f64> {
         let coordinate =
