@@ -7,7 +7,7 @@ use peenpose::problem::setting::{Choice, Range};
 use peenpose::setup::Setup;
 
 use crate::common::known::Known;
-use crate::common::variant::{Variant, contact_named};
+use crate::common::variant::{Shots, Variant, contact_named};
 use crate::objective::{Limits, Objective, Speed, Step, shots};
 use crate::{annealing, gradient, line, model, population, sampling, shipped, simplex, swarm};
 
@@ -71,7 +71,14 @@ pub fn cases(known: &[Known], only: &str) -> Result<Vec<Case>, Box<dyn Error>> {
     let exact = |file| Variant {
         file,
         tolerance: false,
+        shots: Shots::Points,
     };
+    let whole = Variant {
+        file: "keyway.yaml",
+        tolerance: true,
+        shots: Shots::Spheres,
+    };
+    let shipped = case("keyway as shipped, oiled", whole, "oiled", known)?;
     let short = case("keyway, oiled", exact("keyway.yaml"), "oiled", known)?;
     let long = case("long, damp", exact("keyway-long.yaml"), "damp", known)?;
     let mut line = case(
@@ -83,7 +90,7 @@ pub fn cases(known: &[Known], only: &str) -> Result<Vec<Case>, Box<dyn Error>> {
     let settings = &mut line.setup.problem.settings;
     settings.azimuth = Range::held(line.known.azimuth);
     settings.standoff = Range::held(line.known.standoff);
-    let mut cases = vec![short, long, line];
+    let mut cases = vec![short, long, line, shipped];
     cases.retain(|case| case.name.contains(only));
     Ok(cases)
 }

@@ -2,7 +2,8 @@
 //! least J, with the speed searched and with the speed taken out.
 //!
 //! `cargo bench --bench methods` prints the tables and writes `target/methods.csv`, which holds every
-//! run at several numbers of evaluations, with the true excess over the best settings known.
+//! run at several numbers of evaluations, with the true excess over the best settings known; of each
+//! problem it writes the same beside that file as `peenpose chart --beside` reads it.
 
 #[path = "../../examples/common/mod.rs"]
 mod common;
@@ -30,6 +31,7 @@ use std::thread;
 use clap::Parser;
 
 use case::{Case, Run, cases, read_known};
+use objective::Speed;
 
 /// Methods of optimisation on the same shots.
 #[derive(Parser)]
@@ -59,6 +61,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         let excesses = table::true_excesses(&case, &runs);
         println!("{}", table::table(&case, &runs, &excesses));
         lines.extend(table::lines(&case, &runs, &excesses));
+        let name = case.name.replace(", ", "-").replace(' ', "-");
+        for speed in [Speed::Searched, Speed::Removed] {
+            let file = format!("methods-{name}-{}.csv", table::word(speed));
+            let beside = arguments.table.with_file_name(file);
+            std::fs::write(&beside, table::beside(&runs, &excesses, speed))?;
+            println!("written: {}", beside.display());
+        }
+        println!();
     }
     std::fs::write(&arguments.table, lines.join("\n") + "\n")?;
     println!("written: {}", arguments.table.display());

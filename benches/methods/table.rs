@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use peenpose::problem::setting::Choice;
 
-use crate::case::{Case, Run, SHIPPED_WHOLE};
+use crate::case::{Case, Run, SHIPPED, SHIPPED_WHOLE};
 use crate::common::fresh;
 use crate::common::statistics::{Mean, median};
 use crate::objective::{CHECKPOINTS, Speed, Step};
@@ -79,7 +79,46 @@ pub fn lines(case: &Case, runs: &[Run], excesses: &[Vec<f64>]) -> Vec<String> {
     lines
 }
 
-fn word(speed: Speed) -> &'static str {
+/// Points that a chart draws beside its own: each method after so many evaluations, the medians of
+/// its runs. A run that has ended stays where it is.
+pub fn beside(runs: &[Run], excesses: &[Vec<f64>], speed: Speed) -> String {
+    let mut text = "method,speed,seconds,excess\n".to_string();
+    let ran_so = methods(runs).into_iter().filter(|one| one.0 == speed);
+    for (_, method) in ran_so.filter(|one| ![SHIPPED, SHIPPED_WHOLE].contains(&one.1)) {
+        let ran = || {
+            let pairs = runs.iter().zip(excesses);
+            pairs.filter(move |(run, _)| (run.speed, run.method) == (speed, method))
+        };
+        for (index, count) in CHECKPOINTS.iter().enumerate() {
+            let at = |length: usize| index.min(length - 1);
+            let seconds = ran().map(|(run, excesses)| {
+                let steps = run.at_checkpoints();
+                steps[at(excesses.len())].seconds
+            });
+            let seconds = median(seconds);
+            let excess = median(ran().map(|(_, excesses)| excesses[at(excesses.len())]));
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{method},{count} evaluations,{seconds:.6},{excess:.6}"
+            );
+        }
+    }
+    text
+}
+
+/// All methods that ran, in order.
+fn methods(runs: &[Run]) -> Vec<(Speed, &'static str)> {
+    let mut methods: Vec<(Speed, &str)> = Vec::new();
+    for run in runs {
+        if !methods.contains(&(run.speed, run.method)) {
+            methods.push((run.speed, run.method));
+        }
+    }
+    methods
+}
+
+pub fn word(speed: Speed) -> &'static str {
     match speed {
         Speed::Searched => "searched",
         Speed::Removed => "removed",
@@ -99,13 +138,7 @@ pub fn table(case: &Case, runs: &[Run], excesses: &[Vec<f64>]) -> String {
         "median excess",
         "true excess"
     );
-    let mut methods: Vec<(Speed, &str)> = Vec::new();
-    for run in runs {
-        if !methods.contains(&(run.speed, run.method)) {
-            methods.push((run.speed, run.method));
-        }
-    }
-    for (speed, method) in methods {
+    for (speed, method) in methods(runs) {
         let pairs = || {
             let pairs = runs.iter().zip(excesses);
             pairs.filter(|(run, _)| (run.speed, run.method) == (speed, method))

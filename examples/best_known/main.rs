@@ -26,7 +26,7 @@ use common::cube::{ALL_BUT_SPEED, Cube};
 use common::fresh;
 use common::known::{HEADER, Known, in_units};
 use common::statistics::Mean;
-use common::variant::{VARIANTS, Variant};
+use common::variant::{Variant, variants};
 use descent::{Judge, Trial, Work};
 
 /// Finds the best settings of the keyways by brute force.
@@ -93,7 +93,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
     let mut table = format!("{HEADER}\n");
     println!("{HEADER}");
-    for variant in VARIANTS {
+    for variant in variants() {
         if !variant.name().contains(&arguments.only) {
             continue;
         }
@@ -130,6 +130,7 @@ fn best_known(
     Ok(Known {
         file: variant.file.into(),
         tolerance: variant.tolerance_word().into(),
+        shots: variant.shots_word().into(),
         contact: setup.problem.contacts[contact].name.clone(),
         settings: in_units(&choice),
         objective: value,

@@ -10,7 +10,7 @@ use super::cube::Cube;
 use super::variant::{Variant, contact_named};
 
 /// Names of the columns.
-pub const HEADER: &str = "file,tolerance,contact,incidence_deg,azimuth_deg,standoff_mm,speed_m_s,\
+pub const HEADER: &str = "file,tolerance,shots,contact,incidence_deg,azimuth_deg,standoff_mm,speed_m_s,\
                           J,standard_error,poses,rays";
 
 /// The best settings known for one contact.
@@ -18,6 +18,7 @@ pub const HEADER: &str = "file,tolerance,contact,incidence_deg,azimuth_deg,stand
 pub struct Known {
     pub file: String,
     pub tolerance: String,
+    pub shots: String,
     pub contact: String,
     /// deg, deg, mm and m/s.
     pub settings: [f64; 4],
@@ -32,9 +33,10 @@ impl Known {
     pub fn line(&self) -> String {
         let [incidence, azimuth, standoff, speed] = self.settings;
         format!(
-            "{},{},{},{incidence:.5},{azimuth:.5},{standoff:.5},{speed:.6},{:.8},{:.1e},{},{}",
+            "{},{},{},{},{incidence:.5},{azimuth:.5},{standoff:.5},{speed:.6},{:.8},{:.1e},{},{}",
             self.file,
             self.tolerance,
+            self.shots,
             self.contact,
             self.objective,
             self.standard_error,
@@ -48,6 +50,7 @@ impl Known {
         let &[
             file,
             tolerance,
+            shots,
             contact,
             incidence,
             azimuth,
@@ -64,6 +67,7 @@ impl Known {
         Ok(Self {
             file: file.into(),
             tolerance: tolerance.into(),
+            shots: shots.into(),
             contact: contact.into(),
             settings: [
                 incidence.parse()?,
@@ -87,7 +91,9 @@ impl Known {
 
     /// Whether these are settings for a variant.
     pub fn is_of(&self, variant: &Variant) -> bool {
-        self.file == variant.file && self.tolerance == variant.tolerance_word()
+        self.file == variant.file
+            && self.tolerance == variant.tolerance_word()
+            && self.shots == variant.shots_word()
     }
 
     /// The settings in SI.

@@ -1,4 +1,5 @@
-//! The problems that the search is tried on: the shipped keyways, with and without errors of setting.
+//! The problems that the search is tried on: the shipped keyways, with and without errors of setting,
+//! as they are and with shots that fly as points.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -8,39 +9,39 @@ use peenpose::problem::model::Model;
 use peenpose::problem::setting::Tolerance;
 use peenpose::setup::Setup;
 
+/// How shots fly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shots {
+    /// In their size, and the program decides what it models: as the problem files have it.
+    Spheres,
+    /// As points, with every other effect.
+    Points,
+}
+
 /// A shipped problem whose nozzle is set exactly or within a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
     pub file: &'static str,
     pub tolerance: bool,
+    pub shots: Shots,
 }
 
-const fn exact(file: &'static str) -> Variant {
-    Variant {
-        file,
-        tolerance: false,
-    }
-}
-
-const fn tolerant(file: &'static str) -> Variant {
-    Variant {
-        file,
-        tolerance: true,
-    }
-}
-
+const FILES: [&str; 3] = [SHORT, "keyway-long.yaml", "keyway-blind.yaml"];
 const SHORT: &str = "keyway.yaml";
-const LONG: &str = "keyway-long.yaml";
-const BLIND: &str = "keyway-blind.yaml";
 
-pub const VARIANTS: [Variant; 6] = [
-    exact(SHORT),
-    tolerant(SHORT),
-    exact(LONG),
-    tolerant(LONG),
-    exact(BLIND),
-    tolerant(BLIND),
-];
+/// All of them.
+pub fn variants() -> impl Iterator<Item = Variant> {
+    let both = |file| [false, true].map(|tolerance| (file, tolerance));
+    let all = [Shots::Spheres, Shots::Points];
+    all.into_iter().flat_map(move |shots| {
+        let cases = FILES.into_iter().flat_map(both);
+        cases.map(move |(file, tolerance)| Variant {
+            file,
+            tolerance,
+            shots,
+        })
+    })
+}
 
 fn path(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -52,9 +53,10 @@ impl Variant {
     /// The problem with its scene.
     pub fn setup(&self) -> Result<Setup, Box<dyn Error>> {
         let (mut setup, _) = Setup::load(&path(self.file))?;
-        // What is known as best was found for points, with everything else.
-        setup.problem.paths.shot_size = false;
-        setup.problem.model = Model::Full;
+        if self.shots == Shots::Points {
+            setup.problem.paths.shot_size = false;
+            setup.problem.model = Model::Full;
+        }
         let tolerance = &mut setup.problem.tolerance;
         if !self.tolerance {
             *tolerance = Tolerance::default();
@@ -70,14 +72,26 @@ impl Variant {
         if self.tolerance { "yes" } else { "no" }
     }
 
-    /// File and tolerance in a few words.
+    /// "spheres" or "points", as in tables.
+    pub fn shots_word(&self) -> &'static str {
+        match self.shots {
+            Shots::Spheres => "spheres",
+            Shots::Points => "points",
+        }
+    }
+
+    /// All of it in a few words.
     pub fn name(&self) -> String {
-        let ending = if self.tolerance {
+        let tolerance = if self.tolerance {
             " with tolerance"
         } else {
             ""
         };
-        format!("{}{ending}", self.file.trim_end_matches(".yaml"))
+        let shots = self.shots_word();
+        format!(
+            "{}{tolerance} ({shots})",
+            self.file.trim_end_matches(".yaml")
+        )
     }
 }
 

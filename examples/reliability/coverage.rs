@@ -14,7 +14,7 @@ use peenpose::solve::Control;
 use crate::common::fresh;
 use crate::common::known::Known;
 use crate::common::statistics::{Mean, median};
-use crate::common::variant::Variant;
+use crate::common::variant::{Shots, Variant};
 
 /// Names of the columns.
 pub const HEADER: &str = "variant,contact,shots,incidence_deg,J,reference_error,intervals,covered_percent,\
@@ -31,6 +31,7 @@ pub const CASES: [Case; 3] = [
         variant: Variant {
             file: "keyway.yaml",
             tolerance: true,
+            shots: Shots::Spheres,
         },
         contact: "oiled",
     },
@@ -38,6 +39,7 @@ pub const CASES: [Case; 3] = [
         variant: Variant {
             file: "keyway-long.yaml",
             tolerance: false,
+            shots: Shots::Spheres,
         },
         contact: "damp",
     },
@@ -45,6 +47,7 @@ pub const CASES: [Case; 3] = [
         variant: Variant {
             file: "keyway-blind.yaml",
             tolerance: true,
+            shots: Shots::Spheres,
         },
         contact: "oiled",
     },

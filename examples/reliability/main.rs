@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use clap::Parser;
 
 use common::known::Known;
-use common::variant::VARIANTS;
+use common::variant::variants;
 
 /// How reliably the search finds the best settings known, and how well it knows its errors.
 #[derive(Parser)]
@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut run_lines = vec![runs::HEADER.to_string()];
     let mut coverage_lines = vec![coverage::HEADER.to_string()];
     println!("{}", runs::HEADER);
-    for variant in VARIANTS {
+    for variant in variants() {
         if variant.name().contains(&arguments.only) {
             let lines = runs::of_variant(&variant, &known, arguments.seeds, arguments.shots)?;
             run_lines.extend(lines);
