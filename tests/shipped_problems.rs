@@ -27,11 +27,12 @@ fn expectations(file: &str) -> Vec<Expectation> {
         passes,
     };
     match file {
-        // Rebounds leave by the open ends; friction hardly matters.
+        // Rebounds leave by the open ends; friction hardly matters. By brute force: 67.5 deg and
+        // 0.004636 oiled, 66.5 deg and 0.004664 with more friction.
         "keyway.yaml" => vec![
-            expect("oiled", 66.0..=69.5, 0.0045..=0.0049, true),
-            expect("damp", 66.0..=69.5, 0.0045..=0.0049, true),
-            expect("dry", 66.0..=69.5, 0.0045..=0.0049, true),
+            expect("oiled", 66.0..=69.0, 0.00463..=0.00470, true),
+            expect("damp", 65.0..=68.0, 0.00465..=0.00473, true),
+            expect("dry", 65.0..=68.0, 0.00465..=0.00473, true),
         ],
         // A valley at 45 deg for little friction; a far worse one at 33 deg is all that is left dry.
         "keyway-long.yaml" => vec![
