@@ -1,4 +1,4 @@
-//! Every command in the README and in `docs/` is run, and every output shown there compared.
+//! Every command in the README and in `docs/` is run, and the outputs of the tutorial are compared.
 //!
 //! A document is read from top to bottom in a folder of its own: a block of YAML that starts with
 //! `# name.yaml` is written to that file, a block of shell is run, and every line of a block of text
@@ -21,7 +21,7 @@ const LONG: [(&str, &str); 7] = [
         "tests/fuzzed.rs replays what it found",
     ),
     ("cargo doc", ".ci/run"),
-    ("cargo bench", "benches/ are built by .ci/run"),
+    ("cargo bench", "benches/ are checked by .ci/run"),
 ];
 
 /// A fenced block of a document.

@@ -13,7 +13,7 @@ use peenpose::jet::{Draw, Replicates, purpose};
 use peenpose::problem;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, Status, clearance_violation, solve, spread_choices};
+use peenpose::solve::{clearance_violation, spread_choices};
 use program::{Run, peenpose};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -361,17 +361,6 @@ fn ten_million_shots_are_evaluated_within_their_memory() {
     .concat();
     assert!(within(900, &most));
     assert!(!within(400, &most));
-}
-
-#[test]
-#[ignore = "a minute without optimisation"]
-fn a_search_that_cannot_be_as_accurate_as_asked_for_ends_at_its_most_shots() {
-    let keyway = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
-    let (mut setup, _) = Setup::load(&keyway).unwrap();
-    setup.problem.accuracy = 1e-9;
-    let solution = solve(&setup, &Control::default());
-    assert_eq!(solution.status, Status::BudgetSpent);
-    assert_eq!(solution.shots_per_pose, 1 << 18);
 }
 
 /// A sheet with waves, 100 mm wide, of twice the square of `steps` triangles, as binary STL.
