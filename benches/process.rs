@@ -18,8 +18,8 @@ use tempfile::TempDir;
 
 use common::fresh;
 use common::known::Known;
-use common::statistics::{Mean, median};
-use common::variant::{Shots, Variant};
+use common::statistics::median;
+use common::variant::{Shots, Variant, path};
 
 /// Runs with one seed.
 const RUNS: usize = 15;
@@ -37,7 +37,7 @@ const CASES: [(&str, bool); 4] = [
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let known = Known::read(&root().join("tests/data/best_known.csv"))?;
+    let known = Known::read()?;
     println!(
         "{:32} {:>26} {:>26} {:>22}",
         "", "seconds, seed 1", "seconds, 12 seeds", "J above the best known"
@@ -73,13 +73,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).into()
-}
-
 /// The shipped file, or a copy that says nothing about a tolerance.
 fn problem(variant: &Variant, folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
-    let shipped = root().join("problems").join(variant.file);
+    let shipped = path(variant.file);
     let text = std::fs::read_to_string(&shipped)?;
     let has_tolerance = |line: &&str| line.starts_with("tolerance:");
     if variant.tolerance || !text.lines().any(|line| has_tolerance(&line)) {
@@ -120,12 +116,9 @@ fn excesses(variant: &Variant, known: &[Known]) -> Result<Vec<f64>, Box<dyn Erro
         setup.problem.seed = seed;
         solve(&setup, &Control::default()).answers[0].choice
     });
-    let choices: Vec<Choice> = best.iter().copied().chain(answers).collect();
-    let objectives = fresh::objectives(&setup, &choices, COMPARISON, SHOTS);
-    let mean = |index| Mean::of_choice(&objectives, index).value;
-    let least = (0..best.len()).map(mean).fold(f64::INFINITY, f64::min);
-    let found = best.len()..choices.len();
-    Ok(found.map(|index| mean(index) / least - 1.0).collect())
+    let answers: Vec<Choice> = answers.collect();
+    let excesses = fresh::excesses(&setup, &best, &answers, COMPARISON, SHOTS);
+    Ok(excesses.iter().map(|excess| excess.value).collect())
 }
 
 fn spread(seconds: &[f64]) -> String {

@@ -5,8 +5,6 @@
 #[path = "../examples/common/mod.rs"]
 mod common;
 
-use std::path::Path;
-
 use common::fresh;
 use common::known::Known;
 use common::statistics::Mean;
@@ -24,8 +22,7 @@ const ROUNDING: f64 = 1e-4;
 
 #[test]
 fn the_best_settings_known_do_what_the_table_says() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/best_known.csv");
-    let table = Known::read(&path).unwrap();
+    let table = Known::read().unwrap();
     for variant in variants() {
         let setup = variant.setup().unwrap();
         let known: Vec<&Known> = table.iter().filter(|known| known.is_of(&variant)).collect();
@@ -59,8 +56,7 @@ const FAILURES: usize = 1;
 #[test]
 #[ignore = "takes long without optimisation"]
 fn searches_find_the_best_settings_known() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/best_known.csv");
-    let table = Known::read(&path).unwrap();
+    let table = Known::read().unwrap();
     let is_quick =
         |variant: &Variant| variant.shots == Shots::Spheres && variant.file != "keyway-blind.yaml";
     for variant in variants().filter(is_quick) {
@@ -72,12 +68,9 @@ fn searches_find_the_best_settings_known() {
                 setup.problem.seed = seed;
                 solve(&setup, &Control::default()).answers[0].choice
             });
-            let choices: Vec<Choice> = [best].into_iter().chain(answers).collect();
-            let objectives = fresh::objectives(&setup, &choices, FIRST_SET, SHOTS);
-            let mean = |index| Mean::of_choice(&objectives, index).value;
-            let excesses: Vec<f64> = (1..choices.len())
-                .map(|index| mean(index) / mean(0) - 1.0)
-                .collect();
+            let answers: Vec<Choice> = answers.collect();
+            let excesses = fresh::excesses(&setup, &[best], &answers, FIRST_SET, SHOTS);
+            let excesses: Vec<f64> = excesses.iter().map(|excess| excess.value).collect();
             let (name, contact) = (variant.name(), &known.contact);
             let failures = excesses.iter().filter(|&&excess| excess > 0.01).count();
             assert!(failures <= FAILURES, "{name}, {contact}: {excesses:.4?}");

@@ -1,7 +1,6 @@
 //! The problems that methods are compared on, and the runs of all methods on the shots of one seed.
 
 use std::error::Error;
-use std::path::Path;
 
 use peenpose::problem::setting::{Choice, Range};
 use peenpose::setup::Setup;
@@ -110,11 +109,6 @@ fn case(
         .ok_or("no best settings are known")?
         .choice(&setup.problem)?;
     Ok(Case { name, setup, known })
-}
-
-/// Reads the best settings known.
-pub fn read_known() -> Result<Vec<Known>, Box<dyn Error>> {
-    Known::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/best_known.csv"))
 }
 
 /// Evaluations of the thorough run that finds the least J on the shots of a seed.

@@ -30,7 +30,8 @@ use std::thread;
 
 use clap::Parser;
 
-use case::{Case, Run, cases, read_known};
+use case::{Case, Run, cases};
+use common::known::Known;
 use objective::Speed;
 
 /// Methods of optimisation on the same shots.
@@ -56,7 +57,7 @@ struct Arguments {
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
     let mut lines = vec![table::HEADER.to_string()];
-    for case in cases(&read_known()?, &arguments.only)? {
+    for case in cases(&Known::read()?, &arguments.only)? {
         let runs = all_runs(&case, &arguments);
         let excesses = table::true_excesses(&case, &runs);
         println!("{}", table::table(&case, &runs, &excesses));

@@ -7,6 +7,8 @@ use peenpose::problem::setting::Choice;
 use peenpose::setup::Setup;
 use rayon::prelude::*;
 
+use super::statistics::Mean;
+
 /// Shots of one set.
 const SHOTS_PER_SET: usize = 1 << 13;
 /// Far from every seed that a search is run with.
@@ -31,6 +33,29 @@ pub fn objectives(setup: &Setup, choices: &[Choice], first: u32, shots: usize) -
                     .total()
             };
             choices.iter().map(objective).collect()
+        })
+        .collect()
+}
+
+/// By how much J of each choice found is above that of the best of those known, relative to it, with
+/// the error of this on common shots; see [`objectives`].
+pub fn excesses(
+    setup: &Setup,
+    known: &[Choice],
+    found: &[Choice],
+    first: u32,
+    shots: usize,
+) -> Vec<Mean> {
+    let choices = [known, found].concat();
+    let objectives = objectives(setup, &choices, first, shots);
+    let mean = |index: usize| Mean::of_choice(&objectives, index).value;
+    let best = (0..known.len()).min_by(|&a, &b| mean(a).total_cmp(&mean(b)));
+    let reference = best.unwrap_or(0);
+    let scale = mean(reference);
+    (known.len()..choices.len())
+        .map(|index| {
+            let differences = objectives.iter().map(|set| set[index] - set[reference]);
+            Mean::of(differences.map(|difference| difference / scale))
         })
         .collect()
 }

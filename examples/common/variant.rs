@@ -43,7 +43,8 @@ pub fn variants() -> impl Iterator<Item = Variant> {
     })
 }
 
-fn path(file: &str) -> PathBuf {
+/// Where a shipped problem is.
+pub fn path(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("problems")
         .join(file)

@@ -15,7 +15,7 @@ mod coverage;
 mod runs;
 
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Parser;
 
@@ -48,8 +48,7 @@ struct Arguments {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
-    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/best_known.csv");
-    let known = Known::read(&table)?;
+    let known = Known::read()?;
     let mut run_lines = vec![runs::HEADER.to_string()];
     let mut coverage_lines = vec![coverage::HEADER.to_string()];
     println!("{}", runs::HEADER);

@@ -9,7 +9,7 @@ use peenpose::solve::{Control, Status, solve};
 
 use crate::common::fresh;
 use crate::common::known::Known;
-use crate::common::statistics::{Mean, median};
+use crate::common::statistics::median;
 use crate::common::variant::{Variant, contact_named};
 
 /// Names of the columns.
@@ -77,7 +77,8 @@ fn run(setup: &mut Setup, seed: u64) -> Run {
 }
 
 fn summary(setup: &Setup, best: &[Choice], runs: &[Run], shots: usize) -> String {
-    let mut excesses = excesses(setup, best, runs, shots);
+    let found: Vec<Choice> = runs.iter().map(|run| run.choice).collect();
+    let mut excesses = fresh::excesses(setup, best, &found, COMPARISON, shots);
     excesses.sort_by(|a, b| a.value.total_cmp(&b.value));
     let percent = |x: f64| 100.0 * x;
     let within = excesses
@@ -99,27 +100,6 @@ fn summary(setup: &Setup, best: &[Choice], runs: &[Run], shots: usize) -> String
         median(runs.iter().map(|run| run.seconds)),
         runs.len() - converged - spent,
     )
-}
-
-/// By how much J of each run is above that of the best settings known, relative to it, with the error
-/// of this on common shots.
-fn excesses(setup: &Setup, best: &[Choice], runs: &[Run], shots: usize) -> Vec<Mean> {
-    let choices: Vec<Choice> = best
-        .iter()
-        .copied()
-        .chain(runs.iter().map(|run| run.choice))
-        .collect();
-    let objectives = fresh::objectives(setup, &choices, COMPARISON, shots);
-    let mean = |index: usize| Mean::of_choice(&objectives, index).value;
-    let bests = (0..best.len()).min_by(|&a, &b| mean(a).total_cmp(&mean(b)));
-    let reference = bests.unwrap_or(0);
-    let scale = mean(reference);
-    (best.len()..choices.len())
-        .map(|index| {
-            let differences = objectives.iter().map(|set| set[index] - set[reference]);
-            Mean::of(differences.map(|difference| difference / scale))
-        })
-        .collect()
 }
 
 /// Answers are compared on sets of shots from here on, which found no best settings.

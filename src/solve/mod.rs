@@ -90,7 +90,8 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     let mut open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
-        refine(&models, &mut searches, &open, shots, control, &effort);
+        let stage = Stage::beyond(shots);
+        refine(&models, &mut searches, &open, &stage, control, &effort);
         claims = agree(&mut models, &mut searches, shots, control, &effort);
         answers = figures.renewed(answers, &searches);
         open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
@@ -127,26 +128,26 @@ fn agree(
     let mut claims = models.claims(searches, shots);
     while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
         let all: Vec<usize> = (0..searches.len()).collect();
-        refine(models, searches, &all, shots, control, effort);
+        let stage = Stage::beyond(shots);
+        refine(models, searches, &all, &stage, control, effort);
         claims = models.claims(searches, shots);
     }
     claims
 }
 
-/// Refines some of the searches with so many shots.
+/// Takes some of the searches through a stage, in turn.
 fn refine(
     models: &Models,
     searches: &mut [Search],
     which: &[usize],
-    shots: usize,
+    stage: &Stage,
     control: &Control,
     effort: &Effort,
 ) {
-    let samples = models.draw(shots);
+    let samples = models.draw(stage.shots);
     let judge = models.judge(&samples, effort, control);
-    let stage = Stage::beyond(shots);
     let accuracy = models.asked.problem.accuracy;
-    refine_in_turn(searches, which, &judge, &stage, accuracy);
+    refine_in_turn(searches, which, &judge, stage, accuracy);
     tell(control, effort, searches);
 }
 
@@ -206,18 +207,17 @@ fn advance(
     control: &Control,
     effort: &Effort,
 ) {
-    let samples = models.draw(stage.shots);
-    let judge = models.judge(&samples, effort, control);
-    let accuracy = models.asked.problem.accuracy;
-    if stage.shots <= CHEAP_SHOTS {
-        let each = searches.par_iter_mut();
-        each.for_each(|search| search.refine(&judge, stage, accuracy));
-    } else {
+    if stage.shots > CHEAP_SHOTS {
         let least = least_objective(searches);
         let could_win = |&index: &usize| is_in_reach(&searches[index], least);
         let open: Vec<usize> = (0..searches.len()).filter(could_win).collect();
-        refine_in_turn(searches, &open, &judge, stage, accuracy);
+        return refine(models, searches, &open, stage, control, effort);
     }
+    let samples = models.draw(stage.shots);
+    let judge = models.judge(&samples, effort, control);
+    let accuracy = models.asked.problem.accuracy;
+    let each = searches.par_iter_mut();
+    each.for_each(|search| search.refine(&judge, stage, accuracy));
     tell(control, effort, searches);
 }
 

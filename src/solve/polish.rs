@@ -73,12 +73,14 @@ impl CostFunction for &Descent<'_> {
         let best = leading[0].standing.rank();
         let candidate = Candidate::beside(best, self.space, self.judge, point);
         let rank = candidate.standing.rank();
+        let pairs = point.iter().zip(&candidate.point);
+        let outside: f64 = pairs.map(|(x, within)| (x - within).abs()).sum();
         let place = leading.partition_point(|other| other.standing.rank() <= rank);
         leading.insert(place, candidate);
         leading.truncate(self.corners.len());
         // Were it as flat beyond a bound as it is on it, a simplex would fall over to the outside and
         // never see that it is better inside.
-        Ok(rank * (1.0 + self.space.excess(point)))
+        Ok(rank * (1.0 + outside))
     }
 }
 

@@ -18,6 +18,17 @@ struct Axis {
     periodic: bool,
 }
 
+impl Axis {
+    /// The nearest coordinate within the bounds; a periodic axis has none.
+    fn within(&self, coordinate: f64) -> f64 {
+        if self.periodic {
+            coordinate
+        } else {
+            coordinate.clamp(0.0, 1.0)
+        }
+    }
+}
+
 impl Space {
     /// The space of a contact. The speed has an axis only where it cannot be taken out.
     pub fn new(problem: &Problem, contact: usize, search_speed: bool) -> Self {
@@ -61,26 +72,21 @@ impl Space {
     pub fn choice(&self, point: &[f64]) -> Choice {
         let mut choice = self.base;
         for (axis, &coordinate) in self.axes.iter().zip(point) {
+            let coordinate = axis.within(coordinate);
             let fraction = if axis.periodic {
                 coordinate.rem_euclid(1.0)
             } else {
-                coordinate.clamp(0.0, 1.0)
+                coordinate
             };
             choice = axis.setting.with(&choice, axis.range.at(fraction));
         }
         choice
     }
 
-    /// The nearest point within the bounds; a periodic axis has none.
+    /// The nearest point within the bounds.
     pub fn within(&self, point: &[f64]) -> Vec<f64> {
-        let bounded = |(axis, &x): (&Axis, &f64)| if axis.periodic { x } else { x.clamp(0.0, 1.0) };
-        self.axes.iter().zip(point).map(bounded).collect()
-    }
-
-    /// How far a point is outside the bounds, as a share of the ranges.
-    pub fn excess(&self, point: &[f64]) -> f64 {
-        let pairs = point.iter().zip(self.within(point));
-        pairs.map(|(x, within)| (x - within).abs()).sum()
+        let pairs = self.axes.iter().zip(point);
+        pairs.map(|(axis, &x)| axis.within(x)).collect()
     }
 
     /// The point of a choice.
