@@ -1,5 +1,7 @@
 //! The lines and arcs of a cross-section.
 
+mod crossing;
+
 use nalgebra::Point2;
 
 use super::coordinates::Coordinates;
@@ -10,6 +12,7 @@ use crate::problem::file::scene::SegmentEntry;
 use crate::problem::name::{NAME_EXPECTED, is_name};
 use crate::problem::part::{Ends, Segment};
 use crate::problem::rule::Rule;
+use crossing::cross;
 
 /// Two ends nearer than this are one, m.
 const SAME_POINT: f64 = 1e-9;
@@ -71,7 +74,7 @@ pub(super) fn check(
     let profile: Vec<Segment> = segments.into_iter().collect::<Option<_>>()?;
     let closed = ends.is_none_or(|ends| !(ends.near_closed || ends.far_closed))
         || outlines_close(scope, &profile);
-    let plain = no_lines_cross(scope, &profile);
+    let plain = no_outline_crosses_itself(scope, &profile);
     (closed && plain).then_some(profile)
 }
 
@@ -195,8 +198,8 @@ fn is_straight(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> bool {
     shortest <= SAME_POINT || ab.perp(&ac).abs() <= 1e-9 * longest * longest
 }
 
-/// Whether no straight line of an outline crosses another one of the same outline.
-fn no_lines_cross(scope: &Scope<'_>, profile: &[Segment]) -> bool {
+/// Whether no segment of an outline crosses another one of the same outline.
+fn no_outline_crosses_itself(scope: &Scope<'_>, profile: &[Segment]) -> bool {
     let mut plain = true;
     let mut start = 0;
     for (index, segment) in profile.iter().enumerate() {
@@ -204,26 +207,16 @@ fn no_lines_cross(scope: &Scope<'_>, profile: &[Segment]) -> bool {
             start = index;
         }
         let mut earlier = profile[start..index].iter().zip(start..);
-        if let Some((_, crossed)) = earlier.find(|(other, _)| lines_cross(other, segment)) {
+        if let Some((other, crossed)) = earlier.find(|(other, _)| cross(other, segment)) {
             let item = scope.item(index);
-            let message = format!("crosses the line of profile[{crossed}]");
+            let kind = if other.via.is_some() { "arc" } else { "line" };
+            let message = format!("crosses the {kind} of profile[{crossed}]");
             let fault = item.own_fault(Rule::CrossingOutline, message);
             item.report(fault.expecting("an outline that does not cross itself"));
             plain = false;
         }
     }
     plain
-}
-
-/// Whether both segments are lines, with the ends of each on different sides of the other.
-fn lines_cross(one: &Segment, other: &Segment) -> bool {
-    let parts = |line: &Segment, by: &Segment| {
-        let along = line.to - line.from;
-        let side = |point: Point2<f64>| along.perp(&(point - line.from)) / along.norm();
-        let (from, to) = (side(by.from), side(by.to));
-        from.min(to) < -SAME_POINT && from.max(to) > SAME_POINT
-    };
-    one.via.is_none() && other.via.is_none() && parts(one, other) && parts(other, one)
 }
 
 /// Whether the second segment begins where the first one ends.
