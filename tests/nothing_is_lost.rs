@@ -170,7 +170,7 @@ fn a_checkpoint_that_was_cut_short_anywhere_is_gone_on_from() {
         );
         assert_eq!(timeless(&again.stdout), timeless(&whole.stdout), "{length}");
         let after = fs::read(&path).unwrap();
-        assert!(after.starts_with(b"peenpose checkpoint 1\n"), "{length}");
+        assert!(after.starts_with(b"peenpose checkpoint 2\n"), "{length}");
         assert_eq!(distinct(&after), distinct(&lines), "{length}");
     }
 }
@@ -195,9 +195,22 @@ fn what_is_no_checkpoint_or_damaged_or_in_use_is_said() {
     assert!(refused(kept).contains("checkpoint.txt is not a checkpoint"));
     assert_eq!(fs::read(&path).unwrap(), b"shopping list\nshot");
 
-    let damaged = "peenpose checkpoint 1\n0123 {\"speed\":1.0}\nnonsense\n4567 1\n";
-    fs::write(&path, damaged).unwrap();
-    assert!(refused(kept).contains("checkpoint.txt:3: the checkpoint is damaged"));
+    fs::remove_file(&path).unwrap();
+    run(&["solve", PLATE, "--checkpoint", kept]);
+    let whole = fs::read_to_string(&path).unwrap();
+    let third = whole.lines().nth(2).unwrap();
+    let digit = third.rfind(|c: char| c.is_ascii_digit()).unwrap();
+    let other = if third[digit..].starts_with('1') {
+        "2"
+    } else {
+        "1"
+    };
+    let mut changed = third.to_owned();
+    changed.replace_range(digit..=digit, other);
+    for damaged in ["nonsense", &changed] {
+        fs::write(&path, whole.replace(third, damaged)).unwrap();
+        assert!(refused(kept).contains("checkpoint.txt:3: the checkpoint is damaged"));
+    }
 
     fs::write(&path, "").unwrap();
     let user = OpenOptions::new().write(true).open(&path).unwrap();
