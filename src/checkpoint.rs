@@ -2,7 +2,8 @@
 //!
 //! What settings do on given shots depends on nothing but the scene, the problem and those shots. A
 //! run that finds it in the file takes it from there and does the rest: it ends with the same bits
-//! as one that was never interrupted. Work of another problem in the same file is never taken.
+//! as one that was never interrupted. Work of another problem in the same file is never taken, nor
+//! is what no work can have come to.
 
 mod log;
 
@@ -92,10 +93,11 @@ impl Checkpoint {
         }
     }
 
-    fn recall<T: DeserializeOwned>(&self, key: &Key) -> Option<T> {
-        let value = serde_json::from_str(self.known.get(key)?).ok()?;
+    fn recall<T: DeserializeOwned>(&self, key: &Key, is_sound: impl Fn(&T) -> bool) -> Option<T> {
+        let outcome = serde_json::from_str(self.known.get(key)?).ok();
+        let outcome = outcome.filter(is_sound)?;
         self.recalled.fetch_add(1, Ordering::Relaxed);
-        Some(value)
+        Some(outcome)
     }
 
     fn keep<T: Serialize>(&self, key: &Key, value: &T) {
@@ -119,13 +121,20 @@ pub(crate) struct Page<'a> {
 
 impl Page<'_> {
     /// The outcome of work on a choice of settings: from the file, or else done and written down.
-    /// `beside` is what else it depends on.
-    pub fn recall_or<T>(&self, choice: &Choice, beside: &[f64], work: impl FnOnce() -> T) -> T
+    /// `beside` is what else it depends on; `is_sound` whether an outcome is one that work can come to,
+    /// as anybody can write a file.
+    pub fn recall_or<T>(
+        &self,
+        choice: &Choice,
+        beside: &[f64],
+        is_sound: impl Fn(&T) -> bool,
+        work: impl FnOnce() -> T,
+    ) -> T
     where
         T: Serialize + DeserializeOwned,
     {
         let key = self.key(choice, beside);
-        self.checkpoint.recall(&key).unwrap_or_else(|| {
+        self.checkpoint.recall(&key, is_sound).unwrap_or_else(|| {
             let outcome = work();
             self.checkpoint.keep(&key, &outcome);
             outcome

@@ -98,16 +98,23 @@ impl Map {
         } else {
             (0..count).map(|index| vec![index]).collect()
         };
-        let cells_of = |group: Vec<usize>| {
-            let work = || cells_on_one_path(setup, &group, place, &deviates);
+        let cells_of = |group: &Vec<usize>| {
+            let work = || cells_on_one_path(setup, group, place, &deviates);
+            let are_sound = |cells: &Vec<Option<Cell>>| {
+                cells.len() == group.len() && cells.iter().flatten().all(Cell::is_sound)
+            };
             match (&page, group.first()) {
-                (Some(page), Some(&first)) => page.recall_or(&place(first), &[], work),
+                (Some(page), Some(&first)) => page.recall_or(&place(first), &[], are_sound, work),
                 _ => work(),
             }
         };
-        let found: Vec<Vec<(usize, Option<Cell>)>> = groups.into_par_iter().map(cells_of).collect();
+        let found: Vec<Vec<Option<Cell>>> = groups.par_iter().map(cells_of).collect();
         let mut cells = vec![None; count];
-        for (index, cell) in found.into_iter().flatten() {
+        for (index, cell) in groups
+            .into_iter()
+            .flatten()
+            .zip(found.into_iter().flatten())
+        {
             cells[index] = cell;
         }
         Self {
@@ -120,22 +127,30 @@ impl Map {
     }
 }
 
+impl Cell {
+    /// Whether shots can do this.
+    fn is_sound(&self) -> bool {
+        let share = self.share_sticking.unwrap_or_default();
+        self.terms.are_sound() && (0.0..=1.0).contains(&share)
+    }
+}
+
 /// The cells of places that differ in nothing but a speed on which no path depends.
 fn cells_on_one_path(
     setup: &Setup,
     group: &[usize],
     place: impl Fn(usize) -> Choice,
     shots: &[Deviate],
-) -> Vec<(usize, Option<Cell>)> {
+) -> Vec<Option<Cell>> {
     let Some(&first) = group.first() else {
         return Vec::new();
     };
     let choice = place(first);
     if clearance_violation(setup, &choice).is_some() {
-        return group.iter().map(|&index| (index, None)).collect();
+        return vec![None; group.len()];
     }
     let survey = Survey::of(setup, &choice, shots);
-    let cell = |&index: &usize| (index, Some(cell(setup, &survey, place(index).speed)));
+    let cell = |&index: &usize| Some(cell(setup, &survey, place(index).speed));
     group.iter().map(cell).collect()
 }
 

@@ -30,6 +30,17 @@ impl Terms {
     pub fn total(&self) -> f64 {
         self.normal_impulse + self.tangential_impulse + self.rebound + self.miss
     }
+
+    /// Whether shots can have such terms: none is below 0.
+    pub(crate) fn are_sound(&self) -> bool {
+        let terms = [
+            self.normal_impulse,
+            self.tangential_impulse,
+            self.rebound,
+            self.miss,
+        ];
+        terms.iter().all(|term| *term >= 0.0)
+    }
 }
 
 /// Sums over shots from which the terms follow; those of several sets of shots add up.

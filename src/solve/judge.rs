@@ -12,7 +12,7 @@ use crate::checkpoint::{Checkpoint, Page};
 use crate::jet::{Deviate, Pose};
 use crate::objective::{Tally, Terms};
 use crate::precision::Precision;
-use crate::problem::setting::Choice;
+use crate::problem::setting::{Choice, Range};
 use crate::setup::Setup;
 
 /// What a choice of settings is worth on a set of shots.
@@ -36,6 +36,14 @@ impl Standing {
                 let millimetres = violation * 1e3;
                 WORST_OBJECTIVE * (1.0 + millimetres / (1.0 + millimetres))
             }
+        }
+    }
+
+    /// Whether there can be such a standing.
+    fn is_sound(&self) -> bool {
+        match self {
+            Self::Feasible(terms) => terms.are_sound(),
+            Self::Blocked(violation) => *violation >= 0.0 && self.rank().is_finite(),
         }
     }
 
@@ -85,6 +93,17 @@ struct Judged {
     standing: Standing,
     rays: usize,
 }
+
+impl Judged {
+    /// Whether judging a choice can come to this: the best speed is its own, or one within the range.
+    fn is_sound(&self, choice: &Choice, range: Range) -> bool {
+        let is_allowed = self.speed == choice.speed || range.contains(self.speed);
+        is_allowed && self.standing.is_sound() && self.rays <= MOST_RAYS
+    }
+}
+
+/// More rays than any pose takes, and few enough for those of any number of poses to be added.
+const MOST_RAYS: usize = u32::MAX as usize;
 
 /// Judges choices on common shots.
 pub struct Judge<'a> {
@@ -149,7 +168,11 @@ impl<'a> Judge<'a> {
             None => best,
         };
         let judged = match &self.page {
-            Some(page) => page.recall_or(choice, &[best], || self.judge_anew(choice, best)),
+            Some(page) => {
+                let range = self.setup.problem.settings.speed;
+                let is_sound = |judged: &Judged| judged.is_sound(choice, range);
+                page.recall_or(choice, &[best], is_sound, || self.judge_anew(choice, best))
+            }
             None => self.judge_anew(choice, best),
         };
         self.effort.add(1, judged.rays);
