@@ -339,7 +339,7 @@ fn bad_tables_are_refused_with_file_and_line() {
         ),
         (
             "method,speed,seconds,excess\n\ngrid,1,0,3\n",
-            "bad.csv:3: seconds: `0` must be above 0",
+            "bad.csv:3: seconds: `0` must be from 1e-9 to 1e9",
         ),
         (
             "method,speed,seconds,excess\ngrid,1,2\n",

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use peenpose::chart::BesidePoint;
 use peenpose::problem::size;
 use peenpose::scene::mesh_file;
 use peenpose::{chart, checkpoint, problem, record};
@@ -263,6 +264,35 @@ fn results_and_tables() {
             "{said}"
         );
     }
+}
+
+#[test]
+fn tables_of_other_methods() {
+    let refusal = |rows: &str| {
+        let table = format!("method,speed,seconds,excess\n{rows}");
+        let refused = BesidePoint::read_all(&table).err();
+        refused.map(|fault| fault.message).unwrap_or_default()
+    };
+    let holds = |what: &str, limit: usize, rows: &dyn Fn(usize) -> String| {
+        let row = row(what);
+        assert_eq!(row.limit, limit.to_string(), "{what}");
+        assert_eq!(refusal(&rows(limit)), "", "{what}");
+        let said = refusal(&rows(limit + 1));
+        assert!(said.contains(&row.said), "{what}: {said}");
+    };
+    holds("runs in it", chart::MOST_RUNS, &|runs| {
+        "grid,1,1,1\n".repeat(runs)
+    });
+    holds("methods in it", chart::MOST_METHODS, &|methods| {
+        (0..methods).map(|it| format!("m{it},1,1,1\n")).collect()
+    });
+    let what = "characters of a method";
+    holds(what, chart::LONGEST_NAME, &|length| {
+        format!("{},1,1,1\n", "ü".repeat(length))
+    });
+    holds(what, chart::LONGEST_NAME, &|length| {
+        format!("grid,{},1,1\n", "ü".repeat(length))
+    });
 }
 
 #[test]

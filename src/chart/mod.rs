@@ -13,7 +13,7 @@ mod sampling;
 mod search;
 mod timing;
 
-pub use beside::{BesideFault, BesidePoint, LARGEST_TABLE};
+pub use beside::{BesideFault, BesidePoint, LARGEST_TABLE, LONGEST_NAME, MOST_METHODS, MOST_RUNS};
 pub use control::{Control, Step};
 pub use effect::Effect;
 pub use pose::{PoseCurve, PosePoint, Walls};
