@@ -63,6 +63,16 @@ fn records_can_be_shown_whatever_they_say() {
 }
 
 #[test]
+fn checkpoints_are_refused_or_lead_to_the_same_answer() {
+    replay("checkpoint", targets::checkpoint::run);
+}
+
+#[test]
+fn tables_of_other_methods_are_sensible_or_refused() {
+    replay("beside", targets::beside::run);
+}
+
+#[test]
 fn numbers_beyond_the_precision_of_pictures_are_refused() {
     let read = |number: f64| {
         let mut whole = targets::record::whole();

@@ -3,7 +3,10 @@
 //! Plain functions, so that `cargo test --test fuzzed` replays with the stable compiler what the
 //! fuzzer found.
 
+pub mod beside;
 mod bytes;
+pub mod checkpoint;
+mod checkpoint_edit;
 pub mod impact;
 pub mod mesh_file;
 pub mod problem;

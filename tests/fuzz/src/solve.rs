@@ -65,7 +65,8 @@ pub fn run(data: &[u8]) {
     report::page(&record).expect("a page can be made of every record");
 }
 
-fn is_legal(setup: &Setup, answer: &Answer, problem: &str) {
+/// Settings are within their ranges, and figures are shares.
+pub fn is_legal(setup: &Setup, answer: &Answer, problem: &str) {
     let (settings, choice) = (&setup.problem.settings, &answer.choice);
     for (range, value) in [
         (settings.incidence, choice.incidence),
