@@ -1,5 +1,10 @@
 //! How much rounding may move the impacts of a path: what a small change of the shot grows to until
-//! then, which has no limit where a shot grazes a round wall.
+//! then, which has no limit where a shot grazes a round wall or comes to an edge between two facets.
+//!
+//! A mesh that is turned has its corners rounded anew, to 1e-17 m where it stands 0.1 m from the origin;
+//! its facets, at least 0.2 mm high here, are tilted by up to 1e-13. What is allowed for is ten times that.
+//! Beyond an edge a facet is tilted by far more: whichever shot comes to one as near as it is nudged
+//! is compared up to there. Of 256 shots 99 % are compared to their end, and in each world an eighth.
 
 use nalgebra::Vector3;
 use peenpose::jet::Deviate;
@@ -7,7 +12,7 @@ use peenpose::setup::Setup;
 use peenpose::trace::{PathImpact, Tracer};
 
 use crate::held::held;
-use crate::world::path;
+use crate::view::path;
 
 /// Relative rounding of a place, a direction or a speed where nothing makes it grow.
 const ROUNDING: f64 = 1e-12;
@@ -26,14 +31,10 @@ pub fn roundings(setup: &Setup, shot: &Deviate) -> Vec<f64> {
     let size = setup.scene.size();
     let choice = held(setup);
     let momentum = setup.problem.shot.mass() * choice.speed;
-    let exit = Tracer::new(setup, &choice, choice.speed)
-        .launch(shot)
-        .origin;
-    let here = path(setup, shot);
-    if here.first().is_some_and(|first| first.centre == exit) {
-        // It leaves the nozzle inside a wall, or inside two at once.
+    if starts_in_a_wall(setup, shot) {
         return Vec::new();
     }
+    let here = path(setup, shot);
     let beside = beside(shot, size).map(|shot| path(setup, &shot));
     // Of what comes in at the start and at each impact, what it is worth at the start.
     let mut sources = 1.0;
@@ -52,6 +53,15 @@ pub fn roundings(setup: &Setup, shot: &Deviate) -> Vec<f64> {
         all.push(off);
     }
     all
+}
+
+/// Whether a shot leaves the nozzle inside a wall, or inside two at once.
+pub fn starts_in_a_wall(setup: &Setup, shot: &Deviate) -> bool {
+    let choice = held(setup);
+    let tracer = Tracer::new(setup, &choice, choice.speed);
+    let exit = tracer.launch(shot).origin;
+    let path = path(setup, shot);
+    path.first().is_some_and(|first| first.centre == exit)
 }
 
 /// The shot with each coordinate of its exit and of its direction nudged.

@@ -8,7 +8,8 @@ use proptest::prelude::*;
 
 use crate::cases::cases;
 use crate::held::held;
-use crate::world::{PLAIN, path, world};
+use crate::view::{PLAIN, path};
+use crate::world::{meshed_world, world};
 
 /// Relative to the speeds of an impact; ten times that of impacts on normals of exactly unit length.
 const ROUNDING: f64 = 1e-11;
@@ -72,11 +73,13 @@ fn obeys_mechanics(
 }
 
 proptest! {
-    #![proptest_config(cases(100))]
+    #![proptest_config(cases(200))]
 
     /// Every impact, the free flights between them, and what the impulses of a path add up to.
     #[test]
-    fn every_impact_and_flight_of_a_path_obeys_mechanics(world in world()) {
+    fn every_impact_and_flight_of_a_path_obeys_mechanics(
+        world in prop_oneof![world(), meshed_world()],
+    ) {
         let setup = PLAIN.of(&world);
         let choice = held(&setup);
         let tracer = Tracer::new(&setup, &choice, choice.speed);
@@ -99,7 +102,7 @@ proptest! {
                 // The shot touches the wall and no more.
                 let gap = (impact.centre - impact.point).dot(&impact.normal);
                 let radius = setup.problem.shot.radius * shot.size;
-                let expected = if world.shots_have_size() { radius } else { 0.0 };
+                let expected = if world.shots_have_size { radius } else { 0.0 };
                 prop_assert!((gap - expected).abs() <= ROUNDING * setup.scene.size());
                 let across = impact.velocity - before.velocity;
                 let across = across - impact.normal * across.dot(&impact.normal);

@@ -8,5 +8,8 @@ mod conditioning;
 #[path = "../common/held.rs"]
 mod held;
 mod laws;
+mod mesh_views;
+mod meshes;
+mod view;
 mod views;
 mod world;

@@ -11,9 +11,10 @@ use proptest::prelude::*;
 use crate::cases::cases;
 use crate::conditioning::{MOST, is_steady, roundings};
 use crate::held::held;
-use crate::world::{PLAIN, View, World, path, world};
+use crate::view::{PLAIN, View, path};
+use crate::world::{World, world};
 
-fn shots(setup: &Setup, count: usize) -> Vec<Deviate> {
+pub fn shots(setup: &Setup, count: usize) -> Vec<Deviate> {
     Samples::new(&setup.problem, Stream::Search, count).deviates
 }
 
@@ -113,7 +114,7 @@ impl Comparison<'_> {
 }
 
 /// Both, from the same shots; in a view of another scale the exit is scaled as well.
-fn same_in(view: &View, world: &World) -> Result<(), TestCaseError> {
+pub fn same_in(view: &View, world: &World) -> Result<(), TestCaseError> {
     let (one, other) = (PLAIN.of(world), view.of(world));
     let rotation = view.rotation();
     let turned = |vector: &Vector3<f64>| rotation * vector;
@@ -146,13 +147,29 @@ fn mirrored_pairs(setup: &Setup) -> Vec<Pair> {
     shots.map(|shot| [shot, mirrored(&shot)]).collect()
 }
 
+/// The same in a mirror.
+pub fn same_in_mirror(world: &World) -> Result<(), TestCaseError> {
+    let (one, other) = (PLAIN.of(world), PLAIN.of(&world.mirrored()));
+    let flip = Vector3::new(-1.0, 1.0, 1.0);
+    let comparison = Comparison {
+        places: &|place| place.component_mul(&flip),
+        directions: &|direction| direction.component_mul(&flip),
+        axes: &|axis| -axis.component_mul(&flip),
+        impulse: 1.0,
+        speed: 1.0,
+    };
+    let pairs = mirrored_pairs(&one);
+    comparison.paths(&one, &other, &pairs[..16])?;
+    terms_are_close(&one, &other, &pairs)
+}
+
 fn evaluation(setup: &Setup) -> Evaluation {
     let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, 256);
     evaluate(setup, &held(setup), &fresh)
 }
 
 /// Every figure of an evaluation, and those of each surface with its name without a prefix.
-fn figures(setup: &Setup, prefix: &str) -> (String, Vec<(String, String)>) {
+pub fn figures(setup: &Setup, prefix: &str) -> (String, Vec<(String, String)>) {
     let Evaluation {
         terms,
         term_errors,
@@ -208,18 +225,7 @@ proptest! {
 
     #[test]
     fn mirrored_worlds_have_mirrored_paths(world in world()) {
-        let (one, other) = (PLAIN.of(&world), PLAIN.of(&world.mirrored()));
-        let flip = Vector3::new(-1.0, 1.0, 1.0);
-        let comparison = Comparison {
-            places: &|place| place.component_mul(&flip),
-            directions: &|direction| direction.component_mul(&flip),
-            axes: &|axis| -axis.component_mul(&flip),
-            impulse: 1.0,
-            speed: 1.0,
-        };
-        let pairs = mirrored_pairs(&one);
-        comparison.paths(&one, &other, &pairs[..16])?;
-        terms_are_close(&one, &other, &pairs)?;
+        same_in_mirror(&world)?;
     }
 
     /// From either side of a symmetric slot: exactly with mirrored shots, and within five standard
@@ -228,7 +234,7 @@ proptest! {
     fn both_sides_of_a_symmetric_slot_are_alike(world in world()) {
         let world = world.symmetric();
         let one = PLAIN.of(&world);
-        let other = PLAIN.of(&world.with_azimuth(-world.azimuth()));
+        let other = PLAIN.of(&world.with_azimuth(-world.azimuth));
         let pairs = mirrored_pairs(&one);
         terms_are_close(&one, &other, &pairs)?;
         let [one, other] = [evaluation(&one), evaluation(&other)];

@@ -1,44 +1,38 @@
-//! Worlds at random: a slot with a round floor, a pin in it and a lid over it; and views of the same
-//! world from elsewhere, in other units, at another scale, in a mirror, under other names.
+//! Worlds at random: a slot with a round floor, a pin in it and a lid over it.
 
-use std::fmt::Write as _;
-use std::path::Path;
-
-use nalgebra::{Point3, UnitQuaternion, Vector3};
-use peenpose::jet::Deviate;
-use peenpose::problem;
-use peenpose::scene::Walls;
-use peenpose::setup::Setup;
-use peenpose::trace::{PathImpact, Tracer};
+use nalgebra::Point3;
 use proptest::prelude::*;
 
-use crate::held::held;
+use crate::meshes::Mesh;
 
 /// Lengths in mm, angles in degrees.
 #[derive(Clone, Copy, Debug)]
 pub struct World {
     /// Half the width of the slot at its mouth, to either side.
-    mouth: [f64; 2],
+    pub mouth: [f64; 2],
     /// The same at its foot.
-    foot: [f64; 2],
-    depth: f64,
+    pub foot: [f64; 2],
+    pub depth: f64,
     /// How far the middle of the floor lies below its ends.
-    sag: f64,
+    pub sag: f64,
     /// Centre and diameter of the pin, which runs along the slot.
-    pin: [f64; 3],
-    radius: f64,
-    density: f64,
+    pub pin: [f64; 3],
+    pub radius: f64,
+    pub density: f64,
     /// mu_s, mu_d over mu_s, restitution and its exponent: 0 for one that does not fall with speed.
-    contact: [f64; 4],
+    pub contact: [f64; 4],
     /// Of the pin.
-    hard: [f64; 4],
-    incidence: f64,
-    azimuth: f64,
-    standoff: f64,
-    speed: f64,
-    shots_have_size: bool,
+    pub hard: [f64; 4],
+    pub incidence: f64,
+    pub azimuth: f64,
+    pub standoff: f64,
+    pub speed: f64,
+    pub shots_have_size: bool,
     /// Whether the left and the right wall may take less than the rest.
-    is_weak: [bool; 2],
+    pub is_weak: [bool; 2],
+    /// Of the bumps, where slot and pin are meshes.
+    pub bumps: Option<u32>,
+    pub is_mirrored: bool,
 }
 
 fn contact() -> impl Strategy<Value = [f64; 4]> {
@@ -82,7 +76,17 @@ pub fn world() -> impl Strategy<Value = World> {
             speed,
             shots_have_size,
             is_weak: [false, true],
+            bumps: None,
+            is_mirrored: false,
         }
+    })
+}
+
+/// The same with slots and pins of triangles.
+pub fn meshed_world() -> impl Strategy<Value = World> {
+    (world(), any::<u32>()).prop_map(|(world, seed)| World {
+        bumps: Some(seed),
+        ..world
     })
 }
 
@@ -111,249 +115,65 @@ impl World {
             pin: [-x, y, diameter],
             azimuth: -self.azimuth,
             is_weak,
+            is_mirrored: !self.is_mirrored,
             ..self
         }
+    }
+
+    /// Slot and pin, where they are meshes.
+    pub fn meshes(&self) -> Option<[Mesh; 2]> {
+        const BUMP: f64 = 0.1;
+        let seed = self.bumps?;
+        if self.is_mirrored {
+            let meshes = self.mirrored().meshes();
+            return meshes.map(|meshes| meshes.map(Mesh::mirrored));
+        }
+        let [left, right] = [0, 1].map(|side| [self.foot[side], self.mouth[side]]);
+        let wall = |[foot, mouth]: [f64; 2], share: f64| {
+            [foot + share * (mouth - foot), share * self.depth]
+        };
+        let floor = |share: f64| {
+            let x = left[0] + right[0];
+            [share * x - left[0], -4.0 * self.sag * share * (1.0 - share)]
+        };
+        let on_left = |share| {
+            let [x, y] = wall(left, share);
+            ([-x, y], "left")
+        };
+        let section = [
+            on_left(1.0),
+            on_left(0.7),
+            on_left(0.3),
+            (floor(0.0), "floor"),
+            (floor(0.3), "floor"),
+            (floor(0.6), "floor"),
+            (floor(1.0), "right"),
+            (wall(right, 0.3), "right"),
+            (wall(right, 0.7), "right"),
+        ];
+        let [x, y, diameter] = self.pin;
+        let slot = Mesh::walls(&section, wall(right, 1.0), BUMP, seed);
+        let pin = Mesh::rod([x, y], 0.5 * diameter, 22.0, 2.0 * BUMP, seed);
+        Some([slot, pin])
+    }
+
+    /// Where the nozzle aims: the lowest line of a round floor, or the middle of a triangle, on whose
+    /// edges the direction to aim from would be that of either side.
+    pub fn aim(&self) -> [f64; 3] {
+        let lowest = Point3::new(0.0, -self.sag, 0.0);
+        let aim = match self.meshes() {
+            Some([slot, _]) => slot.nearest_centre("floor", &lowest),
+            None => lowest,
+        };
+        aim.coords.into()
     }
 
     pub fn with_azimuth(self, azimuth: f64) -> Self {
         Self { azimuth, ..self }
     }
 
-    pub fn azimuth(&self) -> f64 {
-        self.azimuth
-    }
-
-    pub fn shots_have_size(&self) -> bool {
-        self.shots_have_size
-    }
-
     /// The largest static friction.
     pub fn friction(&self) -> f64 {
         self.contact[0].max(self.hard[0])
     }
-}
-
-/// How a world is written down.
-#[derive(Clone, Debug)]
-pub struct View {
-    /// How many of them are a metre, and its name.
-    pub unit: (f64, &'static str),
-    /// Factors on lengths, densities and speeds.
-    pub length: f64,
-    pub density: f64,
-    pub speed: f64,
-    /// Angles about fixed x, then y, then z, degrees.
-    pub turn: [f64; 3],
-    /// m.
-    pub shift: Vector3<f64>,
-    /// What all names begin with.
-    pub prefix: &'static str,
-    /// Whether parts, rules of surfaces, contacts and sections come in the opposite order.
-    pub backwards: bool,
-}
-
-pub const PLAIN: View = View {
-    unit: (1e3, "mm"),
-    length: 1.0,
-    density: 1.0,
-    speed: 1.0,
-    turn: [0.0; 3],
-    shift: Vector3::new(0.0, 0.0, 0.0),
-    prefix: "",
-    backwards: false,
-};
-
-impl View {
-    pub fn rotation(&self) -> UnitQuaternion<f64> {
-        let [x, y, z] = self.turn.map(f64::to_radians);
-        UnitQuaternion::from_euler_angles(x, y, z)
-    }
-
-    /// Where a point of the plain view is, m.
-    pub fn there(&self, point: &Point3<f64>) -> Point3<f64> {
-        self.rotation() * (point * self.length) + self.shift
-    }
-
-    /// The factor on impulses.
-    pub fn impulse(&self) -> f64 {
-        self.length.powi(3) * self.density * self.speed
-    }
-
-    fn list(&self, [x, y, z]: [f64; 3]) -> String {
-        let unit = self.unit.0;
-        format!("[{:?}, {:?}, {:?}]", x * unit, y * unit, z * unit)
-    }
-
-    /// A point of the plain view, mm.
-    fn point(&self, [x, y, z]: [f64; 3]) -> String {
-        let there = self.there(&Point3::new(x * 1e-3, y * 1e-3, z * 1e-3));
-        self.list(there.coords.into())
-    }
-
-    fn metres(&self, millimetres: f64) -> f64 {
-        millimetres * 1e-3 * self.length
-    }
-
-    fn size(&self, millimetres: f64) -> String {
-        let length = self.metres(millimetres) * self.unit.0;
-        format!("{length:?} {}", self.unit.1)
-    }
-
-    fn place(&self, at: [f64; 3]) -> String {
-        let [x, y, z] = self.turn;
-        let at = self.point(at);
-        format!("place: {{ at: {at}, rotate: [{x:?} deg, {y:?} deg, {z:?} deg] }}")
-    }
-
-    fn contact(&self, [static_friction, ratio, restitution, exponent]: [f64; 4]) -> String {
-        let restitution = if exponent > 0.0 {
-            let at = 10.0 * self.speed;
-            format!("{{ value: {restitution:?}, at: {at:?} m/s, exponent: {exponent:?} }}")
-        } else {
-            format!("{restitution:?}")
-        };
-        let dynamic = static_friction * ratio;
-        format!("{{ mu_s: {static_friction:?}, mu_d: {dynamic:?}, restitution: {restitution} }}")
-    }
-
-    /// Lines under a heading.
-    fn section(&self, heading: &str, mut lines: Vec<String>) -> String {
-        if self.backwards {
-            lines.reverse();
-        }
-        let mut text = format!("{heading}:\n");
-        lines
-            .iter()
-            .for_each(|line| writeln!(text, "  {line}").unwrap());
-        text
-    }
-
-    fn parts(&self, world: &World) -> String {
-        let prefix = self.prefix;
-        let flat = |x: f64, y: f64| {
-            let unit = self.unit.0;
-            format!("[{:?}, {:?}]", self.metres(x) * unit, self.metres(y) * unit)
-        };
-        let (World { mouth, foot, .. }, depth) = (world, world.depth);
-        let slot = format!(
-            "{prefix}slot: {{ {}, extrude: {{ length: {}, profile: [ \
-             {{ from: {}, line_to: {}, surface: {prefix}left }}, \
-             {{ arc_to: {}, via: {}, surface: {prefix}floor }}, \
-             {{ line_to: {}, surface: {prefix}right }} ] }} }}",
-            self.place([0.0, 0.0, -15.0]),
-            self.size(30.0),
-            flat(-mouth[0], depth),
-            flat(-foot[0], 0.0),
-            flat(foot[1], 0.0),
-            flat(0.0, -world.sag),
-            flat(mouth[1], depth),
-        );
-        let [x, y, diameter] = world.pin;
-        let pin = format!(
-            "{prefix}pin: {{ {}, bore: {{ diameter: {}, length: {}, ends: closed }} }}",
-            self.place([x, y, -11.0]),
-            self.size(diameter),
-            self.size(22.0),
-        );
-        let (low, high) = ([-6.0, depth + 4.0, -15.0], [6.0, depth + 5.0, 15.0]);
-        let corner = |corner: [f64; 3]| self.list(corner.map(|x| self.metres(x)));
-        let lid = format!(
-            "{prefix}lid: {{ {}, box: {{ min: {}, max: {} }} }}",
-            self.place([0.0; 3]),
-            corner(low),
-            corner(high),
-        );
-        self.section("scene", vec![slot, pin, lid])
-    }
-
-    fn rules(&self, world: &World) -> String {
-        let prefix = self.prefix;
-        let allow = 1e-6 * self.impulse();
-        let walls = ["left", "right"].into_iter().zip(world.is_weak);
-        let weak = walls.filter(|(_, is_weak)| *is_weak);
-        let mut rules: Vec<String> = weak
-            .map(|(wall, _)| format!("{prefix}slot.{prefix}{wall}: {{ allow: {allow:?} N.s }}"))
-            .collect();
-        rules.push(format!(
-            "{prefix}pin.wall: {{ contact: {} }}",
-            self.contact(world.hard)
-        ));
-        self.section("surfaces", rules)
-    }
-
-    fn text(&self, world: &World) -> String {
-        let prefix = self.prefix;
-        let impulse = |newton_seconds: f64| format!("{:?} N.s", newton_seconds * self.impulse());
-        let along = self.rotation() * Vector3::z();
-        let mut sections = vec![
-            self.parts(world),
-            format!(
-                "target: {{ surface: {prefix}slot.{prefix}floor, aim: {}, along: [{:?}, {:?}, {:?}] }}\n",
-                self.point([0.0, -world.sag, 0.0]),
-                along.x,
-                along.y,
-                along.z
-            ),
-            format!(
-                "shot: {{ radius: {}, density: {:?} kg/m3 }}\n",
-                self.size(world.radius),
-                world.density * self.density
-            ),
-            format!(
-                "jet: {{ exit_diameter: {}, divergence: 5 deg, speed_spread: 5 % }}\n",
-                self.size(0.7)
-            ),
-            self.section(
-                "contacts",
-                vec![
-                    format!("{prefix}soft: {}", self.contact(world.contact)),
-                    format!("{prefix}hard: {}", self.contact(world.hard)),
-                ],
-            ),
-            format!(
-                "settings: {{ incidence: {:?} deg, azimuth: {:?} deg, standoff: {}, speed: {:?} m/s, \
-                 contact: {prefix}soft }}\n",
-                world.incidence,
-                world.azimuth,
-                self.size(world.standoff),
-                world.speed * self.speed
-            ),
-            format!(
-                "goals: {{ normal_impulse: {{ target: {} }}, tangential_impulse: {{ limit: {} }}, \
-                 rebound: {{ allow: {} }}, miss: {{ weight: 2 }} }}\n",
-                impulse(5e-6),
-                impulse(1e-6),
-                impulse(3e-6)
-            ),
-            self.rules(world),
-            "paths: { impacts: 5, least_energy: 0.1 % }\n".to_owned(),
-        ];
-        if self.backwards {
-            sections.reverse();
-        }
-        format!(
-            "format: 1\nlengths_in: {}\n{}",
-            self.unit.1,
-            sections.concat()
-        )
-    }
-
-    pub fn of(&self, world: &World) -> Setup {
-        let text = self.text(world);
-        let reading = problem::read_text(&text, Path::new("world.yaml")).unwrap();
-        let Some(mut problem) = reading.problem else {
-            let faults = problem::render(&reading.source, &reading.faults, false);
-            panic!("{text}\n{faults}");
-        };
-        problem.paths.shot_size = world.shots_have_size;
-        Setup::new(problem, Walls::Exact).unwrap_or_else(|faults| panic!("{text}\n{faults:?}"))
-    }
-}
-
-/// Every impact of a shot.
-pub fn path(setup: &Setup, shot: &Deviate) -> Vec<PathImpact> {
-    let choice = held(setup);
-    let mut impacts = Vec::new();
-    Tracer::new(setup, &choice, choice.speed).follow(shot, |impact| impacts.push(*impact));
-    impacts
 }

@@ -20,7 +20,7 @@ impl Facets {
     ///
     /// The distance is that which the centre travels, and the front that on which the centre is
     /// then. Faces come before edges and corners within the slack, then of touches at the same
-    /// distance the triangle with the lowest index.
+    /// distance the triangle whose normal is nearer, then the one with the lowest index.
     ///
     /// A triangle that the sphere touches or overlaps at its start is hit at once if the centre
     /// heads towards it, and never otherwise: the distance to it, a convex body, then only grows.
@@ -106,6 +106,14 @@ struct Found {
     index: u32,
 }
 
+impl Found {
+    /// Whether this one counts and not another one at the same distance.
+    fn comes_before(&self, other: &Self) -> bool {
+        let (here, there) = (self.touch.facing, other.touch.facing);
+        here > there || (here == there && self.index < other.index)
+    }
+}
+
 /// The search for what a sphere touches first.
 struct Search<'a> {
     facets: &'a Facets,
@@ -152,11 +160,12 @@ impl Search<'_> {
                 if let Some(touch) = self.touch(plates, lane, index, near, cost) {
                     let farther = if touch.on_face { 0.0 } else { slack };
                     let other = touch.distance + farther;
-                    let first = best.as_ref().is_none_or(|best| index < best.index);
-                    if other < cost || (other == cost && best.is_some() && first) {
+                    let found = Found { touch, index };
+                    let comes_first = best.as_ref().is_some_and(|best| found.comes_before(best));
+                    if other < cost || (other == cost && comes_first) {
                         cost = other;
                         walk.end_at(cost);
-                        best = Some(Found { touch, index });
+                        best = Some(found);
                     }
                 }
             }

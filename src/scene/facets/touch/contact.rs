@@ -46,6 +46,8 @@ pub(super) struct Touch {
     pub normal: Vector3<f64>,
     /// Whether it is the face that is touched and not an edge or a corner.
     pub on_face: bool,
+    /// Cosine of the angle between that vector and the line along the triangle's normal.
+    pub facing: f64,
     /// Whether the centre is in front of the triangle then.
     pub front: bool,
 }
@@ -92,15 +94,22 @@ impl<'a> Sphere<'a> {
         let front = plate.height(&self.ray.origin) >= 0.0;
         let touchable = feature.is_none_or(|bit| folds.of(front) >> bit & 1 == 1);
         let heads_in = self.ray.direction.dot(&offset) < -HEADING_IN * distance;
-        Placed::Touching((touchable && heads_in).then(|| Touch {
-            distance: 0.0,
-            normal: match feature {
-                None if front => plate.normal,
-                None => -plate.normal,
-                Some(_) => offset / distance,
-            },
-            on_face: feature.is_none(),
-            front,
+        Placed::Touching((touchable && heads_in).then(|| {
+            let (normal, facing) = match feature {
+                None if front => (plate.normal, 1.0),
+                None => (-plate.normal, 1.0),
+                Some(_) => {
+                    let away = offset / distance;
+                    (away, plate.facing(&away))
+                }
+            };
+            Touch {
+                distance: 0.0,
+                normal,
+                on_face: feature.is_none(),
+                facing,
+                front,
+            }
         }))
     }
 
@@ -129,6 +138,7 @@ impl<'a> Sphere<'a> {
                     distance,
                     normal,
                     on_face: false,
+                    facing: plate.facing(&normal),
                     front,
                 });
             }
@@ -213,6 +223,7 @@ impl<'a> Sphere<'a> {
             distance,
             normal,
             on_face: true,
+            facing: 1.0,
             front,
         })
     }
@@ -294,6 +305,12 @@ const OVERLAP: f64 = 2.0;
 impl Plate {
     fn height(&self, point: &Point3<f64>) -> f64 {
         (point - self.corners[0]).dot(&self.normal)
+    }
+
+    /// Of neighbours that are touched at the edge between them, the one that faces the sphere more is the
+    /// one whose normal is nearer, whichever sides are their fronts.
+    fn facing(&self, normal: &Vector3<f64>) -> f64 {
+        self.normal.dot(normal).abs()
     }
 
     fn edge(&self, index: u32) -> (Point3<f64>, Point3<f64>) {

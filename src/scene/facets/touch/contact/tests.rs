@@ -148,6 +148,7 @@ fn a_triangle_that_was_left_is_touched_again_where_the_sphere_heads_in() {
             distance: 0.0,
             normal: Vector3::z(),
             on_face: true,
+            facing: 1.0,
             front: true,
         };
         Sphere::new(&ray, radius, SLACK).is_another(&touch)

@@ -55,6 +55,32 @@ fn no_sphere_falls_through_a_flat_ridge() {
     }
 }
 
+/// A roof with one level slope and one that falls at 45 degrees: its ridge is met by spheres from above.
+#[test]
+fn an_edge_belongs_to_the_face_whose_normal_is_nearer_whatever_their_order() {
+    let vertices = [
+        [-9.0, 0.0, 0.0],
+        [9.0, 0.0, 0.0],
+        [0.0, -5.0, 0.0],
+        [0.0, 5.0, -5.0],
+    ];
+    let (level, falling) = ([1, 0, 2], [0, 1, 3]);
+    let other_way_round = |[a, b, c]: [u32; 3]| [a, c, b];
+    for level in [level, other_way_round(level)] {
+        for (triangles, falling) in [([level, falling], 1), ([falling, level], 0)] {
+            let facets = Facets::new(mesh(&vertices, &triangles), 0, 1e-12 * 9.0);
+            for (y, is_falling) in [(0.1, false), (0.3, false), (0.45, true), (0.6, true)] {
+                let ray = Ray::of([0.5, y, 3.0], [0.0, 0.0, -1.0]);
+                let found = facets.first_touch(&ray, RADIUS, None, false, f64::INFINITY);
+                let (crossing, normal) = found.expect("it falls on the ridge");
+                assert!((normal.y - y).abs() < 1e-12, "{y}");
+                let expected = if is_falling { falling } else { 1 - falling };
+                assert_eq!(crossing.piece, expected, "{y} {triangles:?}");
+            }
+        }
+    }
+}
+
 /// The slack is coarse, so that what margins decide happens often.
 #[test]
 fn spheres_at_a_slant_touch_open_edges() {
