@@ -158,17 +158,21 @@ fn ends_legally(file: &[u8]) {
     for answer in &outcome.solution.answers {
         is_legal(&setup, answer, PROBLEM);
     }
+    for map in &outcome.maps {
+        let shown = serde_json::to_string(&MapRecord::new(&setup, map)).expect("it is finite");
+        let back: MapRecord = serde_json::from_str(&shown).expect("what was written can be read");
+        assert!(back == MapRecord::new(&setup, map), "{shown}");
+    }
+    // Records take most of the time: in some cases only.
+    if !file.len().is_multiple_of(4) {
+        return;
+    }
     let record = recorded(&setup, &whole.source, &outcome.solution);
     let written = record
         .to_json()
         .expect("every number of a record is finite");
     let back = Record::from_json(&written).expect("what was written can be read");
     assert!(back == record, "{written}");
-    for map in &outcome.maps {
-        let shown = serde_json::to_string(&MapRecord::new(&setup, map)).expect("it is finite");
-        let back: MapRecord = serde_json::from_str(&shown).expect("what was written can be read");
-        assert!(back == MapRecord::new(&setup, map), "{shown}");
-    }
 }
 
 /// A search, and a map with each of the ways to share paths between its places.
