@@ -4,6 +4,8 @@ mod standard;
 
 pub use standard::standard_maps;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -28,9 +30,39 @@ pub struct Map {
     pub shots: usize,
     /// What verdicts are given on.
     pub subjects: Vec<Subject>,
-    /// Row by row, from the first y; within a row from the first x. `None` where the nozzle does
-    /// not fit.
-    pub cells: Vec<Option<Cell>>,
+    /// Row by row, from the first y; within a row from the first x.
+    pub places: Vec<Place>,
+}
+
+/// What is known of one place of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Place {
+    /// The map was told to stop before.
+    Unknown,
+    /// The nozzle does not fit.
+    Blocked,
+    /// The nozzle fits.
+    Open(Cell),
+}
+
+/// How the making of a map is ended early, and where work is kept.
+#[derive(Clone, Copy)]
+pub struct Control<'a> {
+    /// Set to end it with the places that are known by then.
+    pub stop: &'a AtomicBool,
+    /// Where what places do is kept, and taken from.
+    pub checkpoint: Option<&'a Checkpoint>,
+}
+
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+impl Default for Control<'_> {
+    fn default() -> Self {
+        Self {
+            stop: &NEVER,
+            checkpoint: None,
+        }
+    }
 }
 
 /// One axis of a map.
@@ -42,7 +74,7 @@ pub struct Axis {
     pub values: Vec<f64>,
 }
 
-/// What one place of a map does.
+/// What a place of a map does where the nozzle fits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// The terms of the objective.
@@ -51,6 +83,16 @@ pub struct Cell {
     pub failing: Vec<Subject>,
     /// Share of the first hits on target that stick; `None` where there is none.
     pub share_sticking: Option<f64>,
+}
+
+impl Place {
+    /// What the place does; `None` where the nozzle does not fit or nothing is known.
+    pub fn cell(&self) -> Option<&Cell> {
+        match self {
+            Self::Open(cell) => Some(cell),
+            Self::Unknown | Self::Blocked => None,
+        }
+    }
 }
 
 impl Axis {
@@ -77,11 +119,12 @@ impl Map {
         x: Axis,
         y: Axis,
         shots: usize,
-        checkpoint: Option<&Checkpoint>,
+        control: &Control,
     ) -> Self {
         let deviates = common_shots(&setup.problem, shots);
         let kind = format!("map {x:?} {y:?}");
-        let page = checkpoint.map(|checkpoint| checkpoint.page(&kind, setup, &deviates));
+        let page = control.checkpoint;
+        let page = page.map(|checkpoint| checkpoint.page(&kind, setup, &deviates));
         let columns = x.values.len();
         let place = |index: usize| {
             let across = x.setting.with(choice, x.values[index % columns]);
@@ -99,6 +142,9 @@ impl Map {
             (0..count).map(|index| vec![index]).collect()
         };
         let cells_of = |group: &Vec<usize>| {
+            if control.stop.load(Ordering::Relaxed) {
+                return Vec::new();
+            }
             let work = || cells_on_one_path(setup, group, place, &deviates);
             let are_sound = |cells: &Vec<Option<Cell>>| {
                 cells.len() == group.len() && cells.iter().flatten().all(Cell::is_sound)
@@ -109,20 +155,18 @@ impl Map {
             }
         };
         let found: Vec<Vec<Option<Cell>>> = groups.par_iter().map(cells_of).collect();
-        let mut cells = vec![None; count];
-        for (index, cell) in groups
-            .into_iter()
-            .flatten()
-            .zip(found.into_iter().flatten())
-        {
-            cells[index] = cell;
+        let mut places = vec![Place::Unknown; count];
+        for (group, cells) in groups.iter().zip(found) {
+            for (&index, cell) in group.iter().zip(cells) {
+                places[index] = cell.map_or(Place::Blocked, Place::Open);
+            }
         }
         Self {
             x,
             y,
             shots: deviates.len(),
             subjects: subjects(setup),
-            cells,
+            places,
         }
     }
 }
@@ -135,7 +179,8 @@ impl Cell {
     }
 }
 
-/// The cells of places that differ in nothing but a speed on which no path depends.
+/// The cells of places that differ in nothing but a speed on which no path depends; `None` where the
+/// nozzle does not fit.
 fn cells_on_one_path(
     setup: &Setup,
     group: &[usize],

@@ -3,17 +3,22 @@
 mod common;
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
 
+use peenpose::checkpoint::Checkpoint;
 use peenpose::evaluate::evaluate;
 use peenpose::impact::Restitution;
 use peenpose::jet::{Replicate, Replicates, Samples, Stream};
-use peenpose::map::{Axis, Map, standard_maps};
+use peenpose::map::{Axis, Control, Map, Place, standard_maps};
 use peenpose::problem::setting::{Choice, Range, Setting};
 use peenpose::record::{MapRecord, MapTerm};
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::solve::clearance_violation;
 use peenpose::verdict::Verdict;
+use tempfile::TempDir;
 
 const SHOTS: usize = 512;
 
@@ -56,10 +61,11 @@ fn agrees_with_evaluations(setup: &Setup, map: &Map) {
     };
     let columns = map.x.values.len();
     let (mut blocked, mut failing) = (0, 0);
-    for (index, cell) in map.cells.iter().enumerate() {
+    for (index, place) in map.places.iter().enumerate() {
         let across = map.x.setting.with(&good(), map.x.values[index % columns]);
         let choice = map.y.setting.with(&across, map.y.values[index / columns]);
-        let Some(cell) = cell else {
+        let Place::Open(cell) = place else {
+            assert_eq!(*place, Place::Blocked);
             assert!(clearance_violation(setup, &choice).is_some());
             blocked += 1;
             continue;
@@ -85,7 +91,7 @@ fn agrees_with_evaluations(setup: &Setup, map: &Map) {
         let sticking = (hits > 0).then(|| there.target.sticking as f64 / hits as f64);
         assert_eq!(cell.share_sticking, sticking);
     }
-    assert!(failing > 0 && blocked + failing < map.cells.len());
+    assert!(failing > 0 && blocked + failing < map.places.len());
 }
 
 #[test]
@@ -93,8 +99,8 @@ fn a_map_without_speed_is_what_evaluations_say() {
     let setup = keyway();
     let x = axis(Setting::Incidence, 0.6, 1.4, 9);
     let y = axis(Setting::Azimuth, -0.6, 0.6, 7);
-    let map = Map::of(&setup, &good(), x, y, SHOTS, None);
-    assert!(map.cells.iter().any(Option::is_none));
+    let map = Map::of(&setup, &good(), x, y, SHOTS, &Control::default());
+    assert!(map.places.contains(&Place::Blocked));
     agrees_with_evaluations(&setup, &map);
 }
 
@@ -105,11 +111,25 @@ fn one_set_of_paths_does_for_every_speed() {
     let speed = || axis(Setting::Speed, 5.0, 20.0, 9);
     agrees_with_evaluations(
         &setup,
-        &Map::of(&setup, &good(), standoff(), speed(), SHOTS, None),
+        &Map::of(
+            &setup,
+            &good(),
+            standoff(),
+            speed(),
+            SHOTS,
+            &Control::default(),
+        ),
     );
     agrees_with_evaluations(
         &setup,
-        &Map::of(&setup, &good(), speed(), standoff(), SHOTS, None),
+        &Map::of(
+            &setup,
+            &good(),
+            speed(),
+            standoff(),
+            SHOTS,
+            &Control::default(),
+        ),
     );
 }
 
@@ -125,7 +145,10 @@ fn every_speed_has_its_own_paths_where_restitution_falls() {
     }
     let x = axis(Setting::Speed, 5.0, 15.0, 5);
     let y = axis(Setting::Incidence, 1.0, 1.3, 4);
-    agrees_with_evaluations(&setup, &Map::of(&setup, &good(), x, y, SHOTS, None));
+    agrees_with_evaluations(
+        &setup,
+        &Map::of(&setup, &good(), x, y, SHOTS, &Control::default()),
+    );
 }
 
 #[test]
@@ -138,17 +161,63 @@ fn on_a_plate_the_map_is_a_formula() {
     };
     let x = axis(Setting::Incidence, 0.5, 1.5, 11);
     let y = axis(Setting::Speed, 2.0, 20.0, 10);
-    let map = Map::of(&setup, &choice, x, y, SHOTS, None);
+    let map = Map::of(&setup, &choice, x, y, SHOTS, &Control::default());
     assert_eq!(map.shots, 1);
     let restitution = setup.problem.contacts[0].contact.restitution.reference();
     let target = setup.problem.goals.normal_impulse.target;
-    for (index, cell) in map.cells.iter().enumerate() {
+    for (index, place) in map.places.iter().enumerate() {
         let (incidence, speed) = (map.x.values[index % 11], map.y.values[index / 11]);
         let normal = setup.problem.shot.mass() * speed * incidence.sin() * (1.0 + restitution);
         let expected = setup.problem.goals.normal_impulse.weight * (normal / target - 1.0).powi(2);
-        let found = cell.as_ref().unwrap().terms.normal_impulse;
+        let found = place.cell().unwrap().terms.normal_impulse;
         assert!((found - expected).abs() < 1e-9 * (1.0 + expected));
     }
+}
+
+/// What is known of it is what the whole map says, and the rest is told apart from places without room.
+#[test]
+fn a_map_that_is_stopped_shows_what_is_known() {
+    let setup = keyway();
+    let map = |control: &Control| {
+        let x = axis(Setting::Incidence, 0.6, 1.4, 20);
+        let y = axis(Setting::Azimuth, -0.6, 0.6, 40);
+        Map::of(&setup, &good(), x, y, SHOTS, control)
+    };
+    let whole = map(&Control::default());
+    let folder = TempDir::new().unwrap();
+    let checkpoint = Checkpoint::open(folder.path(), &setup).unwrap();
+    let stop = AtomicBool::new(false);
+    let control = Control {
+        stop: &stop,
+        checkpoint: Some(&checkpoint),
+    };
+    let stopped = thread::scope(|scope| {
+        scope.spawn(|| {
+            while checkpoint.added() < 20 {
+                thread::sleep(Duration::from_millis(1));
+            }
+            stop.store(true, Ordering::Relaxed);
+        });
+        map(&control)
+    });
+    let known = |place: &&Place| **place != Place::Unknown;
+    let count = stopped.places.iter().filter(known).count();
+    assert!((20..whole.places.len()).contains(&count), "{count}");
+    let pairs = stopped.places.iter().zip(&whole.places);
+    let mut pairs = pairs.filter(|(place, _)| known(place));
+    assert!(pairs.all(|(place, there)| place == there));
+    assert!(!whole.places.contains(&Place::Unknown));
+
+    let record = MapRecord::new(&setup, &stopped);
+    assert_eq!(record.known_places(), count);
+    for (place, kept) in stopped.places.iter().zip(&record.cells) {
+        assert_eq!(*place != Place::Unknown, kept.is_known());
+        assert_eq!(*place == Place::Blocked, kept.is_blocked());
+        assert!(kept.is_known() || !kept.passes());
+    }
+
+    // Nothing is begun that need not be ended.
+    assert!(!map(&control).places.iter().any(|place| known(&place)));
 }
 
 #[test]
@@ -156,15 +225,16 @@ fn records_keep_seven_digits_and_name_what_fails() {
     let setup = keyway();
     let x = axis(Setting::Incidence, 0.6, 1.4, 5);
     let y = axis(Setting::Azimuth, -0.6, 0.6, 4);
-    let map = Map::of(&setup, &good(), x, y, SHOTS, None);
+    let map = Map::of(&setup, &good(), x, y, SHOTS, &Control::default());
     let record = MapRecord::new(&setup, &map);
     assert_eq!(record.x.setting, "incidence_deg");
     assert!((record.x.values[0] - 0.6_f64.to_degrees()).abs() < 1e-6);
     assert_eq!(record.subjects.last().unwrap(), "clearance");
     let clearance = record.subjects.len() as u32 - 1;
-    for (cell, kept) in map.cells.iter().zip(&record.cells) {
-        assert_eq!(cell.is_none(), kept.fails == [clearance]);
-        let total = cell.as_ref().map(|cell| cell.terms.total());
+    for (place, kept) in map.places.iter().zip(&record.cells) {
+        assert_eq!(*place == Place::Blocked, kept.fails == [clearance]);
+        assert_eq!(*place == Place::Blocked, kept.is_blocked());
+        let total = place.cell().map(|cell| cell.terms.total());
         assert_eq!(total.is_some(), MapTerm::Total.of(kept).is_some());
         if let (Some(total), Some(kept)) = (total, MapTerm::Total.of(kept)) {
             assert!((total - kept).abs() <= 1e-6 * total);
@@ -181,7 +251,7 @@ fn a_report_has_maps_of_what_is_free() {
         for map in &maps {
             let values = [&map.x.values, &map.y.values];
             assert!(values.iter().all(|values| (9..=41).contains(&values.len())));
-            assert_eq!(map.cells.len(), values[0].len() * values[1].len());
+            assert_eq!(map.places.len(), values[0].len() * values[1].len());
         }
         maps.iter()
             .map(|map| (map.x.setting, map.y.setting))

@@ -1,6 +1,6 @@
 //! The maps of a report: which settings they are drawn over, and how finely.
 
-use super::{Axis, Map, common_shots};
+use super::{Axis, Control, Map, common_shots};
 use crate::evaluate::Survey;
 use crate::problem::part::Shape;
 use crate::problem::setting::{Choice, Range, Setting};
@@ -42,7 +42,7 @@ pub fn standard_maps(setup: &Setup, choice: &Choice) -> Vec<Map> {
             };
             Axis::over(setting, shown, steps as usize)
         };
-        Map::of(setup, choice, axis(x), axis(y), SHOTS, None)
+        Map::of(setup, choice, axis(x), axis(y), SHOTS, &Control::default())
     };
     pairs.into_iter().map(map).collect()
 }

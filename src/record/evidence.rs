@@ -217,10 +217,10 @@ pub struct AxisRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellRecord {
     /// Terms of the objective with their weights: normal_impulse, tangential_impulse, rebound,
-    /// miss; absent where the nozzle does not fit. What is larger than any `f32` is kept as the
+    /// miss; absent where the nozzle does not fit or nothing is known. What is larger than any `f32` is kept as the
     /// largest of them.
     pub terms: Option<[f32; 4]>,
-    /// The subjects that fail there.
+    /// The subjects that fail there; none where nothing is known.
     pub fails: Vec<u32>,
     /// Share of the hits on target that stick; absent where there is none.
     pub share_sticking: Option<f32>,

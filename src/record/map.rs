@@ -3,7 +3,7 @@
 use super::answer::subject_name;
 use super::evidence::{AxisRecord, CellRecord, MapRecord};
 use super::window::key_and_unit;
-use crate::map::{Axis, Cell, Map};
+use crate::map::{Axis, Map, Place};
 use crate::objective::Terms;
 use crate::setup::Setup;
 
@@ -46,7 +46,7 @@ impl MapTerm {
         }
     }
 
-    /// Its value in a cell; `None` where the nozzle does not fit.
+    /// Its value in a cell; `None` where the nozzle does not fit or nothing is known.
     pub fn of(self, cell: &CellRecord) -> Option<f64> {
         let terms = cell.terms?.map(f64::from);
         Some(match self {
@@ -66,13 +66,15 @@ impl MapRecord {
         let mut subjects: Vec<String> = named.map(|&it| subject_name(setup, it)).collect();
         let clearance = subjects.len() as u32;
         subjects.push(CLEARANCE.into());
-        let cell = |cell: &Option<Cell>| match cell {
-            None => CellRecord {
-                terms: None,
-                fails: vec![clearance],
-                share_sticking: None,
-            },
-            Some(cell) => CellRecord {
+        let without_terms = |fails| CellRecord {
+            terms: None,
+            fails,
+            share_sticking: None,
+        };
+        let cell = |place: &Place| match place {
+            Place::Unknown => without_terms(Vec::new()),
+            Place::Blocked => without_terms(vec![clearance]),
+            Place::Open(cell) => CellRecord {
                 terms: Some(rounded(&cell.terms)),
                 fails: (0..)
                     .zip(&map.subjects)
@@ -87,7 +89,7 @@ impl MapRecord {
             y: AxisRecord::new(&map.y),
             shots: map.shots,
             subjects,
-            cells: map.cells.iter().map(cell).collect(),
+            cells: map.places.iter().map(cell).collect(),
         }
     }
 }
@@ -102,6 +104,30 @@ fn rounded(terms: &Terms) -> [f32; 4] {
         terms.miss,
     ];
     terms.map(|term| (term as f32).min(f32::MAX))
+}
+
+impl CellRecord {
+    /// Whether anything is known of the place: it is not where a map was told to stop before.
+    pub fn is_known(&self) -> bool {
+        self.terms.is_some() || !self.fails.is_empty()
+    }
+
+    /// Whether the nozzle does not fit there.
+    pub fn is_blocked(&self) -> bool {
+        self.terms.is_none() && self.is_known()
+    }
+
+    /// Whether every verdict passes there.
+    pub fn passes(&self) -> bool {
+        self.terms.is_some() && self.fails.is_empty()
+    }
+}
+
+impl MapRecord {
+    /// Of how many places something is known: of all, unless the map was told to stop.
+    pub fn known_places(&self) -> usize {
+        self.cells.iter().filter(|cell| cell.is_known()).count()
+    }
 }
 
 impl AxisRecord {

@@ -134,7 +134,14 @@ impl MapView<'_> {
             shots => format!("{} shots", count(shots)),
         };
         let (columns, rows) = (self.map.x.values.len(), self.map.y.values.len());
-        format!("{columns} x {rows} settings, {shots} at each")
+        let known = self.map.known_places();
+        let part = if known < self.map.cells.len() {
+            let [known, all] = [known, self.map.cells.len()].map(count);
+            format!("; stopped when {known} of {all} were known")
+        } else {
+            String::new()
+        };
+        format!("{columns} x {rows} settings, {shots} at each{part}")
     }
 
     /// The place with the least value, and that value.
@@ -156,7 +163,7 @@ impl MapView<'_> {
     fn passing(&self) -> Option<(f64, [[f64; 2]; 2])> {
         let passing = self.map.cells.iter().enumerate();
         let places: Vec<[f64; 2]> = passing
-            .filter(|(_, cell)| cell.fails.is_empty())
+            .filter(|(_, cell)| cell.passes())
             .map(|(index, _)| self.place(index))
             .collect();
         let fitting = self.map.cells.iter().filter(|cell| cell.terms.is_some());
@@ -189,9 +196,15 @@ pub fn map(view: &MapView, term: MapTerm) -> String {
     line("held", &view.held());
     line("places", &view.extent());
     let Some(([at_x, at_y], least)) = view.least(term) else {
+        let is_whole = view.map.known_places() == view.map.cells.len();
+        let everywhere = if is_whole {
+            "everywhere"
+        } else {
+            "at each of them"
+        };
         line(
             "fits",
-            "nowhere: the nozzle is too near to the part everywhere",
+            &format!("nowhere: the nozzle is too near to the part {everywhere}"),
         );
         return block.into_text();
     };
@@ -211,7 +224,7 @@ pub fn map(view: &MapView, term: MapTerm) -> String {
         &format!("{name} {} {place}", significant(least, 3)),
     );
     let cells = &view.map.cells;
-    let blocked = cells.iter().filter(|cell| cell.terms.is_none()).count();
+    let blocked = cells.iter().filter(|cell| cell.is_blocked()).count();
     let of_which = if blocked > 0 {
         " where the nozzle fits"
     } else {
@@ -230,7 +243,7 @@ pub fn map(view: &MapView, term: MapTerm) -> String {
     );
     line("passes", &passing);
     if blocked > 0 {
-        let share = blocked as f64 / cells.len() as f64 * 100.0;
+        let share = blocked as f64 / view.map.known_places() as f64 * 100.0;
         line(
             "no room",
             &format!("for the nozzle at {} % of the places", fixed(share, 1)),

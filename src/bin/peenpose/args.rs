@@ -93,7 +93,8 @@ Examples:
   peenpose map keyway.yaml --x incidence --y azimuth --out maps
   peenpose map keyway.yaml --x incidence=55deg:75deg --y standoff --term rebound \\
       --from result/result.json --out maps
-Without --from and --set the best settings are searched first.";
+Without --from and --set the best settings are searched first.
+Ctrl-C ends the map with the places that are known; the others stay blank.";
 
 const REPORT_EXAMPLES: &str = "\
 Examples:

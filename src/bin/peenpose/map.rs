@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use peenpose::checkpoint::Checkpoint;
-use peenpose::map::{Axis, Map};
+use peenpose::map::{self, Axis, Map};
 use peenpose::problem::Problem;
 use peenpose::problem::setting::{Choice, Range, Setting};
 use peenpose::record::{AnswerRecord, MapRecord, MapTerm, QuestionRecord};
@@ -16,7 +16,7 @@ use peenpose::solve::{Answer, Control, solve};
 use crate::args::MapArgs;
 use crate::kept;
 use crate::output::{self, Failure};
-use crate::progress::Watcher;
+use crate::progress::{ENDED, Watcher};
 use crate::settings::{self, Earlier, contact_named, setting_named};
 use crate::start;
 
@@ -45,14 +45,25 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     let varied = [x.setting, y.setting];
     let kept = kept::open(args.checkpoint.as_deref(), &setup)?;
     let kept = kept.as_ref();
-    let (choice, is_known) = choice(args, from.as_ref(), &setup, varied, kept)?;
+    let given = given(args, from.as_ref(), &setup, varied)?;
+    let watcher = Watcher::new(args.start.quiet);
+    let (choice, is_known) = match given {
+        Some(given) => given,
+        None => (searched(args, &setup, kept, &watcher)?, true),
+    };
     let setup = setup.as_asked();
     let axis = |asked: &Asked| -> Result<Axis, String> {
         let range = asked.range(&setup.problem, &choice)?;
         Ok(Axis::over(asked.setting, range, args.steps.into()))
     };
     let (x, y) = (axis(&x)?, axis(&y)?);
-    let map = Map::of(&setup, &choice, x, y, args.shots as usize, kept);
+    watcher.show_drawing();
+    let control = map::Control {
+        stop: &watcher.stop,
+        checkpoint: kept,
+    };
+    let map = Map::of(&setup, &choice, x, y, args.shots as usize, &control);
+    watcher.finish();
     kept::close(kept, args.start.quiet);
     let answer = Answer {
         choice,
@@ -69,8 +80,13 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     write(args, &view, varied)
 }
 
-/// Writes the files and says what they show.
+/// Writes the files and says what they show: of a map that was told to stop, what is known of it.
 fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCode, Failure> {
+    let (known, all) = (view.map.known_places(), view.map.cells.len());
+    if known == 0 {
+        output::note("stopped before anything of the map was known: nothing is written");
+        return Ok(ExitCode::from(ENDED));
+    }
     let term = args.term;
     let mut stem = format!("map-{}-{}", varied[0].name(), varied[1].name());
     if term != MapTerm::Total {
@@ -84,33 +100,41 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
     output::write(&args.out, &format!("{stem}.csv"), table.csv.as_bytes())?;
     let written = args.out.join(stem);
     let text = report::map(view, term);
-    output::text(format!(
+    let shown = output::text(format!(
         "{text}  {:<10} {}.svg, .png, .csv\n",
         "written",
         written.display()
-    ))
+    ))?;
+    if known == all {
+        return Ok(shown);
+    }
+    output::note("stopped: the map is blank where nothing is known");
+    Ok(ExitCode::from(ENDED))
 }
 
-/// The settings round which the map is made, and whether those on its axes are known: as given, or
-/// found by a search where nothing is.
-fn choice(
+/// The settings round which the map is made, and whether those on its axes are known; `None` where
+/// nothing is given.
+fn given(
     args: &MapArgs,
     from: Option<&Earlier>,
     setup: &Setup,
     varied: [Setting; 2],
-    kept: Option<&Checkpoint>,
-) -> Result<(Choice, bool), Failure> {
+) -> Result<Option<(Choice, bool)>, String> {
     if args.set.is_empty() && from.is_none() {
-        return Ok((searched(args, setup, kept)?, true));
+        return Ok(None);
     }
     let mut set = args.set.clone();
     set.extend(args.contact.iter().map(|name| format!("contact={name}")));
-    Ok(settings::choice_round(varied, &set, from, &setup.problem)?)
+    settings::choice_round(varied, &set, from, &setup.problem).map(Some)
 }
 
-/// The best settings.
-fn searched(args: &MapArgs, setup: &Setup, kept: Option<&Checkpoint>) -> Result<Choice, Failure> {
-    let watcher = Watcher::new(args.start.quiet);
+/// The best settings, or the best so far when the search is told to stop.
+fn searched(
+    args: &MapArgs,
+    setup: &Setup,
+    kept: Option<&Checkpoint>,
+    watcher: &Watcher,
+) -> Result<Choice, String> {
     if !args.start.quiet {
         output::note("no --from and no --set: searching for the best settings first");
     }
@@ -121,13 +145,8 @@ fn searched(args: &MapArgs, setup: &Setup, kept: Option<&Checkpoint>) -> Result<
         ..Control::default()
     };
     let solution = solve(setup, &control);
-    let is_stopped = control.is_stopped();
-    watcher.let_go();
-    if is_stopped {
-        return Err("stopped while searching: there is no map".to_owned().into());
-    }
     let best = solution.answers.first();
-    let best = best.ok_or("there is no contact to choose".to_owned())?;
+    let best = best.ok_or("there is no contact to choose")?;
     Ok(best.choice)
 }
 

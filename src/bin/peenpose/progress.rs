@@ -9,8 +9,9 @@ use peenpose::solve::Progress;
 
 use crate::output;
 
-/// Exit status of a run that was ended before all it had found was written, as shells have it.
-const ENDED: i32 = 130;
+/// Exit status of a run that was ended before it had all that was asked for, or before that was written,
+/// as shells have it.
+pub const ENDED: u8 = 130;
 
 /// Shows how far a search is, and notices Ctrl-C.
 pub struct Watcher {
@@ -40,7 +41,7 @@ impl Watcher {
             // Whoever asks twice does not want to wait for the best answer so far.
             if asked.swap(true, Ordering::SeqCst) {
                 output::note("ended at once: not everything has been written");
-                std::process::exit(ENDED);
+                std::process::exit(ENDED.into());
             }
             if found.load(Ordering::SeqCst) {
                 output::note("the answer is found and being written; once more ends at once");
@@ -84,10 +85,8 @@ impl Watcher {
         self.bar.finish_and_clear();
     }
 
-    /// Takes the bar away where nothing is found yet that could be kept: Ctrl-C ends the program at
-    /// once.
-    pub fn let_go(&self) {
-        self.stop.store(true, Ordering::SeqCst);
-        self.bar.finish_and_clear();
+    /// Takes the drawing of a map to the bar.
+    pub fn show_drawing(&self) {
+        self.bar.set_message("drawing the map");
     }
 }

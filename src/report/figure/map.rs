@@ -99,16 +99,18 @@ impl<'a, 'b> Picture<'a, 'b> {
     }
 
     fn draw(&self) -> Drawn {
-        let blocked = self.field(|cell| Some(f64::from(u8::from(cell.terms.is_none()))));
-        let is_blocked = |place| {
-            let field = blocked.as_ref();
-            field.is_some_and(|field| field.reaches(HALF, place))
+        let blocked = self.field(|cell| cell.is_known().then(|| share(cell.is_blocked())));
+        let unknown = self.field(|cell| Some(share(!cell.is_known())));
+        let is_covered = |place| {
+            let fields = [&blocked, &unknown].into_iter().flatten();
+            fields.into_iter().any(|field| field.reaches(HALF, place))
         };
-        let mut labels = Labels::new(self.corners, &is_blocked);
+        let mut labels = Labels::new(self.corners, &is_covered);
         self.quantity(&mut labels)?;
         self.sticking(&mut labels)?;
         self.no_room(blocked.as_ref())?;
         self.passing()?;
+        self.blank(unknown.as_ref())?;
         for (text, place) in &labels.taken {
             self.label(text, *place)?;
         }
@@ -204,6 +206,12 @@ impl<'a, 'b> Picture<'a, 'b> {
         Ok(())
     }
 
+    /// Leaves blank what is not known.
+    fn blank(&self, unknown: Option<&Field>) -> Drawn {
+        let outlines = unknown.map(|field| field.regions(HALF)).unwrap_or_default();
+        outlines.iter().try_for_each(|it| self.region(it, WHITE))
+    }
+
     fn hatch(&self, ends: [Place; 2]) -> Drawn {
         self.line(ends.to_vec(), GHOST.stroke_width(2))
     }
@@ -228,7 +236,7 @@ impl<'a, 'b> Picture<'a, 'b> {
 
     /// The line round the places where every verdict passes.
     fn passing(&self) -> Drawn {
-        let passes = |cell: &CellRecord| Some(f64::from(u8::from(cell.fails.is_empty())));
+        let passes = |cell: &CellRecord| cell.is_known().then(|| share(cell.passes()));
         let Some(field) = self.field(passes) else {
             return Ok(());
         };
@@ -290,6 +298,11 @@ impl<'a, 'b> Picture<'a, 'b> {
         self.sheet
             .draw_text(&y, &upwards, (left - 130, (top + bottom) / 2))
     }
+}
+
+/// All of a place, or nothing.
+fn share(is: bool) -> f64 {
+    f64::from(u8::from(is))
 }
 
 /// The outermost values of an axis.

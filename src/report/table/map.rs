@@ -6,7 +6,7 @@ use std::io;
 use super::{Rows, Table, or_empty};
 use crate::record::{MapRecord, MapTerm};
 
-/// A row for each place.
+/// A row for each place; without figures where nothing is known.
 pub(super) fn table(name: &'static str, map: &MapRecord) -> io::Result<Table> {
     let settings = [map.x.setting.as_str(), &map.y.setting];
     let terms = MapTerm::ALL.map(MapTerm::name);
@@ -25,7 +25,8 @@ pub(super) fn table(name: &'static str, map: &MapRecord) -> io::Result<Table> {
             // Records keep seven digits.
             let terms = MapTerm::ALL.map(|term| or_empty(term.of(cell).map(|value| value as f32)));
             let sticking = or_empty(cell.share_sticking);
-            let (passes, fails) = (fails.is_empty(), fails.join(" "));
+            let passes = or_empty(cell.is_known().then(|| cell.passes()));
+            let fails = fails.join(" ");
             let mut cells: Vec<&dyn Display> = vec![x, y];
             cells.extend(terms.iter().map(|term| term as &dyn Display));
             cells.extend([&sticking as &dyn Display, &passes, &fails]);

@@ -65,8 +65,8 @@ impl Picture<'_, '_> {
         let cells = &self.view.map.cells;
         let any = |is: fn(&CellRecord) -> bool| cells.iter().any(is);
         let passing = match (
-            any(|it| it.fails.is_empty()),
-            any(|it| !it.fails.is_empty()),
+            any(CellRecord::passes),
+            any(|it| it.is_known() && !it.passes()),
         ) {
             (true, true) => "inside the thick line every verdict passes",
             (true, false) => "every verdict passes everywhere",
@@ -123,7 +123,7 @@ impl Picture<'_, '_> {
             self.view.marks_settings,
             true,
             true,
-            any(|cell| cell.terms.is_none()),
+            any(CellRecord::is_blocked),
         ];
         let shown = entries.iter().zip(is_shown).filter(|(_, shown)| *shown);
         let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
