@@ -17,6 +17,25 @@ pub enum Status {
     Interrupted,
 }
 
+/// What makes a search faster and changes its answer by less than it is accurate; all of it unless told
+/// otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shortcuts {
+    /// Paths may be traced in single precision.
+    pub single_precision: bool,
+    /// Poses that a part of their shots proves to be worse are given no more.
+    pub early_ends: bool,
+}
+
+impl Default for Shortcuts {
+    fn default() -> Self {
+        Self {
+            single_precision: true,
+            early_ends: true,
+        }
+    }
+}
+
 /// What a search may spend, and how it is watched.
 pub struct Control<'a> {
     /// Most shots at a pose.
@@ -29,6 +48,8 @@ pub struct Control<'a> {
     pub watch: &'a (dyn Fn(Progress) + Sync),
     /// Where what poses are worth is kept, and taken from.
     pub checkpoint: Option<&'a Checkpoint>,
+    /// What may make it faster.
+    pub shortcuts: Shortcuts,
 }
 
 impl Control<'_> {
@@ -56,6 +77,7 @@ impl Default for Control<'_> {
             stop: &NEVER,
             watch: &|_| (),
             checkpoint: None,
+            shortcuts: Shortcuts::default(),
         }
     }
 }

@@ -163,10 +163,8 @@ impl<'a> Judge<'a> {
     /// they are all that is traced, and J is what it is on them.
     pub(super) fn judge(&self, choice: &Choice, best: f64) -> (Choice, Standing) {
         // A pose that is hopeless with some factors on the weights may be the best with others.
-        let best = match self.archive {
-            Some(_) => f64::INFINITY,
-            None => best,
-        };
+        let ends_early = self.archive.is_none() && self.control.shortcuts.early_ends;
+        let best = if ends_early { best } else { f64::INFINITY };
         let judged = match &self.page {
             Some(page) => {
                 let range = self.setup.problem.settings.speed;

@@ -86,7 +86,7 @@ impl Ladder {
         effort: &Effort,
         control: &Control,
     ) {
-        if !setup.scene.has_exact_walls() {
+        if !(control.shortcuts.single_precision && setup.scene.has_exact_walls()) {
             return;
         }
         let Some(bench) = Bench::new(setup, searches, effort, control) else {

@@ -23,7 +23,7 @@ mod space;
 mod window;
 
 pub use answer::Answer;
-pub use control::{Control, Progress, Status};
+pub use control::{Control, Progress, Shortcuts, Status};
 pub use front::{Front, front};
 pub use judge::{Effort, Standing, clearance_violation};
 pub use ladder::{Ladder, Rung};
