@@ -138,7 +138,7 @@ const MOST_SHOTS: usize = 1 << 18;
 fn rays_of_poses(checkpoint: &Path) -> Vec<usize> {
     let text = fs::read_to_string(checkpoint).unwrap();
     let outcomes = text.lines().skip(1).map(|line| {
-        let (_, outcome) = line.split_once(' ').unwrap();
+        let outcome = line.splitn(3, ' ').nth(2).unwrap();
         serde_json::from_str::<Value>(outcome).unwrap()
     });
     let rays = outcomes.filter_map(|outcome| outcome["rays"].as_u64());
