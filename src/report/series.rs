@@ -8,6 +8,8 @@ use crate::report::number::{count, plain};
 pub struct Series {
     /// What it is.
     pub name: String,
+    /// Whether it is another method than the search.
+    pub is_beside: bool,
     /// By effort.
     pub groups: Vec<Group>,
 }
@@ -70,6 +72,7 @@ impl Series {
         }
         Self {
             name: name.into(),
+            is_beside: false,
             groups,
         }
     }
@@ -79,6 +82,7 @@ impl Series {
         let index = index.unwrap_or_else(|| {
             series.push(Self {
                 name: point.method.clone(),
+                is_beside: true,
                 groups: Vec::new(),
             });
             series.len() - 1

@@ -47,8 +47,13 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
         };
         let plot = Plot::new(area, &middle, &axes)?;
         noise(searches.noise(), &plot, (x, y))?;
-        for (index, series) in series.iter().enumerate() {
-            draw(series, index, &plot)?;
+        // The search lies above other methods.
+        for (index, one) in series.iter().enumerate().rev() {
+            if has_labels(one, &series) {
+                draw(one, index, &plot)?;
+            } else {
+                sketch(one, index, &plot)?;
+            }
         }
         legend(chart, &series, &foot)
     }))
@@ -70,9 +75,17 @@ fn noise(noise: f64, plot: &Plot, (x, y): (LogAxis, LogAxis)) -> Drawn {
     plot.note(&text, (x.from, noise), (16, 20), HPos::Left, FAINT)
 }
 
+/// More other methods than these would cover the figure with what they were told to do.
+const MOST_LABELLED: usize = 3;
+
+fn has_labels(one: &Series, all: &[Series]) -> bool {
+    let beside = all.iter().filter(|series| series.is_beside).count();
+    !one.is_beside || beside <= MOST_LABELLED
+}
+
 fn draw(series: &Series, index: usize, plot: &Plot) -> Drawn {
     let look = look_of(index);
-    let medians: Vec<(f64, f64)> = series.groups.iter().map(Group::median).collect();
+    let medians = medians(series);
     plot.line(&medians, look)?;
     for group in &series.groups {
         for point in &group.points {
@@ -92,6 +105,20 @@ fn draw(series: &Series, index: usize, plot: &Plot) -> Drawn {
         }
     }
     Ok(())
+}
+
+/// A series of which only the medians are shown.
+fn sketch(series: &Series, index: usize, plot: &Plot) -> Drawn {
+    let look = look_of(index);
+    let medians = medians(series);
+    plot.line(&medians, look)?;
+    medians
+        .into_iter()
+        .try_for_each(|median| plot.marker(median, look, 7.0))
+}
+
+fn medians(series: &Series) -> Vec<(f64, f64)> {
+    series.groups.iter().map(Group::median).collect()
 }
 
 fn legend(chart: &Chart, series: &[Series], area: &Area) -> Drawn {

@@ -82,9 +82,14 @@ pub const LOOKS: [Look; 7] = [
     look(34, 34, 34, Shape::Square),
 ];
 
-/// The look of the series with this number.
+/// The look of the series with this number: colours come again with other markers and dashed lines.
 pub fn look_of(series: usize) -> Look {
-    LOOKS[series % LOOKS.len()]
+    let round = series / LOOKS.len();
+    Look {
+        shape: LOOKS[(series + round) % LOOKS.len()].shape,
+        is_dashed: round % 2 == 1,
+        ..LOOKS[series % LOOKS.len()]
+    }
 }
 
 impl Shape {
