@@ -147,6 +147,25 @@ fn a_contact_that_passes_is_named_when_the_best_does_not() {
 }
 
 #[test]
+fn an_accuracy_beyond_what_is_known_of_the_objective_is_not_claimed() {
+    let mut record = record("keyway");
+    record.problem.accuracy = 1e-7;
+    change(&mut record, |answer| {
+        let objective = answer.objective.as_mut().unwrap();
+        (objective.total, objective.standard_error) = (0.004, 0.000_006);
+    });
+    let says =
+        "search       converged within the standard error of J, 0.15 % (0.00001 % asked for)";
+    assert!(sheet(&record).contains(says), "{}", sheet(&record));
+    change(&mut record, |answer| {
+        let objective = answer.objective.as_mut().unwrap();
+        objective.standard_error = 1e-10;
+    });
+    let says = "search       converged (accuracy asked for: 0.00001 % of J)";
+    assert!(sheet(&record).contains(says), "{}", sheet(&record));
+}
+
+#[test]
 fn a_search_that_ended_early_says_so() {
     let mut record = record("keyway");
     record.status = StatusRecord::Interrupted;

@@ -3,7 +3,7 @@
 use super::{blocked, cause, subject};
 use crate::record::{AnswerRecord, Record, StatusRecord};
 use crate::report::layout::Block;
-use crate::report::number::{plural, share_asked};
+use crate::report::number::{plural, share_asked, significant};
 
 /// Failing verdicts that the headline spells out.
 const SPELT_OUT: usize = 3;
@@ -103,7 +103,13 @@ fn failure(record: &Record, name: &str) -> String {
 pub fn status(record: &Record) -> String {
     let accuracy = share_asked(record.problem.accuracy);
     match record.status {
-        StatusRecord::Converged => format!("converged (accuracy asked for: {accuracy} of J)"),
+        StatusRecord::Converged => match error_beyond(record) {
+            None => format!("converged (accuracy asked for: {accuracy} of J)"),
+            Some(error) => format!(
+                "converged within the standard error of J, {} % ({accuracy} asked for)",
+                significant(error * 100.0, 2)
+            ),
+        },
         StatusRecord::BudgetSpent => format!(
             "BUDGET SPENT before the accuracy asked for ({accuracy} of J): better settings may exist"
         ),
@@ -114,3 +120,15 @@ pub fn status(record: &Record) -> String {
         StatusRecord::Evaluated => "none: the settings were given".into(),
     }
 }
+
+/// The standard error of J, relative to it, where that is larger than the accuracy asked for: better settings
+/// cannot be told from these.
+fn error_beyond(record: &Record) -> Option<f64> {
+    let objective = record.best.objective.as_ref()?;
+    let error = objective.standard_error;
+    let is_beyond = error > record.problem.accuracy * objective.total && error > ROUNDING;
+    is_beyond.then(|| error / objective.total)
+}
+
+/// Errors of J below this come from rounding alone, where every goal is reached.
+const ROUNDING: f64 = 1e-20;
