@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use peenpose::checkpoint::{Checkpoint, Trouble};
-use peenpose::map::{Axis, Map};
+use peenpose::map::{self, Axis, Map};
 use peenpose::problem::setting::Setting;
 use peenpose::problem::{self, Source};
 use peenpose::record::{MapRecord, Record};
@@ -193,6 +193,10 @@ fn outcome(setup: &Setup, checkpoint: Option<&Checkpoint>) -> Outcome {
             .expect("it is of the nozzle");
         Axis::over(setting, range, 3)
     };
+    let drawing = map::Control {
+        checkpoint,
+        ..map::Control::default()
+    };
     let map = |x, y| {
         Map::of(
             &setup,
@@ -200,7 +204,7 @@ fn outcome(setup: &Setup, checkpoint: Option<&Checkpoint>) -> Outcome {
             axis(x),
             axis(y),
             64,
-            checkpoint,
+            &drawing,
         )
     };
     let maps = [
