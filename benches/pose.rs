@@ -35,6 +35,9 @@ fn facets(degrees: f64) -> Walls {
     }
 }
 
+/// What flies, and whether it has a size.
+const KINDS: [(&str, bool); 2] = [("points", false), ("shots of their size", true)];
+
 /// A pose of the long hub with many bounces, and the blind keyway near its best pose.
 fn rays(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rays");
@@ -63,7 +66,7 @@ fn rays(criterion: &mut Criterion) {
         ),
     ] {
         let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
-        for (kind, shot_size) in [("points", false), ("shots of their size", true)] {
+        for (kind, shot_size) in KINDS {
             let mut setup = setup.clone();
             setup.problem.paths.shot_size = shot_size;
             let once = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
@@ -108,15 +111,19 @@ fn growth(criterion: &mut Criterion) {
     }
     group.finish();
     let mut group = criterion.benchmark_group("chord angle in degrees");
-    for degrees in [1.0, 0.1, 0.01, 0.001] {
-        let setup = setup("keyway-long.yaml", facets(degrees));
-        let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
-        let once = Tally::trace(&setup, &steep, 1.0, &samples.deviates);
-        group.throughput(Throughput::Elements(once.rays as u64));
-        let name = format!("{degrees}, {} triangles", setup.scene.triangles());
-        group.bench_function(name, |bencher| {
-            bencher.iter(|| Tally::trace(&setup, black_box(&steep), 1.0, &samples.deviates));
-        });
+    for (kind, shot_size) in KINDS {
+        for degrees in [1.0, 0.1, 0.01, 0.001] {
+            let mut setup = setup("keyway-long.yaml", facets(degrees));
+            setup.problem.paths.shot_size = shot_size;
+            let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
+            let once = Tally::trace(&setup, &steep, 1.0, &samples.deviates);
+            group.throughput(Throughput::Elements(once.rays as u64));
+            let triangles = setup.scene.triangles();
+            let name = format!("{degrees}, {triangles} triangles, {kind}");
+            group.bench_function(name, |bencher| {
+                bencher.iter(|| Tally::trace(&setup, black_box(&steep), 1.0, &samples.deviates));
+            });
+        }
     }
     group.finish();
 }
