@@ -4,8 +4,9 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use nalgebra::Vector2;
+use peenpose::problem::curve::Curve;
 use peenpose::problem::part::Shape;
-use peenpose::scene::profile::{Curve, Profile};
+use peenpose::scene::profile::Profile;
 use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Control, Solution, Status, solve};
 

@@ -87,10 +87,10 @@ impl BesidePoint {
             if points.len() == MOST_RUNS {
                 return Err(fault(format!("has more than {MOST_RUNS} runs")));
             }
-            if !methods.contains(&point.method) && methods.len() == MOST_METHODS {
+            methods.insert(point.method.clone());
+            if methods.len() > MOST_METHODS {
                 return Err(fault(format!("has more than {MOST_METHODS} methods")));
             }
-            methods.insert(point.method.clone());
             points.push(point);
         }
         Ok(points)

@@ -19,6 +19,7 @@
 //! # Ok::<(), Box<peenpose::problem::fault::Fault>>(())
 //! ```
 
+pub mod curve;
 pub mod equipment;
 pub mod fault;
 pub mod goal;

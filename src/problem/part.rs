@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 
+use super::curve::Curve;
+
 /// One named part of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
@@ -116,6 +118,20 @@ pub struct Segment {
     pub via: Option<Point2<f64>>,
     /// Name of the surface that it becomes.
     pub surface: String,
+}
+
+impl Segment {
+    /// Its form.
+    pub fn curve(&self) -> Curve {
+        let line = Curve::Line {
+            from: self.from,
+            to: self.to,
+        };
+        let arc = self
+            .via
+            .and_then(|via| Curve::arc_through(self.from, via, self.to));
+        arc.unwrap_or(line)
+    }
 }
 
 /// A named axis-parallel box.

@@ -9,8 +9,8 @@ mod plane;
 mod tests;
 mod touch;
 
-use super::profile::Curve;
 use crate::precision::Real;
+use crate::problem::curve::Curve;
 pub(super) use cylinder::Cylinder;
 pub(super) use edge::Edge;
 pub(super) use plane::Plane;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+use crate::problem::curve::Curve;
 use crate::problem::part::{Keyway, Segment};
 
 /// A cross-section; free space lies to the left of every piece.
@@ -47,105 +48,6 @@ impl Corner {
 /// Pieces whose directions differ by less than this, rad, go on smoothly.
 const SMOOTH: f64 = 1e-9;
 
-/// A straight line or a circular arc.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Curve {
-    /// From one point to another.
-    Line {
-        /// Start.
-        from: Point2<f64>,
-        /// End.
-        to: Point2<f64>,
-    },
-    /// Part of a circle.
-    Arc {
-        /// Centre of the circle.
-        centre: Point2<f64>,
-        /// Radius of the circle.
-        radius: f64,
-        /// Direction of the start as seen from the centre, rad.
-        start: f64,
-        /// Angle swept, rad; positive counter-clockwise, at most 2 pi either way.
-        sweep: f64,
-    },
-}
-
-impl Curve {
-    /// The arc from `from` through `via` to `to`; `None` when the three lie on a line.
-    pub fn arc_through(from: Point2<f64>, via: Point2<f64>, to: Point2<f64>) -> Option<Self> {
-        let (b, c) = (via - from, to - from);
-        let twice_area = b.perp(&c);
-        if twice_area.abs() <= 1e-12 * b.norm() * c.norm() {
-            return None;
-        }
-        let offset = Vector2::new(
-            c.y * b.norm_squared() - b.y * c.norm_squared(),
-            b.x * c.norm_squared() - c.x * b.norm_squared(),
-        ) / (2.0 * twice_area);
-        let centre = from + offset;
-        let direction = |p: Point2<f64>| (p.y - centre.y).atan2(p.x - centre.x);
-        let start = direction(from);
-        let turn = std::f64::consts::TAU;
-        let forward = (direction(to) - start).rem_euclid(turn);
-        // The three points run counter-clockwise exactly when the arc does.
-        let sweep = if twice_area > 0.0 {
-            forward
-        } else {
-            forward - turn
-        };
-        Some(Self::Arc {
-            centre,
-            radius: offset.norm(),
-            start,
-            sweep,
-        })
-    }
-
-    /// The point at `fraction` (0 to 1) of its length.
-    pub fn at(&self, fraction: f64) -> Point2<f64> {
-        match *self {
-            Self::Line { from, to } => from + (to - from) * fraction,
-            Self::Arc {
-                centre,
-                radius,
-                start,
-                sweep,
-            } => {
-                let (sin, cos) = (start + sweep * fraction).sin_cos();
-                centre + Vector2::new(cos, sin) * radius
-            }
-        }
-    }
-
-    /// Unit direction at `fraction` (0 to 1) of its length.
-    pub fn tangent(&self, fraction: f64) -> Vector2<f64> {
-        match *self {
-            Self::Line { from, to } => (to - from).normalize(),
-            Self::Arc { start, sweep, .. } => {
-                let (sin, cos) = (start + sweep * fraction).sin_cos();
-                Vector2::new(-sin, cos) * sweep.signum()
-            }
-        }
-    }
-
-    /// Length, m.
-    pub fn length(&self) -> f64 {
-        match *self {
-            Self::Line { from, to } => (to - from).norm(),
-            Self::Arc { radius, sweep, .. } => radius * sweep.abs(),
-        }
-    }
-
-    /// Number of chords, none of which turns by more than `chord_angle` rad.
-    pub fn chords(&self, chord_angle: f64) -> usize {
-        match *self {
-            Self::Line { .. } => 1,
-            // A sweep that is a multiple of the angle up to rounding needs no extra chord.
-            Self::Arc { sweep, .. } => ((sweep.abs() / chord_angle - 1e-9).ceil() as usize).max(1),
-        }
-    }
-}
-
 impl Profile {
     fn empty() -> Self {
         Self {
@@ -183,15 +85,7 @@ impl Profile {
     pub fn outline(segments: &[Segment]) -> Self {
         let mut profile = Self::empty();
         for segment in segments {
-            let line = Curve::Line {
-                from: segment.from,
-                to: segment.to,
-            };
-            let curve = segment
-                .via
-                .and_then(|via| Curve::arc_through(segment.from, via, segment.to))
-                .unwrap_or(line);
-            profile.push(curve, &segment.surface);
+            profile.push(segment.curve(), &segment.surface);
         }
         profile
     }

@@ -4,9 +4,10 @@ use nalgebra::{Point2, Vector2};
 
 use super::Note;
 use crate::jet::Pose;
+use crate::problem::curve::Curve;
 use crate::problem::part::{Part, Shape};
 use crate::problem::setting::Choice;
-use crate::scene::profile::{Curve, Profile};
+use crate::scene::profile::Profile;
 use crate::setup::Setup;
 
 /// ASTM B851: the diameter of the shot is at most this part of a fillet's radius.

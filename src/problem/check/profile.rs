@@ -6,6 +6,7 @@ use nalgebra::Point2;
 
 use super::coordinates::Coordinates;
 use super::scope::Scope;
+use crate::problem::curve::Curve;
 use crate::problem::field::Field;
 use crate::problem::file::Pair;
 use crate::problem::file::scene::SegmentEntry;
@@ -200,16 +201,20 @@ fn is_straight(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> bool {
 
 /// Whether no segment of an outline crosses another one of the same outline.
 fn no_outline_crosses_itself(scope: &Scope<'_>, profile: &[Segment]) -> bool {
+    let curves: Vec<Curve> = profile.iter().map(Segment::curve).collect();
     let mut plain = true;
     let mut start = 0;
-    for (index, segment) in profile.iter().enumerate() {
-        if index > 0 && !goes_on(&profile[index - 1], segment) {
+    for (index, curve) in curves.iter().enumerate() {
+        if index > 0 && !goes_on(&profile[index - 1], &profile[index]) {
             start = index;
         }
-        let mut earlier = profile[start..index].iter().zip(start..);
-        if let Some((other, crossed)) = earlier.find(|(other, _)| cross(other, segment)) {
+        let mut earlier = curves[start..index].iter().zip(start..);
+        if let Some((other, crossed)) = earlier.find(|(other, _)| cross(other, curve)) {
             let item = scope.item(index);
-            let kind = if other.via.is_some() { "arc" } else { "line" };
+            let kind = match other {
+                Curve::Line { .. } => "line",
+                Curve::Arc { .. } => "arc",
+            };
             let message = format!("crosses the {kind} of profile[{crossed}]");
             let fault = item.own_fault(Rule::CrossingOutline, message);
             item.report(fault.expecting("an outline that does not cross itself"));

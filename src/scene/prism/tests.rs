@@ -5,8 +5,9 @@ mod rims;
 use nalgebra::Point2;
 
 use super::*;
+use crate::problem::curve::Curve;
 use crate::scene::lanes::{LANES, put};
-use crate::scene::profile::{Curve, Piece};
+use crate::scene::profile::Piece;
 use crate::scene::rays::{Hits, Rays};
 
 /// A pipe of inner radius 5 and length 10 along z; free space is inside.

@@ -13,67 +13,6 @@ fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
     }
 }
 
-#[test]
-fn arcs_go_through_three_points() {
-    // A circle of radius 5 round (1, 2), over its upper half and over its lower half.
-    for (via, turn) in [([4.0, 6.0], 1.0), ([-2.0, 6.0], 1.0), ([4.0, -2.0], -1.0)] {
-        let arc = Curve::arc_through([6.0, 2.0].into(), via.into(), [-4.0, 2.0].into());
-        let arc = arc.expect("they lie on no line");
-        let Curve::Arc {
-            centre,
-            radius,
-            start,
-            sweep,
-        } = arc
-        else {
-            panic!("an arc is round");
-        };
-        assert!((centre - Point2::new(1.0, 2.0)).norm() < 1e-12);
-        assert!(is_near(radius, 5.0) && is_near(start, 0.0));
-        assert!(is_near(sweep, turn * PI));
-        assert!(is_near(arc.length(), 5.0 * PI));
-        let middle = Point2::new(1.0, 2.0 + turn * 5.0);
-        assert!((arc.at(0.5) - middle).norm() < 1e-12);
-        assert!((arc.tangent(0.0) - Vector2::new(0.0, turn)).norm() < 1e-12);
-        assert!((arc.tangent(0.5) + Vector2::x()).norm() < 1e-12);
-        assert!((arc.tangent(1.0) + Vector2::new(0.0, turn)).norm() < 1e-12);
-    }
-    let straight = [[0.0, 0.0], [1.0, 2.0], [2.0, 4.0]].map(Point2::from);
-    assert_eq!(
-        Curve::arc_through(straight[0], straight[1], straight[2]),
-        None
-    );
-    let line = line([1.0, 1.0], [4.0, 5.0]);
-    assert!(is_near(line.length(), 5.0));
-    assert!((line.tangent(0.3) - Vector2::new(0.6, 0.8)).norm() < 1e-12);
-    assert_eq!(line.at(0.5), Point2::new(2.5, 3.0));
-}
-
-/// Of every size, wherever its circle is.
-#[test]
-fn arcs_begin_and_end_where_they_are_said_to() {
-    // From the right of a circle to its top and to its left, over either side.
-    let quarters = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Vector2::from);
-    for size in [1e-8, 1.0, 1e3] {
-        for centre in [[0.0, 0.0], [7.0, -3.0], [-0.5, 20.0]] {
-            let centre = Point2::from(centre) * size;
-            let at = |quarter: usize| centre + quarters[quarter % 4] * size;
-            for first in 0..4 {
-                for (via, last, sweep) in [(1, 2, PI), (1, 3, 1.5 * PI), (2, 1, -1.5 * PI)] {
-                    let (from, via, to) = (at(first), at(first + via), at(first + last));
-                    let arc = Curve::arc_through(from, via, to).expect("they lie on no line");
-                    let off = (arc.at(0.0) - from).norm() + (arc.at(1.0) - to).norm();
-                    assert!(off < 1e-12 * size, "{size}, {centre}, {first}: {off}");
-                    let length = size * sweep.abs();
-                    assert!((arc.length() / length - 1.0).abs() < 1e-12);
-                    let turn = arc.tangent(0.0).dot(&quarters[(first + 1) % 4]);
-                    assert!((turn - sweep.signum()).abs() < 1e-12);
-                }
-            }
-        }
-    }
-}
-
 /// A bore of radius 5 with a groove that leaves it at (3, 4) and (-3, 4).
 fn keyway(root_radius: f64) -> Profile {
     Profile::keyway(&Keyway {

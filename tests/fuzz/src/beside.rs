@@ -1,18 +1,16 @@
 //! Tables of other methods: what is read is sensible and can be shown, all else is refused with its
 //! line.
 
-use std::path::Path;
 use std::sync::LazyLock;
 
 use peenpose::chart::{
     BesideFault, BesidePoint, Chart, Control, LONGEST_NAME, MOST_METHODS, MOST_RUNS, measure,
 };
-use peenpose::problem;
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
-use peenpose::scene::Walls;
-use peenpose::setup::Setup;
+
+use super::solve::sound;
 
 /// Longest complaint about a line, however long that is.
 const LONGEST_COMPLAINT: usize = 200;
@@ -20,17 +18,14 @@ const LONGEST_COMPLAINT: usize = 200;
 /// A chart of the shipped problem that is solved soonest, beside which the points are shown; without
 /// what has nothing to do with them.
 static CHART: LazyLock<Chart> = LazyLock::new(|| {
-    let text = include_str!("../../../problems/plate.yaml");
-    let reading = problem::read_text(text, Path::new("any.yaml")).expect("short enough");
-    let problem = reading.problem.expect("a shipped problem is sound");
-    let setup = Setup::new(problem, Walls::Exact).expect("a shipped problem is sound");
+    let (setup, source) = sound(include_str!("../../../problems/plate.yaml"));
     let control = Control {
         most_shots: 64,
         seeds: 1,
         ..Control::default()
     };
     let command = "peenpose chart any.yaml".into();
-    let chart = measure(&setup, &reading.source, command, Vec::new(), &control);
+    let chart = measure(&setup, &source, command, Vec::new(), &control);
     Chart {
         poses: Vec::new(),
         effects: Vec::new(),

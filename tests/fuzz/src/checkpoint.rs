@@ -3,22 +3,20 @@
 //! with settings that are legal.
 
 use std::fs;
-use std::path::Path;
 use std::sync::LazyLock;
 
 use peenpose::checkpoint::{Checkpoint, Trouble};
 use peenpose::map::{self, Axis, Map};
+use peenpose::problem::Source;
 use peenpose::problem::setting::Setting;
-use peenpose::problem::{self, Source};
 use peenpose::record::{MapRecord, Record};
-use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::solve::{Control, Solution, solve};
 use tempfile::TempDir;
 
 use super::bytes::Bytes;
 use super::checkpoint_edit::{damage, forge};
-use super::solve::{is_legal, recorded};
+use super::solve::{is_legal, recorded, sound};
 
 const HEADING: &[u8] = b"peenpose checkpoint 2\n";
 /// Longest complaint about a file, its own name included.
@@ -70,10 +68,7 @@ impl Outcome {
 }
 
 static WHOLE: LazyLock<Uninterrupted> = LazyLock::new(|| {
-    let reading = problem::read_text(PROBLEM, Path::new("any.yaml")).expect("short enough");
-    let problem = reading.problem.expect("the problem is sound");
-    let setup = Setup::new(problem, Walls::Exact).expect("the problem is sound");
-    let source = reading.source;
+    let (setup, source) = sound(PROBLEM);
     let outcome = outcome(&setup, None);
     let folder = folder();
     let kept = Checkpoint::open(folder.path(), &setup).expect("there is no file yet");

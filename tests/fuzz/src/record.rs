@@ -1,33 +1,25 @@
 //! Results read back: what is a record by its form can be shown, whatever it says.
 
-use std::path::Path;
 use std::sync::LazyLock;
 
-use peenpose::problem;
 use peenpose::record::Record;
 use peenpose::report::export::{Format, export};
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
 use peenpose::report::{page, sheet};
-use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Control, solve};
 use serde_json::Value;
 
 use super::bytes::Bytes;
 use super::record_edit::edit;
-use super::solve::recorded;
+use super::solve::{recorded, sound};
 
 /// About how many figures a record has.
 const FIGURES: usize = 16;
 
 /// A record of a small search that the edits start from; made anew, so that it is never out of date.
 static WHOLE: LazyLock<Value> = LazyLock::new(|| {
-    let text = include_str!("../../../problems/keyway.yaml");
-    let path = Path::new("any.yaml");
-    let reading = problem::read_text(text, path).expect("short enough");
-    let problem = reading.problem.expect("a shipped problem is sound");
-    let setup = Setup::new(problem, Walls::Exact).expect("a shipped problem is sound");
+    let (setup, source) = sound(include_str!("../../../problems/keyway.yaml"));
     let control = Control {
         most_shots: 64,
         fresh_shots: 128,
@@ -35,7 +27,7 @@ static WHOLE: LazyLock<Value> = LazyLock::new(|| {
     };
     let solution = solve(&setup, &control);
     let setup = setup.as_asked();
-    let record = recorded(&setup, &reading.source, &solution);
+    let record = recorded(&setup, &source, &solution);
     let record = record.with_evidence(&setup, &solution.answers[0]);
     let mut whole = serde_json::to_value(record).expect("every number is finite");
     for list in ["/evidence/hits", "/evidence/rebounds"] {

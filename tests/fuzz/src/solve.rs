@@ -1,7 +1,10 @@
 //! Whole small searches: the result is finite, can be written and read back, and can be shown.
 
+use std::path::Path;
+
 use peenpose::problem::{self, Source};
 use peenpose::record::{Circumstances, FrontRecord, Record, WorkRecord};
+use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Control, Solution, front, passing_windows, solve};
 use peenpose::unknowns::Unknowns;
@@ -92,6 +95,14 @@ pub fn is_legal(setup: &Setup, answer: &Answer, problem: &str) {
             "{low} to {high}: {problem}"
         );
     }
+}
+
+/// What a sound problem file of exact walls says.
+pub fn sound(text: &str) -> (Setup, Source) {
+    let reading = problem::read_text(text, Path::new("any.yaml")).expect("short enough");
+    let problem = reading.problem.expect("the problem is sound");
+    let setup = Setup::new(problem, Walls::Exact).expect("the problem is sound");
+    (setup, reading.source)
 }
 
 /// As `peenpose solve` makes it.

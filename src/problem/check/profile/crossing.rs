@@ -5,168 +5,153 @@ use std::f64::consts::TAU;
 use nalgebra::{Point2, Vector2};
 
 use super::SAME_POINT;
-use crate::problem::part::Segment;
+use crate::problem::curve::Curve;
 
 /// Where two segments meet end to end, coordinates as they are typed make a smooth joint cross itself
 /// nearby: that counts from this share of the shorter one on.
 const JOINT: f64 = 0.05;
 
 /// Whether both segments go on for more than a nanometre on either side of a point that they share.
-pub(super) fn cross(one: &Segment, other: &Segment) -> bool {
-    match (Arc::of(one), Arc::of(other)) {
-        (None, None) => lines_cross(one, other),
-        (Some(arc), None) => meet(one, other, &arc.crossings_of_line(other)),
-        (None, Some(arc)) => meet(one, other, &arc.crossings_of_line(one)),
-        (Some(arc), Some(with)) => meet(one, other, &arc.crossings_of(&with)),
+pub(super) fn cross(one: &Curve, other: &Curve) -> bool {
+    if let (Curve::Line { .. }, Curve::Line { .. }) = (one, other) {
+        return parts(one, other) && parts(other, one);
     }
-}
-
-/// Whether the ends of each line are on different sides of the other.
-fn lines_cross(one: &Segment, other: &Segment) -> bool {
-    let parts = |line: &Segment, by: &Segment| {
-        let along = line.to - line.from;
-        let side = |point: Point2<f64>| along.perp(&(point - line.from)) / along.norm();
-        let (from, to) = (side(by.from), side(by.to));
-        from.min(to) < -SAME_POINT && from.max(to) > SAME_POINT
-    };
-    parts(one, other) && parts(other, one)
-}
-
-/// Whether any of these points of both carriers is on both segments, off their ends.
-fn meet(one: &Segment, other: &Segment, points: &[Point2<f64>]) -> bool {
-    let shorter = length(one).min(length(other));
-    let is_off_ends = |of: &Segment, beside: &Segment, point: Point2<f64>| {
-        [of.from, of.to].iter().all(|end| {
-            let is_joint = [beside.from, beside.to]
-                .iter()
-                .any(|next| (next - end).norm() <= SAME_POINT);
-            let margin = if is_joint {
-                JOINT * shorter
-            } else {
-                SAME_POINT
-            };
-            (point - end).norm() > margin
-        })
-    };
-    points.iter().any(|&point| {
-        let on_both = [one, other].iter().all(|segment| is_beside(segment, point));
-        on_both && is_off_ends(one, other, point) && is_off_ends(other, one, point)
+    let shorter = one.length().min(other.length());
+    common_points(one, other).iter().any(|&point| {
+        let is_on_both = lies_beside(one, point) && lies_beside(other, point);
+        is_on_both
+            && is_off_ends(one, other, point, shorter)
+            && is_off_ends(other, one, point, shorter)
     })
 }
 
-/// Whether a point of a segment's carrier is between the segment's ends.
-fn is_beside(segment: &Segment, point: Point2<f64>) -> bool {
-    if let Some(arc) = Arc::of(segment) {
-        return arc.turned_to(point) < arc.sweep.abs();
+/// Whether the ends of a line are on different sides of another one.
+fn parts(line: &Curve, by: &Curve) -> bool {
+    let along = line.tangent(0.0);
+    let [start, _] = line.ends();
+    let [from, to] = by.ends().map(|end| along.perp(&(end - start)));
+    from.min(to) < -SAME_POINT && from.max(to) > SAME_POINT
+}
+
+/// Whether a point is away from the ends of a segment; farther from those that are the other one's, too.
+fn is_off_ends(of: &Curve, other: &Curve, point: Point2<f64>, shorter: f64) -> bool {
+    let is_same = |one: Point2<f64>, other: Point2<f64>| (one - other).norm() <= SAME_POINT;
+    of.ends().into_iter().all(|end| {
+        let is_joint = other.ends().into_iter().any(|next| is_same(end, next));
+        let margin = if is_joint {
+            JOINT * shorter
+        } else {
+            SAME_POINT
+        };
+        (point - end).norm() > margin
+    })
+}
+
+/// Whether a point of the whole line or circle is between the segment's ends.
+fn lies_beside(curve: &Curve, point: Point2<f64>) -> bool {
+    match *curve {
+        Curve::Line { from, to } => {
+            let along = to - from;
+            (0.0..along.norm_squared()).contains(&along.dot(&(point - from)))
+        }
+        Curve::Arc {
+            centre,
+            start,
+            sweep,
+            ..
+        } => {
+            let radial = point - centre;
+            let turn = radial.y.atan2(radial.x) - start;
+            (turn * sweep.signum()).rem_euclid(TAU) < sweep.abs()
+        }
     }
-    let along = segment.to - segment.from;
-    (0.0..along.norm_squared()).contains(&along.dot(&(point - segment.from)))
 }
 
-fn length(segment: &Segment) -> f64 {
-    let chord = (segment.to - segment.from).norm();
-    Arc::of(segment).map_or(chord, |arc| arc.radius * arc.sweep.abs())
+/// Where the whole lines and circles of two segments meet, unless they hardly touch; not for two lines.
+fn common_points(one: &Curve, other: &Curve) -> Vec<Point2<f64>> {
+    match (*one, *other) {
+        (Curve::Line { .. }, Curve::Line { .. }) => Vec::new(),
+        (Curve::Arc { centre, radius, .. }, Curve::Line { from, to })
+        | (Curve::Line { from, to }, Curve::Arc { centre, radius, .. }) => {
+            let along = (to - from).normalize();
+            let middle = from + along * along.dot(&(centre - from));
+            ends_of_chord(centre, radius, middle, along)
+        }
+        (
+            Curve::Arc { centre, radius, .. },
+            Curve::Arc {
+                centre: beside,
+                radius: other,
+                ..
+            },
+        ) => {
+            let between = beside - centre;
+            let distance = between.norm();
+            let nested = (radius - other).abs();
+            if distance < nested + SAME_POINT || distance > radius + other - SAME_POINT {
+                return Vec::new();
+            }
+            let along = between / distance;
+            let squares = radius * radius - other * other;
+            let middle = centre + along * (0.5 * (distance + squares / distance));
+            ends_of_chord(centre, radius, middle, Vector2::new(-along.y, along.x))
+        }
+    }
 }
 
-/// A segment that is an arc.
-struct Arc {
+/// The ends of a chord of a circle, by its middle and direction.
+fn ends_of_chord(
     centre: Point2<f64>,
     radius: f64,
-    from: Point2<f64>,
-    /// Counterclockwise if positive, rad.
-    sweep: f64,
-}
-
-impl Arc {
-    fn of(segment: &Segment) -> Option<Self> {
-        let (from, to) = (segment.from, segment.to);
-        let (a, b) = (segment.via? - from, to - from);
-        // The centre is as far from all three points.
-        let (aa, bb) = (a.norm_squared(), b.norm_squared());
-        let outwards = Vector2::new(aa * b.y - bb * a.y, bb * a.x - aa * b.x);
-        let radial = outwards / (2.0 * a.perp(&b));
-        let mut arc = Self {
-            centre: from + radial,
-            radius: radial.norm(),
-            from,
-            sweep: a.perp(&b).signum(),
-        };
-        arc.sweep *= arc.turned_to(to);
-        Some(arc)
+    middle: Point2<f64>,
+    along: Vector2<f64>,
+) -> Vec<Point2<f64>> {
+    let off = (middle - centre).norm();
+    if off > radius - SAME_POINT {
+        return Vec::new();
     }
-
-    /// The angle from the start to a point of the circle, as the arc turns, 0 to 2 pi.
-    fn turned_to(&self, point: Point2<f64>) -> f64 {
-        let (start, end) = (self.from - self.centre, point - self.centre);
-        let turn = start.perp(&end).atan2(start.dot(&end));
-        (turn * self.sweep.signum()).rem_euclid(TAU)
-    }
-
-    /// Where the whole circle meets the line through a segment, unless it hardly touches it.
-    fn crossings_of_line(&self, line: &Segment) -> Vec<Point2<f64>> {
-        let along = (line.to - line.from).normalize();
-        let middle = line.from + along * along.dot(&(self.centre - line.from));
-        self.either_side(middle, along)
-    }
-
-    /// Where two whole circles meet, unless they hardly touch.
-    fn crossings_of(&self, other: &Self) -> Vec<Point2<f64>> {
-        let between = other.centre - self.centre;
-        let distance = between.norm();
-        let nested = (self.radius - other.radius).abs();
-        if distance < nested + SAME_POINT || distance > self.radius + other.radius - SAME_POINT {
-            return Vec::new();
-        }
-        let along = between / distance;
-        let squares = self.radius * self.radius - other.radius * other.radius;
-        let middle = self.centre + along * (0.5 * (distance + squares / distance));
-        self.either_side(middle, Vector2::new(-along.y, along.x))
-    }
-
-    /// The ends of a chord, by its middle and direction.
-    fn either_side(&self, middle: Point2<f64>, along: Vector2<f64>) -> Vec<Point2<f64>> {
-        let off = (middle - self.centre).norm();
-        if off > self.radius - SAME_POINT {
-            return Vec::new();
-        }
-        let half = ((self.radius - off) * (self.radius + off)).sqrt();
-        vec![middle + along * half, middle - along * half]
-    }
+    let half = ((radius - off) * (radius + off)).sqrt();
+    vec![middle + along * half, middle - along * half]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn line(from: [f64; 2], to: [f64; 2]) -> Segment {
-        Segment {
+    fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
+        Curve::Line {
             from: from.into(),
             to: to.into(),
-            via: None,
-            surface: "any".to_owned(),
         }
     }
 
-    fn arc(from: [f64; 2], via: [f64; 2], to: [f64; 2]) -> Segment {
-        Segment {
-            via: Some(via.into()),
-            ..line(from, to)
+    fn arc(from: [f64; 2], via: [f64; 2], to: [f64; 2]) -> Curve {
+        let arc = Curve::arc_through(from.into(), via.into(), to.into());
+        arc.expect("they lie on no line")
+    }
+
+    /// The same from its other end.
+    fn turned(curve: &Curve) -> Curve {
+        match *curve {
+            Curve::Line { from, to } => Curve::Line { from: to, to: from },
+            Curve::Arc {
+                centre,
+                radius,
+                start,
+                sweep,
+            } => Curve::Arc {
+                centre,
+                radius,
+                start: start + sweep,
+                sweep: -sweep,
+            },
         }
     }
 
     /// Both ways round, and both ways along each segment.
-    fn crosses(one: &Segment, other: &Segment) -> bool {
-        let turned = |segment: &Segment| Segment {
-            from: segment.to,
-            to: segment.from,
-            ..segment.clone()
-        };
+    fn crosses(one: &Curve, other: &Curve) -> bool {
         let found = cross(one, other);
-        for (one, other) in [
-            (other.clone(), one.clone()),
-            (turned(one), other.clone()),
-            (one.clone(), turned(other)),
-        ] {
+        for (one, other) in [(*other, *one), (turned(one), *other), (*one, turned(other))] {
             assert_eq!(cross(&one, &other), found, "{one:?} {other:?}");
         }
         found
