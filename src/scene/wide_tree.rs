@@ -5,9 +5,11 @@
 //! What a walk finds does not depend on that: every leaf is visited that a ray may meet before what
 //! was found so far.
 
+mod body;
 mod build;
 mod flat;
 mod slab;
+mod sphere;
 mod split;
 mod walk;
 
@@ -15,9 +17,12 @@ use wide::f32x8;
 
 use super::lanes::{larger, smaller};
 use super::ray::Ray;
+use body::Body;
+pub(super) use body::Point;
 pub(super) use flat::FlatRay;
 use flat::Frame;
 use slab::Slabs;
+use sphere::Sphere;
 pub(super) use walk::Walk;
 
 /// Children of a node.
@@ -35,7 +40,7 @@ pub(super) struct WideTree {
 /// The boxes of a node's children and what is in them.
 #[derive(Clone)]
 #[repr(align(32))]
-struct Node {
+pub(super) struct Node {
     /// Lower sides along x, y and z, then upper sides; empty places have them the wrong way round.
     sides: [[f32; WIDTH]; 6],
     children: [u32; WIDTH],
@@ -59,18 +64,13 @@ impl Node {
         children: [0; WIDTH],
     };
 
-    /// Where the ray enters each child's box, and a bit for each that it enters within `limit` and
-    /// whose slab it meets there. A single box is as soon visited as its slab looked at.
+    /// Where the ray enters each child's box, and a bit for each that it enters within `limit`; after
+    /// a closer look, where that costs less than to visit what it may rule out.
     #[inline(always)]
-    fn entered<const GROWN: bool>(
-        &self,
-        slabs: Option<&Slabs>,
-        ray: &FlatRay<GROWN>,
-        limit: f32,
-    ) -> Entered {
+    fn entered<B: Body>(&self, slabs: Option<&Slabs>, ray: &FlatRay<B>, limit: f32) -> Entered {
         let sides = ray.sides.map(|axes| axes.map(|side| &self.sides[side]));
         let distance = |end: usize, axis: usize, lane: usize| {
-            let origin = ray.origins[if GROWN { end } else { 0 }][axis];
+            let origin = ray.origins[if B::HAS_SIZE { end } else { 0 }][axis];
             (sides[end][axis][lane] - origin) * ray.inverse[end][axis]
         };
         let (mut entries, mut exits) = ([0.0; WIDTH], [0.0; WIDTH]);
@@ -82,10 +82,8 @@ impl Node {
         }
         let enters = f32x8::new(entries).simd_le(f32x8::new(exits));
         let mut lanes = enters.to_bitmask();
-        if let Some(slabs) = slabs
-            && lanes.count_ones() > 1
-        {
-            lanes &= slabs.met(self, ray, &entries, &exits);
+        if lanes.count_ones() > B::NOT_LOOKED_AT {
+            lanes &= ray.body.meets(self, slabs, &mut entries, &exits);
         }
         Entered {
             entries: f32x8::new(entries),
@@ -108,26 +106,26 @@ pub(super) struct Entered {
 impl WideTree {
     /// A ray as the boxes see it.
     #[inline(always)]
-    pub fn flat(&self, ray: &Ray) -> FlatRay<false> {
+    pub fn flat(&self, ray: &Ray) -> FlatRay<Point> {
         self.frame.ray(ray, 0.0)
     }
 
     /// A sphere of `radius` (m) whose centre moves along a ray, likewise.
     #[inline(always)]
-    pub fn flat_sphere(&self, ray: &Ray, radius: f64) -> FlatRay<true> {
+    pub fn flat_sphere(&self, ray: &Ray, radius: f64) -> FlatRay<Sphere> {
         self.frame.ray(ray, radius)
     }
 
     /// Where a ray enters the tree within `limit` (m).
     #[inline(always)]
-    pub fn entered<const GROWN: bool>(&self, ray: &FlatRay<GROWN>, limit: f64) -> Entered {
+    pub fn entered<B: Body>(&self, ray: &FlatRay<B>, limit: f64) -> Entered {
         self.nodes[0].entered(None, ray, self.frame.limit(limit, ray))
     }
 
     /// A walk to the leaves that a ray may meet, near ones first, which has yet to
     /// [start](Walk::start).
     #[inline(always)]
-    pub fn walk<'a, const GROWN: bool>(&'a self, ray: &'a FlatRay<GROWN>) -> Walk<'a, GROWN> {
+    pub fn walk<'a, B: Body>(&'a self, ray: &'a FlatRay<B>) -> Walk<'a, B> {
         Walk::new(self, ray)
     }
 }

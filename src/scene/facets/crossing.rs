@@ -8,7 +8,7 @@ use crate::scene::LIFT;
 use crate::scene::ray::{Crossing, Ray, Spot};
 use crate::scene::start::Start;
 use crate::scene::triangle::{Shear, Weights, lies_on, passes_over};
-use crate::scene::wide_tree::{Entered, FlatRay};
+use crate::scene::wide_tree::{Entered, FlatRay, Point};
 
 impl Facets {
     /// The first crossing of a ray nearer than `limit`, and the front normal there. Of crossings
@@ -219,7 +219,7 @@ impl Facets {
 
 /// A ray as boxes and as triangles see it.
 pub(super) struct Sight {
-    pub flat: FlatRay<false>,
+    pub flat: FlatRay<Point>,
     shear: Shear,
 }
 

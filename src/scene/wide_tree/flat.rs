@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::slab::{AT_ORIGIN, BY_RADIUS};
+use super::body::Body;
 use crate::precision::Triple;
 use crate::scene::ray::Ray;
 
@@ -16,9 +16,9 @@ pub(super) struct Frame {
     pub slack: f64,
 }
 
-/// A ray in the coordinates of the boxes; `GROWN` where it traces a sphere, for which the boxes
-/// are larger by the radius on every side.
-pub(in crate::scene) struct FlatRay<const GROWN: bool> {
+/// A ray in the coordinates of the boxes, on which a point flies or a sphere's centre, for which the
+/// boxes are larger by the radius on every side.
+pub(in crate::scene) struct FlatRay<B> {
     /// To measure the sides from where the ray enters and leaves: instead of the sides, the origin
     /// is moved by the radius, forwards and back. Without a radius the first stands for both.
     pub origins: [Triple<f32>; 2],
@@ -27,11 +27,8 @@ pub(in crate::scene) struct FlatRay<const GROWN: bool> {
     pub inverse: [Triple<f32>; 2],
     /// Which of a node's sides the ray enters and leaves through.
     pub sides: [[usize; 3]; 2],
-    /// As slabs see the ray, the origin where it is.
-    pub origin: Triple<f32>,
-    pub direction: Triple<f32>,
-    /// The radius, and what rounding makes of heights over slabs because of it and of the origin.
-    pub doubt: f32,
+    /// For a closer look at some of the boxes.
+    pub body: B,
     /// How far the origin was moved along the ray; infinite for a ray that passes the mesh, of which
     /// then nothing is within any limit.
     skipped: f64,
@@ -44,7 +41,7 @@ const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 /// origin and of the sides.
 const MARGIN: f64 = 1.5 * f32::EPSILON as f64;
 /// Radii are taken larger by this share: origins moved by them have as much more rounding, which
-/// the margin does not cover.
+/// the margin does not cover, and normals of slabs are as much longer than 1.
 const GROWN_ROUNDING: f64 = 2.0 * f32::EPSILON as f64;
 /// Origins farther out than this along an axis are moved to the box of the mesh first.
 const FAR: f64 = 2.0;
@@ -68,7 +65,7 @@ impl Frame {
 
     /// A limit along a ray (m) in the coordinates of the boxes.
     #[inline(always)]
-    pub fn limit<const GROWN: bool>(&self, limit: f64, ray: &FlatRay<GROWN>) -> f32 {
+    pub fn limit<B>(&self, limit: f64, ray: &FlatRay<B>) -> f32 {
         let limit = limit * self.scale - ray.skipped;
         (limit + limit.abs() * ROUNDING + MARGIN) as f32
     }
@@ -82,10 +79,10 @@ impl Frame {
         (point - self.centre) * self.scale
     }
 
-    /// A ray, `radius` (m) being 0 unless `GROWN`.
+    /// A ray, `radius` (m) being 0 unless the body has a size.
     #[inline(always)]
-    pub fn ray<const GROWN: bool>(&self, ray: &Ray, radius: f64) -> FlatRay<GROWN> {
-        let grown = if GROWN {
+    pub fn ray<B: Body>(&self, ray: &Ray, radius: f64) -> FlatRay<B> {
+        let grown = if B::HAS_SIZE {
             radius * self.scale * (1.0 + GROWN_ROUNDING)
         } else {
             0.0
@@ -101,7 +98,7 @@ impl Frame {
         let moved = |by: f64| {
             axes.map(|axis| {
                 let forwards = if inverse[axis] < 0.0 { -by } else { by };
-                let moved = if GROWN {
+                let moved = if B::HAS_SIZE {
                     origin[axis] + forwards
                 } else {
                     origin[axis]
@@ -119,9 +116,7 @@ impl Frame {
                 axes.map(|axis| axis + 3 * backwards[axis]),
                 axes.map(|axis| axis + 3 - 3 * backwards[axis]),
             ],
-            origin: origin.map(|component| component as f32).into(),
-            direction: ray.direction.map(|component| component as f32).into(),
-            doubt: (grown * (1.0 + BY_RADIUS) + origin.amax() * AT_ORIGIN) as f32,
+            body: B::new(&origin, &ray.direction, grown, skipped),
             skipped,
         }
     }

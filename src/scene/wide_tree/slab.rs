@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 use wide::f32x8;
 
-use super::flat::FlatRay;
+use super::body::Point;
 use super::split::Bounds;
 use super::{Node, WIDTH};
 use crate::scene::lanes::{larger, smaller};
@@ -21,8 +21,6 @@ const ALONG_RAY: f32 = (12.0 * UNIT) as f32;
 /// By the width of the box along the normal: 5 in what the ray starts from, and 2 in the height of
 /// the planes.
 const ACROSS_BOX: f64 = 8.0 * UNIT;
-/// By radius: 9 in what the ray starts from, and some in the radius itself.
-pub(super) const BY_RADIUS: f64 = 16.0 * UNIT;
 /// Slabs are worth a look up to this share of their boxes in width.
 const WIDEST_SHARE: f64 = 0.5;
 
@@ -66,10 +64,11 @@ impl Slab {
 /// The slabs of a node's children.
 #[derive(Clone)]
 #[repr(align(32))]
-pub(super) struct Slabs {
-    normals: [[f32; WIDTH]; 3],
-    low: [f32; WIDTH],
-    high: [f32; WIDTH],
+pub(in crate::scene) struct Slabs {
+    pub normals: [[f32; WIDTH]; 3],
+    /// Heights over the lower corners of their boxes.
+    pub low: [f32; WIDTH],
+    pub high: [f32; WIDTH],
 }
 
 impl Slabs {
@@ -80,7 +79,7 @@ impl Slabs {
         high: [f32::INFINITY; WIDTH],
     };
 
-    pub fn set(&mut self, lane: usize, slab: &Slab) {
+    pub(super) fn set(&mut self, lane: usize, slab: &Slab) {
         for axis in 0..3 {
             self.normals[axis][lane] = slab.normal[axis];
         }
@@ -90,10 +89,10 @@ impl Slabs {
 
     /// A bit for each child whose slab a ray meets between where it enters and leaves its box.
     #[inline(always)]
-    pub fn met<const GROWN: bool>(
+    pub fn met(
         &self,
         node: &Node,
-        ray: &FlatRay<GROWN>,
+        ray: &Point,
         entries: &[f32; WIDTH],
         exits: &[f32; WIDTH],
     ) -> u32 {

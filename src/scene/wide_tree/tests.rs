@@ -3,7 +3,9 @@ use std::iter;
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
+use super::body::Body;
 use super::flat::{FlatRay, Frame, entry, reciprocal};
+use super::sphere::Sphere;
 use super::walk::{Stop, settle_last};
 use super::{WideTree, build};
 use crate::scene::facets::tests::Random;
@@ -67,7 +69,7 @@ fn a_mesh_of_any_size_reaches_from_minus_one_to_one() {
             origin: nalgebra::center(&low, &high),
             direction: Vector3::new(0.6, -0.8, 0.0),
         };
-        let flat: FlatRay<true> = frame.ray(&ray, 3.0 * size);
+        let flat: FlatRay<Sphere> = frame.ray(&ray, 3.0 * size);
         let [forwards, back] = flat.origins.map(|origin| origin.map(f64::from));
         assert!(is_near(forwards, [1.5, -1.5, 1.5]), "{size}");
         assert!(is_near(back, [-1.5, 1.5, -1.5]), "{size}");
@@ -93,9 +95,9 @@ fn tree(triangles: &[[Point3<f64>; 3]], slack: f64) -> (WideTree, Vec<build::Lea
 }
 
 /// Where the walk of a ray, or of a sphere, stops within `limit`.
-fn visits<'a, const GROWN: bool>(
+fn visits<'a, B: Body>(
     tree: &'a WideTree,
-    flat: &'a FlatRay<GROWN>,
+    flat: &'a FlatRay<B>,
     limit: f64,
 ) -> impl Iterator<Item = u32> + 'a {
     let mut walk = tree.walk(flat);
@@ -125,6 +127,41 @@ fn rays_that_skim_a_curved_wall_visit_few_leaves() {
         }
         let mean = leaves as f64 / f64::from(RAYS);
         assert!(mean < 3.0, "{strips}: {mean}");
+    }
+}
+
+/// Under each sphere are one in a hundred of all leaves.
+#[test]
+fn spheres_much_wider_than_facets_visit_few_leaves() {
+    const SPHERES: u32 = 200;
+    const RADIUS: f64 = 0.05;
+    for (strips, most) in [(1000, 3.0), (30_000, 6.0), (1_000_000, 120.0)] {
+        let triangles = round_wall(strips, 3.0);
+        let (tree, _) = tree(&triangles, 1e-12);
+        let (mut coming, mut leaving) = (0, 0);
+        for step in 0..SPHERES {
+            let (sine, cosine) = (0.7 + 0.01 * f64::from(step)).sin_cos();
+            let outwards = Vector3::new(cosine, sine, 0.0);
+            let along = Vector3::new(-sine, cosine, 1.0);
+            let direction = (along + outwards).normalize();
+            let touch = Point3::from(outwards * (1.0 - RADIUS)) + Vector3::z();
+            let ray = Ray {
+                origin: touch - direction * 0.3,
+                direction,
+            };
+            let flat = tree.flat_sphere(&ray, RADIUS);
+            coming += visits(&tree, &flat, 0.3).count();
+            let ray = Ray {
+                origin: touch,
+                direction: (along - outwards).normalize(),
+            };
+            let flat = tree.flat_sphere(&ray, RADIUS);
+            leaving += visits(&tree, &flat, 0.3).count();
+        }
+        for (count, way) in [(coming, "coming"), (leaving, "leaving")] {
+            let mean = f64::from(count as u32) / f64::from(SPHERES);
+            assert!(mean < most, "{strips}: {mean} when {way}");
+        }
     }
 }
 

@@ -2,22 +2,23 @@
 
 use arrayvec::ArrayVec;
 
+use super::body::Body;
 use super::flat::FlatRay;
 use super::{Entered, LEAF, Node, THIN, WIDTH, WideTree, build};
 
 /// A walk along a ray.
-pub(in crate::scene) struct Walk<'a, const GROWN: bool> {
+pub(in crate::scene) struct Walk<'a, B> {
     tree: &'a WideTree,
-    ray: &'a FlatRay<GROWN>,
+    ray: &'a FlatRay<B>,
     /// Where it has yet to go, the nearest last.
     stops: ArrayVec<Stop, { build::MOST_STOPS }>,
     /// How far along the ray it leads, in the coordinates of the boxes.
     limit: f32,
 }
 
-impl<'a, const GROWN: bool> Walk<'a, GROWN> {
+impl<'a, B: Body> Walk<'a, B> {
     #[inline(always)]
-    pub fn new(tree: &'a WideTree, ray: &'a FlatRay<GROWN>) -> Self {
+    pub fn new(tree: &'a WideTree, ray: &'a FlatRay<B>) -> Self {
         Self {
             tree,
             ray,
