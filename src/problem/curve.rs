@@ -112,7 +112,7 @@ impl Curve {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use std::f64::consts::PI;
 
     use super::*;
@@ -121,7 +121,7 @@ mod tests {
         (a - b).abs() < 1e-12
     }
 
-    fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
+    pub fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
         Curve::Line {
             from: from.into(),
             to: to.into(),

@@ -1,16 +1,10 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::problem::curve::tests::line;
 
 fn is_near(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-12
-}
-
-fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
-    Curve::Line {
-        from: from.into(),
-        to: to.into(),
-    }
 }
 
 /// A bore of radius 5 with a groove that leaves it at (3, 4) and (-3, 4).

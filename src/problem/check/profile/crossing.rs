@@ -117,13 +117,7 @@ fn ends_of_chord(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
-        Curve::Line {
-            from: from.into(),
-            to: to.into(),
-        }
-    }
+    use crate::problem::curve::tests::line;
 
     fn arc(from: [f64; 2], via: [f64; 2], to: [f64; 2]) -> Curve {
         let arc = Curve::arc_through(from.into(), via.into(), to.into());
