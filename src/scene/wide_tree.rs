@@ -8,6 +8,7 @@
 mod body;
 mod build;
 mod flat;
+mod point;
 mod slab;
 mod sphere;
 mod split;
@@ -18,9 +19,9 @@ use wide::f32x8;
 use super::lanes::{larger, smaller};
 use super::ray::Ray;
 use body::Body;
-pub(super) use body::Point;
 pub(super) use flat::FlatRay;
 use flat::Frame;
+pub(super) use point::Point;
 use slab::Slabs;
 use sphere::Sphere;
 pub(super) use walk::Walk;

@@ -4,22 +4,15 @@
 //! are the more the finer they are, but over their slabs.
 
 use nalgebra::Vector3;
-use wide::f32x8;
 
-use super::body::Point;
+use super::WIDTH;
 use super::split::Bounds;
-use super::{Node, WIDTH};
 use crate::scene::lanes::{larger, smaller};
 
 /// Relative rounding of a single operation.
-const UNIT: f64 = 0.5 * f32::EPSILON as f64;
-/// Rounding of a ray's height by how far its origin is along any axis: once for each component of
-/// it, and those of a normal add up to 1.74 at most.
-pub(super) const AT_ORIGIN: f64 = 2.0 * UNIT;
-/// By how far along the ray it is: 5 in what it rises, 4 in what it starts from, 2 in their sum.
-const ALONG_RAY: f32 = (12.0 * UNIT) as f32;
-/// By the width of the box along the normal: 5 in what the ray starts from, and 2 in the height of
-/// the planes.
+pub(super) const UNIT: f64 = 0.5 * f32::EPSILON as f64;
+/// Rounding of heights over a slab by the width of its box along the normal: 5 in what the ray starts
+/// from, and 2 in the height of the planes.
 const ACROSS_BOX: f64 = 8.0 * UNIT;
 /// Slabs are worth a look up to this share of their boxes in width.
 const WIDEST_SHARE: f64 = 0.5;
@@ -85,31 +78,5 @@ impl Slabs {
         }
         self.low[lane] = slab.low;
         self.high[lane] = slab.high;
-    }
-
-    /// A bit for each child whose slab a ray meets between where it enters and leaves its box.
-    #[inline(always)]
-    pub fn met(
-        &self,
-        node: &Node,
-        ray: &Point,
-        entries: &[f32; WIDTH],
-        exits: &[f32; WIDTH],
-    ) -> u32 {
-        let mut misses = [0.0_f32; WIDTH];
-        for lane in 0..WIDTH {
-            let (mut start, mut rise) = (0.0, 0.0);
-            for axis in 0..3 {
-                let normal = self.normals[axis][lane];
-                start += normal * (ray.origin[axis] - node.sides[axis][lane]);
-                rise += normal * ray.direction[axis];
-            }
-            let (first, last) = (start + rise * entries[lane], start + rise * exits[lane]);
-            let doubt = ray.doubt + ALONG_RAY * exits[lane];
-            let passes_over = smaller(first, last) > self.high[lane] + doubt;
-            let passes_under = larger(first, last) < self.low[lane] - doubt;
-            misses[lane] = f32::from(passes_over | passes_under);
-        }
-        f32x8::new(misses).simd_eq(f32x8::ZERO).to_bitmask()
     }
 }
