@@ -1,5 +1,5 @@
-//! What one pose costs: rays per second through exact walls and through facets, impacts and
-//! bookkeeping included, and how the cost grows with shots and with triangles.
+//! What one pose costs: rays per second through exact walls and through facets, in both precisions,
+//! impacts and bookkeeping included, and how the cost grows with shots and with triangles.
 //!
 //! Run on one core: `taskset -c 0 cargo bench --bench pose`.
 
@@ -11,6 +11,7 @@ use std::path::Path;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
+use peenpose::precision::Precision;
 use peenpose::problem;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
@@ -71,9 +72,14 @@ fn rays(criterion: &mut Criterion) {
             setup.problem.paths.shot_size = shot_size;
             let once = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
             group.throughput(Throughput::Elements(once.rays as u64));
-            group.bench_function(format!("{name}, {kind}"), |bencher| {
-                bencher.iter(|| Tally::trace(&setup, black_box(&choice), 1.0, &samples.deviates));
-            });
+            for precision in Precision::ALL {
+                let shots = &samples.deviates;
+                group.bench_function(format!("{name}, {kind}, {precision:?}"), |bencher| {
+                    bencher.iter(|| {
+                        Tally::trace_as(precision, &setup, black_box(&choice), 1.0, shots)
+                    });
+                });
+            }
         }
     }
     group.finish();

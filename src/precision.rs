@@ -51,6 +51,8 @@ pub trait Real:
     fn of(value: f64) -> Self;
     /// The same number as f64.
     fn wide(self) -> f64;
+    /// The whole number that it is, from 0 to less than 2^23; anything of other numbers.
+    fn index(self) -> u32;
     /// Square root; NaN for negative numbers.
     fn sqrt(self) -> Self;
     /// Absolute value.
@@ -74,6 +76,12 @@ macro_rules! real {
             #[inline(always)]
             fn wide(self) -> f64 {
                 f64::from(self)
+            }
+            // Compilers do not convert several at once with `as`, which has to mind all other numbers.
+            #[inline(always)]
+            fn index(self) -> u32 {
+                const NO_FRACTIONS: $type = (1_u64 << (<$type>::MANTISSA_DIGITS - 1)) as $type;
+                (self + NO_FRACTIONS).to_bits() as u32 & ((1 << 23) - 1)
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
@@ -130,4 +138,17 @@ pub(crate) fn unit<R: Real>(vector: Triple<R>) -> Triple<R> {
 #[inline(always)]
 pub(crate) fn scaled<R: Real>(a: Triple<R>, s: R) -> Triple<R> {
     [a[0] * s, a[1] * s, a[2] * s]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_are_indices() {
+        for index in [0, 1, 2, 3, 1000, 65_537, (1 << 23) - 1] {
+            assert_eq!(f32::of(f64::from(index)).index(), index);
+            assert_eq!(f64::from(index).index(), index);
+        }
+    }
 }

@@ -3,6 +3,7 @@
 mod rough;
 #[cfg(test)]
 mod tests;
+mod vacancies;
 mod volley;
 
 pub(crate) use volley::{Volley, Witness, truth};

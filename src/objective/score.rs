@@ -5,7 +5,7 @@ use super::tally::Tally;
 use crate::jet::{Deviate, speed_variance};
 use crate::precision::{Precision, Real};
 use crate::problem::setting::Choice;
-use crate::scene::lanes::{LANES, Lane, components, padded};
+use crate::scene::lanes::{LANES, Lane, WIDEST, components, larger, padded};
 use crate::scene::patch::Patch;
 use crate::setup::Setup;
 use crate::trace::{End, Tracer, Volley, Witness, truth};
@@ -224,10 +224,17 @@ impl<R: Real> Witness<R> for Score<R> {
 /// The largest of the first `count` numbers, which are not negative.
 #[inline(always)]
 pub(super) fn largest<R: Real>(values: &Lane<R>, count: usize) -> f64 {
-    let mut largest = R::ZERO;
-    for &value in &values[..count] {
-        largest = if value > largest { value } else { largest };
+    let mut parts = [R::ZERO; WIDEST];
+    let (whole, rest) = values[..count].as_chunks::<WIDEST>();
+    for chunk in whole {
+        for (part, &value) in parts.iter_mut().zip(chunk) {
+            *part = larger(value, *part);
+        }
     }
+    for (part, &value) in parts.iter_mut().zip(rest) {
+        *part = larger(value, *part);
+    }
+    let largest = parts.into_iter().fold(R::ZERO, larger);
     largest.wide()
 }
 

@@ -9,6 +9,8 @@ mod plane;
 mod tests;
 mod touch;
 
+use std::hint::select_unpredictable;
+
 use crate::precision::Real;
 use crate::problem::curve::Curve;
 pub(super) use cylinder::Cylinder;
@@ -217,20 +219,12 @@ impl Form {
 #[inline(always)]
 fn chosen<R: Real>(first: bool, one: Meeting<R>, other: Meeting<R>) -> Meeting<R> {
     Meeting {
-        distance: if first { one.distance } else { other.distance },
-        rank: if first { one.rank } else { other.rank },
-        front: if first { one.front } else { other.front },
+        distance: select_unpredictable(first, one.distance, other.distance),
+        rank: select_unpredictable(first, one.rank, other.rank),
+        front: select_unpredictable(first, one.front, other.front),
         normal: [
-            if first {
-                one.normal[0]
-            } else {
-                other.normal[0]
-            },
-            if first {
-                one.normal[1]
-            } else {
-                other.normal[1]
-            },
+            select_unpredictable(first, one.normal[0], other.normal[0]),
+            select_unpredictable(first, one.normal[1], other.normal[1]),
         ],
     }
 }

@@ -4,13 +4,15 @@
 /// Most rays side by side.
 pub const LANES: usize = 128;
 
+/// Most numbers that processors work on at once.
+pub const WIDEST: usize = 16;
+
 /// One quantity of all rays.
 pub type Lane<R> = [R; LANES];
 
 /// The number of lanes to work on so that no vector is left half full.
 #[inline(always)]
 pub fn padded(count: usize) -> usize {
-    const WIDEST: usize = 16;
     count.next_multiple_of(WIDEST).min(LANES)
 }
 
@@ -38,4 +40,11 @@ pub fn larger<R: PartialOrd>(a: R, b: R) -> R {
 #[inline(always)]
 pub fn smaller<R: PartialOrd>(a: R, b: R) -> R {
     if a < b { a } else { b }
+}
+
+/// Whether something holds for any of some numbers, which are all looked at.
+#[inline(always)]
+pub fn any<R: Copy>(numbers: &[R], holds: impl Fn(R) -> bool) -> bool {
+    let holding = numbers.iter().map(|&number| u32::from(holds(number)));
+    holding.sum::<u32>() > 0
 }

@@ -20,6 +20,8 @@ pub struct Prism {
     caps: Vec<Cap>,
     /// Of each wall, then of each cap.
     surfaces: Vec<u32>,
+    /// The first index of its surfaces in the scene.
+    first_surface: u32,
     /// Those that stick out into free space.
     edges: Vec<Edge<f64>>,
     /// The surfaces of the two walls beside each edge.
@@ -79,6 +81,7 @@ impl Prism {
                 .chain(of_caps.map(|surface| surface as u32))
                 .map(|surface| surface_base + surface)
                 .collect(),
+            first_surface: surface_base,
             extent: Extent { length, slack },
             rotation: *place.rotation.to_rotation_matrix().matrix(),
             shift: place.shift,

@@ -6,11 +6,12 @@
 use multiversion::multiversion;
 use nalgebra::Vector3;
 
+use super::vacancies::Vacancies;
 use super::{End, MOST_DEFLECTIONS, Tracer, energy, rough};
 use crate::impact::{Coefficients, Contact, Friction, collide};
 use crate::jet::Deviate;
 use crate::precision::{Real, Triple, along, dot, unit};
-use crate::scene::lanes::{LANES, Lane, components, padded, put};
+use crate::scene::lanes::{LANES, Lane, any, components, padded, put};
 use crate::scene::rays::{Hits, Rays};
 use crate::scene::stand::Stands;
 
@@ -341,34 +342,29 @@ impl<R: Real> Volley<R> {
         put(&mut self.rolling, i, after.rolling);
     }
 
-    /// Drops the shots whose paths have ended; the others stay in order.
+    /// Drops the shots whose paths have ended; the last of the others take their lanes.
     #[inline(always)]
     fn end_paths<W: Witness<R>>(&mut self, flights: u32, witness: &mut W) {
-        let mut kept = [0_u8; LANES];
-        let mut count = 0;
-        for i in 0..self.rays.count {
-            kept[count] = i as u8;
-            let fate = self.impacts.fate[i];
-            let goes_on = fate == R::of(fate::GOES_ON);
-            count += usize::from(goes_on);
-            if !goes_on {
-                witness.ends(self.shot[i] as usize, fate::end(fate), flights as usize);
-            }
-        }
-        if count == self.rays.count {
+        let goes_on = R::of(fate::GOES_ON);
+        let fates = &self.impacts.fate[..self.rays.count];
+        if !any(fates, |fate| fate != goes_on) {
             return;
         }
-        self.rays.count = count;
-        let kept = &kept[..count];
-        for vectors in [&mut self.velocity, &mut self.rolling, &mut self.hits.point] {
-            vectors.iter_mut().for_each(|lane| keep(lane, kept));
+        for (&fate, &shot) in fates.iter().zip(&self.shot) {
+            if fate != goes_on {
+                witness.ends(shot as usize, fate::end(fate), flights as usize);
+            }
         }
+        let vacancies = Vacancies::among(fates.len(), |lane| fates[lane] == goes_on);
+        self.rays.count = vacancies.left;
+        vacancies.fill_all(&mut self.velocity);
+        vacancies.fill_all(&mut self.rolling);
+        vacancies.fill_all(&mut self.hits.point);
         if self.rays.are_spheres {
-            let normals = self.hits.normal.iter_mut();
-            normals.for_each(|lane| keep(lane, kept));
-            keep(&mut self.rays.radius, kept);
+            vacancies.fill_all(&mut self.hits.normal);
+            vacancies.fill(&mut self.rays.radius);
         }
-        for lane in [
+        vacancies.fill_all([
             &mut self.number,
             &mut self.weight,
             &mut self.of_jet,
@@ -378,16 +374,14 @@ impl<R: Real> Volley<R> {
             &mut self.restitution,
             &mut self.holds,
             &mut self.slides,
-        ] {
-            keep(lane, kept);
-        }
+        ]);
         if let Some(stands) = &mut self.rays.stands {
-            stands.lanes_mut().for_each(|lane| keep(lane, kept));
+            vacancies.fill_all(stands.lanes_mut());
         }
-        keep(&mut self.shot, kept);
-        keep(&mut self.hits.spots.part, kept);
-        keep(&mut self.hits.spots.piece, kept);
-        keep(&mut self.hits.spots.front, kept);
+        vacancies.fill(&mut self.shot);
+        vacancies.fill(&mut self.hits.spots.part);
+        vacancies.fill(&mut self.hits.spots.piece);
+        vacancies.fill(&mut self.hits.spots.front);
     }
 
     /// From the places of contact to the centres of the shots.
@@ -454,12 +448,4 @@ pub(crate) fn truth<R: Real>(holds: bool) -> R {
 #[inline(always)]
 fn narrow<R: Real>(vector: &Vector3<f64>) -> Triple<R> {
     [R::of(vector.x), R::of(vector.y), R::of(vector.z)]
-}
-
-/// Brings the kept lanes to the front.
-#[inline(always)]
-fn keep<T: Copy>(lane: &mut [T; LANES], kept: &[u8]) {
-    for (to, &from) in kept.iter().enumerate() {
-        lane[to] = lane[from as usize % LANES];
-    }
 }

@@ -2,12 +2,14 @@
 
 mod ends;
 
+use std::hint::select_unpredictable;
+
 use nalgebra::Vector3;
 
 use super::{Nearest, Prism};
 use crate::precision::{Real, dot};
 use crate::scene::form::{Extent, Flight, Form, Wall};
-use crate::scene::lanes::{LANES, Lane, components, padded, put};
+use crate::scene::lanes::{LANES, Lane, any, components, padded, put};
 use crate::scene::ray::Ray;
 use crate::scene::rays::{Hits, Rays};
 use crate::scene::start::Start;
@@ -18,8 +20,18 @@ struct Best<R> {
     rank: Lane<R>,
     /// Twice the index of the wall or cap, plus 1 on its front; negative for none on this prism.
     code: Lane<R>,
+    /// Index of the surface among those of the prism; of edges it has no meaning.
+    surface: Lane<R>,
     /// Normals on the fronts, in the frame of the prism.
     normal: [Lane<R>; 3],
+}
+
+/// A wall or edge among those of its prism.
+#[derive(Clone, Copy)]
+struct Piece<R> {
+    index: R,
+    /// Index of its surface among those of the prism; of edges it has no meaning.
+    surface: R,
 }
 
 /// Where the rays are in the frame of the prism, and which of its walls they start from.
@@ -58,6 +70,7 @@ impl Prism {
             distance: hits.distance,
             rank: hits.distance,
             code: [-R::ONE; LANES],
+            surface: [R::ZERO; LANES],
             normal: [[R::ZERO; LANES]; 3],
         };
         if let Some(spots) = &rays.leaving {
@@ -81,7 +94,7 @@ impl Prism {
                 self.cross_caps_one_by_one(leaves, &flights, &mut best);
             }
         }
-        self.record_spots(part, rays.count, &best, hits);
+        self.record_spots(part, rays, &best, hits);
         if self.moved {
             best.normal = self.turned(&best.normal, rays.count, false);
         }
@@ -91,8 +104,8 @@ impl Prism {
     #[inline(always)]
     fn cross_walls<R: Real, const LEAVES: bool>(&self, flights: &Flights<R>, best: &mut Best<R>) {
         let extent = self.extent_in();
-        let mut piece = R::ZERO;
-        for wall in &self.walls {
+        for (index, wall) in self.walls.iter().enumerate() {
+            let piece = self.piece(index);
             match wall {
                 Form::Plane(plane) => {
                     best.take::<_, LEAVES, false>(flights, piece, &plane.with(), &extent);
@@ -101,15 +114,14 @@ impl Prism {
                     best.take::<_, LEAVES, false>(flights, piece, &cylinder.with(), &extent);
                 }
             }
-            piece = piece + R::ONE;
         }
     }
 
     #[inline(always)]
     fn touch_walls<R: Real>(&self, flights: &Flights<R>, best: &mut Best<R>) {
         let extent = self.extent_in();
-        let mut piece = R::ZERO;
-        for wall in &self.walls {
+        for (index, wall) in self.walls.iter().enumerate() {
+            let piece = self.piece(index);
             match wall {
                 Form::Plane(plane) => {
                     best.take::<_, true, true>(flights, piece, &plane.with(), &extent);
@@ -118,12 +130,21 @@ impl Prism {
                     best.take::<_, true, true>(flights, piece, &cylinder.with(), &extent);
                 }
             }
-            piece = piece + R::ONE;
         }
-        piece = R::of(f64::from(self.first_edge()));
-        for edge in &self.edges {
+        for (index, edge) in (self.first_edge()..).zip(&self.edges) {
+            let piece = Piece {
+                index: R::of(f64::from(index)),
+                surface: R::ZERO,
+            };
             best.take::<_, true, true>(flights, piece, &edge.with(), &extent);
-            piece = piece + R::ONE;
+        }
+    }
+
+    #[inline(always)]
+    fn piece<R: Real>(&self, wall: usize) -> Piece<R> {
+        Piece {
+            index: R::of(wall as f64),
+            surface: R::of(f64::from(self.surfaces[wall] - self.first_surface)),
         }
     }
 
@@ -140,7 +161,7 @@ impl Prism {
             let (ray, start) = flights.one(i, leaves);
             let mut nearest = Nearest::within(best.rank[i].wide());
             self.touch_ends(&ray, flights.radius[i].wide(), &start, &mut nearest);
-            best.take_one(i, &nearest);
+            self.take_one(i, &nearest, best);
         }
     }
 
@@ -162,33 +183,49 @@ impl Prism {
             let (ray, start) = flights.one(i, leaves);
             let mut nearest = Nearest::within(best.rank[i].wide());
             self.cross_caps(&ray, &start, &mut nearest);
-            best.take_one(i, &nearest);
+            self.take_one(i, &nearest, best);
         }
+    }
+
+    /// Takes what one ray has met, if it has met anything.
+    fn take_one<R: Real>(&self, i: usize, nearest: &Nearest, best: &mut Best<R>) {
+        let Some(piece) = nearest.piece else { return };
+        let [x, y] = nearest.best.normal;
+        best.distance[i] = R::of(nearest.best.distance);
+        best.rank[i] = best.distance[i];
+        best.code[i] = R::of(f64::from(2 * piece + u32::from(nearest.best.front)));
+        let surface = self.surface_touched(piece, [x, y]) - self.first_surface;
+        best.surface[i] = R::of(f64::from(surface));
+        put(&mut best.normal, i, [x, y, nearest.cap].map(R::of));
     }
 
     /// Writes down what has been met, while normals are those in the frame of the prism.
     #[inline(always)]
-    fn record_spots<R: Real>(&self, part: u32, count: usize, best: &Best<R>, hits: &mut Hits<R>) {
+    fn record_spots<R: Real>(&self, part: u32, rays: &Rays<R>, best: &Best<R>, hits: &mut Hits<R>) {
+        let count = rays.count;
         let spots = &mut hits.spots;
         for i in 0..padded(count) {
-            let code = best.code[i].wide() as i32;
-            let met = code >= 0;
-            let (piece, front) = (code as u32 / 2, code & 1 == 1);
+            let met = best.code[i] >= R::ZERO;
+            let piece = best.code[i].index() / 2;
+            let surface = self.first_surface + best.surface[i].index();
             spots.part[i] = if met { part } else { spots.part[i] };
             spots.piece[i] = if met { piece } else { spots.piece[i] };
-            spots.front[i] = if met { front } else { spots.front[i] };
+            hits.surface[i] = if met { surface } else { hits.surface[i] };
         }
-        let first_edge = self.first_edge();
-        for i in 0..count {
-            if spots.part[i] == part {
-                let piece = spots.piece[i];
-                hits.surface[i] = if piece < first_edge {
-                    self.surfaces[piece as usize]
-                } else {
-                    let normal = [best.normal[0][i].wide(), best.normal[1][i].wide()];
-                    self.surface_touched(piece, normal)
-                };
-            }
+        // Apart, and without a choice: what has another size than the rest is worked on one by one.
+        for i in 0..padded(count) {
+            let met = best.code[i] >= R::ZERO;
+            let front = best.code[i].index() % 2 == 1;
+            spots.front[i] = (met & front) | (!met & spots.front[i]);
+        }
+        let first_edge = R::of(f64::from(2 * self.first_edge()));
+        let is_edge = |code: R| code >= first_edge;
+        if !rays.are_spheres || !any(&best.code[..count], is_edge) {
+            return;
+        }
+        for i in (0..count).filter(|&i| is_edge(best.code[i])) {
+            let normal = [best.normal[0][i].wide(), best.normal[1][i].wide()];
+            hits.surface[i] = self.surface_touched(hits.spots.piece[i], normal);
         }
     }
 
@@ -262,32 +299,22 @@ impl<R: Real> Best<R> {
         }
     }
 
-    /// Takes what one ray has met, if it has met anything.
-    fn take_one(&mut self, i: usize, nearest: &Nearest) {
-        let Some(piece) = nearest.piece else { return };
-        let [x, y] = nearest.best.normal;
-        self.distance[i] = R::of(nearest.best.distance);
-        self.rank[i] = self.distance[i];
-        self.code[i] = R::of(f64::from(2 * piece + u32::from(nearest.best.front)));
-        put(&mut self.normal, i, [x, y, nearest.cap].map(R::of));
-    }
-
     /// Takes the meetings with one wall that are nearer.
     #[inline(always)]
     fn take<W: Wall<R>, const LEAVES: bool, const BALLS: bool>(
         &mut self,
         flights: &Flights<R>,
-        piece: R,
+        piece: Piece<R>,
         wall: &W,
         extent: &Extent<R>,
     ) {
-        let double = piece + piece;
+        let double = piece.index + piece.index;
         for i in 0..padded(flights.count) {
             let flight = Flight {
                 origin: components(flights.origin, i),
                 direction: components(flights.direction, i),
                 radius: flights.radius[i],
-                from_here: flights.piece[i] == piece,
+                from_here: flights.piece[i] == piece.index,
                 on_front: flights.on_front[i],
             };
             let met = if BALLS {
@@ -296,24 +323,19 @@ impl<R: Real> Best<R> {
                 wall.meet::<LEAVES>(&flight, extent)
             };
             let nearer = met.rank < self.rank[i];
-            let code = if met.front { double + R::ONE } else { double };
-            self.distance[i] = if nearer {
-                met.distance
-            } else {
-                self.distance[i]
-            };
-            self.rank[i] = if nearer { met.rank } else { self.rank[i] };
-            self.code[i] = if nearer { code } else { self.code[i] };
-            self.normal[0][i] = if nearer {
-                met.normal[0]
-            } else {
-                self.normal[0][i]
-            };
-            self.normal[1][i] = if nearer {
-                met.normal[1]
-            } else {
-                self.normal[1][i]
-            };
+            // With `if` compilers may tell cases apart and write these one by one.
+            let code = double + select_unpredictable(met.front, R::ONE, R::ZERO);
+            let [normal_x, normal_y, _] = &mut self.normal;
+            for (best, new) in [
+                (&mut self.distance[i], met.distance),
+                (&mut self.rank[i], met.rank),
+                (&mut self.code[i], code),
+                (&mut self.surface[i], piece.surface),
+                (&mut normal_x[i], met.normal[0]),
+                (&mut normal_y[i], met.normal[1]),
+            ] {
+                *best = select_unpredictable(nearer, new, *best);
+            }
         }
     }
 }
