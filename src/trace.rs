@@ -8,6 +8,8 @@ mod volley;
 
 pub(crate) use volley::{Volley, Witness, truth};
 
+use std::hint::black_box;
+
 use nalgebra::{Point3, Vector3};
 
 use crate::impact::{Contact, Friction, Regime, Restitution, rebound};
@@ -243,6 +245,7 @@ impl<'a> Tracer<'a> {
         }
         let mut volley = Volley::none();
         for shots in shots.chunks(LANES) {
+            fetch(shots);
             let rays = fire(self, &mut volley, shots, witness);
             end_volley(witness, shots, rays);
         }
@@ -259,6 +262,14 @@ impl<'a> Tracer<'a> {
         let contact = self.setup.surfaces[surface].contact.unwrap_or(self.contact);
         perturbed(contact, deviate)
     }
+}
+
+/// Reads from all over some shots, so that they come from memory together. Where they are needed one
+/// by one, between arithmetic, each is waited for by itself.
+fn fetch(shots: &[Deviate]) {
+    let lines =
+        |shot: &Deviate| shot.exit[0].to_bits() ^ shot.azimuth[0].to_bits() ^ shot.weight.to_bits();
+    black_box(shots.iter().fold(0, |all, shot| all ^ lines(shot)));
 }
 
 /// The normal that a shot finds where a surface is rough.
