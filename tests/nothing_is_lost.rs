@@ -61,7 +61,10 @@ fn killed_after(arguments: &[&str], time: Duration) -> bool {
     was_at_work
 }
 
-/// Sends signals to a run that was waited for, one shortly after the other, and gives how it ended.
+/// Later than what still counts as the same request.
+const ASKED_AGAIN: Duration = Duration::from_millis(700);
+
+/// Sends signals to a run that was waited for, one after the other, and gives how it ended.
 fn signalled(arguments: &[&str], wait: impl Fn(), signals: &[&str]) -> Output {
     let mut command = peenpose(arguments);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -74,7 +77,7 @@ fn signalled(arguments: &[&str], wait: impl Fn(), signals: &[&str]) -> Output {
             .stderr(Stdio::null())
             .status()
             .unwrap();
-        sleep(Duration::from_millis(50));
+        sleep(ASKED_AGAIN);
     }
     child.wait_with_output().unwrap()
 }
@@ -393,6 +396,20 @@ fn on_a_full_disk_the_old_result_stays_and_the_failure_is_said() {
     );
     assert_eq!(fs::read(&result).unwrap(), old);
     assert_eq!(files(), count);
+}
+
+/// The system's own folder of figures is one that not even an administrator can add to.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_nobody_may_write_into_is_named_before_the_work() {
+    for folder in ["/sys/kernel", "/sys/peenpose"] {
+        let failed = run(&["solve", PLATE, "--out", folder]);
+        assert_eq!(failed.status.code(), Some(2));
+        let said = messages(&failed);
+        let start = format!("error: cannot write into {folder}: ");
+        assert!(said.starts_with(&start), "{said}");
+        assert!(failed.stdout.is_empty());
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use peenpose::chart::Step;
@@ -12,6 +13,10 @@ use crate::output;
 /// Exit status of a run that was ended before it had all that was asked for, or before that was written,
 /// as shells have it.
 pub const ENDED: u8 = 130;
+
+/// Signals that come this soon after the first ask for nothing new: `timeout` and process managers send
+/// theirs to the program and to its group.
+const SAME_REQUEST: Duration = Duration::from_millis(500);
 
 /// Shows how far a search is, and notices Ctrl-C.
 pub struct Watcher {
@@ -33,15 +38,21 @@ impl Watcher {
             bar.set_style(style);
         }
         bar.set_message("screening");
-        bar.enable_steady_tick(std::time::Duration::from_millis(100));
+        bar.enable_steady_tick(Duration::from_millis(100));
         let stop = Arc::new(AtomicBool::new(false));
         let is_writing = Arc::new(AtomicBool::new(false));
         let (asked, found) = (Arc::clone(&stop), Arc::clone(&is_writing));
+        let mut first: Option<Instant> = None;
         let handler = ctrlc::set_handler(move || {
-            // Whoever asks twice does not want to wait for the best answer so far.
-            if asked.swap(true, Ordering::SeqCst) {
-                output::note("ended at once: not everything has been written");
-                std::process::exit(ENDED.into());
+            asked.store(true, Ordering::SeqCst);
+            match first {
+                None => first = Some(Instant::now()),
+                Some(first) if first.elapsed() < SAME_REQUEST => return,
+                // Whoever asks twice does not want to wait for the best answer so far.
+                Some(_) => {
+                    output::note("ended at once: not everything has been written");
+                    std::process::exit(ENDED.into());
+                }
             }
             if found.load(Ordering::SeqCst) {
                 output::note("the answer is found and being written; once more ends at once");
