@@ -13,11 +13,11 @@ pub fn shot(args: &ImpactArgs) -> Result<Oblique, String> {
     let mut flags = Flags {
         faults: &mut faults,
     };
-    let speed = flags.positive("speed", Dimension::Speed, &args.speed);
+    let speed = flags.within("speed", &SPEED, &args.speed);
     let angle = flags.angle(&args.angle);
     let spin = flags.spin(&args.spin);
-    let radius = flags.positive("radius", Dimension::Length, &args.radius);
-    let density = flags.positive("density", Dimension::Density, &args.density);
+    let radius = flags.within("radius", &RADIUS, &args.radius);
+    let density = flags.within("density", &DENSITY, &args.density);
     let static_friction = flags.number("mu-s", &args.mu_s);
     let dynamic_friction = match &args.mu_d {
         Some(text) => flags.number("mu-d", text),
@@ -65,6 +65,36 @@ pub fn shot(args: &ImpactArgs) -> Result<Oblique, String> {
     }
 }
 
+/// Values of a quantity within which masses, energies and impulses can be computed; as in problem files.
+struct Range {
+    dimension: Dimension,
+    least: f64,
+    most: f64,
+    /// What is expected, in messages.
+    expected: &'static str,
+}
+
+const SPEED: Range = Range {
+    dimension: Dimension::Speed,
+    least: 1e-6,
+    most: 1e4,
+    expected: "a speed from 0.001 mm/s to 10000 m/s",
+};
+const RADIUS: Range = Range {
+    dimension: Dimension::Length,
+    least: 1e-9,
+    most: 1e3,
+    expected: "a length from 0.001 um to 1000 m",
+};
+const DENSITY: Range = Range {
+    dimension: Dimension::Density,
+    least: 1.0,
+    most: 1e5,
+    expected: "a density from 1 kg/m3 to 100000 kg/m3",
+};
+/// Either way, rad/s.
+const FASTEST_SPIN: f64 = 1e12;
+
 /// Reads flags and keeps what is wrong with them.
 struct Flags<'a> {
     faults: &'a mut Vec<String>,
@@ -81,12 +111,15 @@ impl Flags<'_> {
             .ok()
     }
 
-    fn positive(&mut self, flag: &str, dimension: Dimension, text: &str) -> Option<f64> {
-        let value = self.quantity(flag, dimension, text)?;
-        if value > 0.0 {
+    fn within(&mut self, flag: &str, range: &Range, text: &str) -> Option<f64> {
+        let value = self.quantity(flag, range.dimension, text)?;
+        if (range.least..=range.most).contains(&value) {
             return Some(value);
         }
-        self.fault(flag, format!("`{text}` must be above 0"));
+        self.fault(
+            flag,
+            format!("`{text}` is out of range; expected {}", range.expected),
+        );
         None
     }
 
@@ -104,13 +137,18 @@ impl Flags<'_> {
 
     fn spin(&mut self, text: &str) -> Option<f64> {
         let number = text.trim().strip_suffix("rad/s").and_then(parse_number);
-        if number.is_none() {
-            self.fault(
+        match number {
+            None => self.fault(
                 "spin",
                 format!("`{text}` is not a spin; expected one such as `100 rad/s`"),
-            );
+            ),
+            Some(spin) if spin.abs() > FASTEST_SPIN => self.fault(
+                "spin",
+                format!("`{text}` is out of range; expected at most 1e12 rad/s either way"),
+            ),
+            Some(_) => return number,
         }
-        number.filter(|value| value.is_finite())
+        None
     }
 
     fn number(&mut self, flag: &str, text: &str) -> Option<f64> {

@@ -65,6 +65,49 @@ fn every_fault_is_named_at_once() {
 }
 
 #[test]
+fn numbers_are_finite_at_the_ends_of_the_ranges_and_refused_beyond() {
+    let ends = [
+        (
+            "--speed",
+            ["0.001 mm/s", "10000 m/s"],
+            ["0.0009 mm/s", "1e160 m/s"],
+        ),
+        ("--radius", ["0.001 um", "1000 m"], ["0.0009 um", "1e200 m"]),
+        (
+            "--density",
+            ["1 kg/m3", "100000 kg/m3"],
+            ["0 kg/m3", "1e300 kg/m3"],
+        ),
+        (
+            "--spin",
+            ["-1e12 rad/s", "1e12 rad/s"],
+            ["-1e300 rad/s", "inf rad/s"],
+        ),
+    ];
+    for corner in 0..1 << ends.len() {
+        let end = |(index, (flag, within, _)): (usize, &(&'static str, [&'static str; 2], _))| {
+            [*flag, within[corner >> index & 1]]
+        };
+        let mut flags: Vec<&str> = ends.iter().enumerate().flat_map(end).collect();
+        flags.push("--json");
+        let json: serde_json::Value = serde_json::from_str(&result(&flags).unwrap()).unwrap();
+        let unbounded = json.as_object().unwrap().iter();
+        let unbounded: Vec<_> = unbounded.filter(|(_, value)| value.is_null()).collect();
+        assert!(unbounded.is_empty(), "{flags:?}: {unbounded:?}");
+    }
+    for (flag, _, beyond) in ends {
+        for text in beyond {
+            let fault = result(&[flag, text]).unwrap_err();
+            assert!(
+                fault.starts_with(&format!("{flag}: `{text}` is ")),
+                "{fault}"
+            );
+            assert_eq!(fault.lines().count(), 1, "{fault}");
+        }
+    }
+}
+
+#[test]
 fn json_is_in_si() {
     let text = result(&["--mu-s", "0", "--speed", "36 km/h", "--json"]).unwrap();
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
