@@ -1,6 +1,7 @@
 //! What parses but can hardly be meant: all that the file alone and its scene tell.
 
 mod extent;
+mod inside;
 mod sight;
 
 use crate::problem::Source;
@@ -18,6 +19,7 @@ use crate::setup::Setup;
 pub fn of(setup: &Setup, source: &Source) -> Vec<Warning> {
     let mut found = warning::warnings(&setup.problem);
     found.extend(extent::warnings(setup));
+    found.extend(inside::warning(setup));
     found.extend(sight::warning(setup));
     let mut placed: Vec<Warning> = found.into_iter().map(|it| it.in_text(source)).collect();
     placed.sort_by_key(|warning| warning.at);

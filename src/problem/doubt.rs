@@ -44,6 +44,8 @@ listed! {
         StandoffTooLong,
         /// Shifts that leave the target.
         AimOffTarget,
+        /// The jet comes from inside a part.
+        TargetInsideMaterial,
         /// No shot hits the target first.
         TargetOutOfSight,
         /// The nozzle fits nowhere.

@@ -1,0 +1,33 @@
+//! Targets that look into solid material.
+
+use crate::problem::warning::{Doubt, Warning};
+use crate::scene::ray::Ray;
+use crate::setup::Setup;
+
+/// Height above the aim point from which is looked round, for one of the scene's size.
+const HEIGHT: f64 = 1e-6;
+
+/// Whoever sees the back of a surface wherever he looks is inside a part.
+pub(super) fn warning(setup: &Setup) -> Option<Warning> {
+    let frame = &setup.target.frame;
+    let (up, along, across) = (frame.normal, frame.along, frame.across);
+    let origin = frame.aim + up * (HEIGHT * setup.scene.size());
+    let directions = [up, up + along, up - along, up + across, up - across];
+    let backs = directions.map(|direction| {
+        let direction = direction.normalize();
+        let hit = setup.scene.first_hit(&Ray { origin, direction }, None)?;
+        (!hit.spot.front).then_some(hit.surface)
+    });
+    if backs.contains(&None) {
+        return None;
+    }
+    let surface = &setup.scene.surfaces()[backs[0]? as usize];
+    Some(Warning::new(
+        Doubt::TargetInsideMaterial,
+        "target",
+        format!(
+            "the jet comes from inside solid material: the back of `{surface}` is above the aim point"
+        ),
+        "compare `aim` and `facing`, parts that overlap, and the side on which the triangles of a mesh have their front",
+    ))
+}
