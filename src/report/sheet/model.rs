@@ -1,8 +1,8 @@
 //! What each effect of the model does here, and what the search did without.
 
-use super::setting::SETTINGS;
+use super::setting::{SETTINGS, Setting};
 use crate::precision::Precision;
-use crate::record::{ModelRecord, Record, RungRecord};
+use crate::record::{ModelRecord, Record, RungRecord, SettingsRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{fixed, significant};
 
@@ -65,31 +65,32 @@ fn change(change: f64) -> String {
     format!("{sign}{} %", significant(size, 2))
 }
 
-/// The two settings that move most, seen against their own size.
+/// The setting that moves most.
 fn moves(effect: &RungRecord) -> String {
-    let mut moves: Vec<(f64, String)> = SETTINGS
-        .iter()
-        .filter_map(|setting| {
-            let [from, to] = [&effect.settings_with, &effect.settings_without]
-                .map(|settings| setting.value(settings));
-            let shown = fixed((to - from).abs(), setting.decimals);
-            let is_seen = shown.chars().any(|digit| ('1'..='9').contains(&digit));
-            let sign = if to < from { '-' } else { '+' };
-            let share = (to - from).abs() / from.abs().max(1.0);
-            is_seen.then(|| {
-                (
-                    share,
-                    format!("{} {sign}{shown} {}", setting.name, setting.unit),
-                )
-            })
+    let moves = SETTINGS.iter().filter_map(|setting| {
+        let [from, to] = [&effect.settings_with, &effect.settings_without]
+            .map(|settings| setting.value(settings));
+        let shown = fixed((to - from).abs(), setting.decimals);
+        let is_seen = shown.chars().any(|digit| ('1'..='9').contains(&digit));
+        let sign = if to < from { '-' } else { '+' };
+        let share = (to - from).abs() / measure(setting, &effect.settings_with);
+        is_seen.then(|| {
+            (
+                share,
+                format!("{} {sign}{shown} {}", setting.name, setting.unit),
+            )
         })
-        .collect();
-    moves.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let shown: Vec<String> = moves.into_iter().take(1).map(|(_, text)| text).collect();
-    if shown.is_empty() {
-        "-".into()
-    } else {
-        shown.join(", ")
+    });
+    let most = moves.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    most.map_or_else(|| "-".into(), |(_, text)| text)
+}
+
+/// What a move is seen against: a radian, the standoff for what is a length, else the setting itself.
+fn measure(setting: &Setting, settings: &SettingsRecord) -> f64 {
+    match setting.unit {
+        "deg" => 1_f64.to_degrees(),
+        "mm" => 1e3 * settings.standoff_m,
+        _ => setting.value(settings).abs(),
     }
 }
 
