@@ -1,15 +1,17 @@
 //! How often the interval that is reported covers the true J.
 //!
-//! The settings are held, so that only the shots change with the seed: as many fresh ones as are fired
+//! First that of whole solves: for every seed J as it is printed, of the settings that were found. Then
+//! settings are held, so that only the shots change with the seed: as many fresh ones as are fired
 //! first, and as at most. The truth is J on many more shots, and its own small error is allowed for.
 
 use std::error::Error;
+use std::fmt::{Display, Formatter};
 
 use peenpose::evaluate::evaluate;
 use peenpose::jet::{Replicates, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::setup::Setup;
-use peenpose::solve::Control;
+use peenpose::solve::{Control, solve};
 
 use crate::common::fresh;
 use crate::common::known::Known;
@@ -74,7 +76,10 @@ impl Case {
             .find(|known| known.is_of(&self.variant) && known.contact == self.contact)
             .ok_or_else(|| format!("no best settings of {} are known", self.variant.name()))?
             .choice(&setup.problem)?;
-        let mut lines = Vec::new();
+        let figures = whole_solves(&mut setup, intervals, reference_shots / 4);
+        let line = format!("{},any,{figures}", self.variant.name());
+        println!("{line}");
+        let mut lines = vec![line];
         for step in STEPS {
             let choice = Setting::Incidence.with(&best, best.incidence + step.to_radians());
             let truth = fresh::objectives(&setup, &[choice], TRUTH, reference_shots);
@@ -89,6 +94,35 @@ impl Case {
         }
         Ok(lines)
     }
+}
+
+/// J as solves with different seeds print it, against the truth of the settings that each has found.
+fn whole_solves(setup: &mut Setup, solves: u64, reference_shots: usize) -> String {
+    let (found, reported): (Vec<Choice>, Vec<Mean>) = (1..=solves)
+        .map(|seed| {
+            setup.problem.seed = seed;
+            let answer = solve(setup, &Control::default()).answers.swap_remove(0);
+            let evaluation = answer.evaluation.expect("the winner is evaluated");
+            let reported = Mean {
+                value: evaluation.terms.total(),
+                standard_error: evaluation.standard_error,
+            };
+            (answer.choice, reported)
+        })
+        .unzip();
+    let objectives = fresh::objectives(setup, &found, TRUTH, reference_shots);
+    let truths: Vec<Mean> = (0..found.len())
+        .map(|index| Mean::of_choice(&objectives, index))
+        .collect();
+    let middle = |of: &dyn Fn(&Mean) -> f64| median(truths.iter().map(of));
+    let incidence = median(found.iter().map(|choice| choice.incidence));
+    format!(
+        "of the solve,{:.3},{:.7},{:.1e},{}",
+        incidence.to_degrees(),
+        middle(&|truth| truth.value),
+        middle(&|truth| truth.standard_error),
+        Intervals::new(&reported, &truths),
+    )
 }
 
 fn coverage(
@@ -109,24 +143,61 @@ fn coverage(
             }
         })
         .collect();
-    // By how much J is off, and by how much the errors of both allow it to be.
-    let off = |one: &Mean| one.value - truth.value;
-    let allowed = |one: &Mean| HALF_WIDTH * one.standard_error.hypot(truth.standard_error);
-    let percent = |count: usize| 100.0 * count as f64 / reported.len() as f64;
-    let below = reported.iter().filter(|one| off(one) < -allowed(one));
-    let above = reported.iter().filter(|one| off(one) > allowed(one));
-    let (below, above) = (below.count(), above.count());
-    let count = reported.len() as f64;
-    let scatter = Mean::of(reported.iter().map(|one| one.value)).standard_error * count.sqrt();
+    let truths = vec![*truth; reported.len()];
     format!(
-        "{shots},{:.3},{:.7},{:.1e},{},{:.1},{:.1},{:.1},{:.1e},{scatter:.1e}",
+        "{shots},{:.3},{:.7},{:.1e},{}",
         choice.incidence.to_degrees(),
         truth.value,
         truth.standard_error,
-        reported.len(),
-        percent(reported.len() - below - above),
-        percent(below),
-        percent(above),
-        median(reported.iter().map(|one| one.standard_error)),
+        Intervals::new(&reported, &truths),
     )
+}
+
+/// How intervals lie to the truths.
+struct Intervals {
+    count: usize,
+    below: usize,
+    above: usize,
+    median_error: f64,
+    /// Standard deviation of what was reported about the truth.
+    scatter: f64,
+}
+
+impl Intervals {
+    fn new(reported: &[Mean], truths: &[Mean]) -> Self {
+        // By how much J is off, and by how much the errors of both allow it to be.
+        let off: Vec<(f64, f64)> = reported
+            .iter()
+            .zip(truths)
+            .map(|(one, truth)| {
+                let allowed = HALF_WIDTH * one.standard_error.hypot(truth.standard_error);
+                (one.value - truth.value, allowed)
+            })
+            .collect();
+        let count = off.len();
+        let error_of_mean = Mean::of(off.iter().map(|(off, _)| *off)).standard_error;
+        Self {
+            count,
+            below: off.iter().filter(|(off, allowed)| *off < -allowed).count(),
+            above: off.iter().filter(|(off, allowed)| off > allowed).count(),
+            median_error: median(reported.iter().map(|one| one.standard_error)),
+            scatter: error_of_mean * (count as f64).sqrt(),
+        }
+    }
+}
+
+impl Display for Intervals {
+    fn fmt(&self, formatter: &mut Formatter) -> std::fmt::Result {
+        let percent = |count: usize| 100.0 * count as f64 / self.count as f64;
+        write!(
+            formatter,
+            "{},{:.1},{:.1},{:.1},{:.1e},{:.1e}",
+            self.count,
+            percent(self.count - self.below - self.above),
+            percent(self.below),
+            percent(self.above),
+            self.median_error,
+            self.scatter,
+        )
+    }
 }
