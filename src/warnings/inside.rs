@@ -1,5 +1,7 @@
 //! Targets that look into solid material.
 
+use nalgebra::Vector3;
+
 use crate::problem::warning::{Doubt, Warning};
 use crate::scene::ray::Ray;
 use crate::setup::Setup;
@@ -13,15 +15,13 @@ pub(super) fn warning(setup: &Setup) -> Option<Warning> {
     let (up, along, across) = (frame.normal, frame.along, frame.across);
     let origin = frame.aim + up * (HEIGHT * setup.scene.size());
     let directions = [up, up + along, up - along, up + across, up - across];
-    let backs = directions.map(|direction| {
+    let back = |direction: Vector3<f64>| {
         let direction = direction.normalize();
         let hit = setup.scene.first_hit(&Ray { origin, direction }, None)?;
         (!hit.spot.front).then_some(hit.surface)
-    });
-    if backs.contains(&None) {
-        return None;
-    }
-    let surface = &setup.scene.surfaces()[backs[0]? as usize];
+    };
+    let backs: Vec<u32> = directions.into_iter().map(back).collect::<Option<_>>()?;
+    let surface = &setup.scene.surfaces()[backs[0] as usize];
     Some(Warning::new(
         Doubt::TargetInsideMaterial,
         "target",

@@ -81,7 +81,7 @@ fn moves(effect: &RungRecord) -> String {
             )
         })
     });
-    let most = moves.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let most = moves.max_by(|a, b| a.0.total_cmp(&b.0));
     most.map_or_else(|| "-".into(), |(_, text)| text)
 }
 
