@@ -1,10 +1,12 @@
 //! What a choice of settings does, measured on shots that nothing was tuned on.
 
 mod counts;
+mod harm;
 mod ledger;
 mod survey;
 
 pub use counts::Counts;
+pub use harm::focus_on_harm;
 pub(crate) use survey::Survey;
 
 use std::collections::BTreeMap;
@@ -91,19 +93,35 @@ pub struct Spread {
     pub largest: f64,
 }
 
-/// Evaluates `choice` on fresh shots.
-pub fn evaluate(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluation {
-    let sets = fresh.sets.par_iter();
+/// Evaluates `choice` on shots as they are.
+pub fn evaluate(setup: &Setup, choice: &Choice, shots: &Replicates) -> Evaluation {
+    let sets = shots.sets.par_iter();
     let ledgers = sets.map(|set| Ledger::of(setup, choice, set)).collect();
     summed_up(setup, choice, ledgers)
+}
+
+/// Evaluates `choice` on fresh shots, half of those on the rim drawn [from where harm comes
+/// from](focus_on_harm) with these settings.
+pub fn evaluate_focused(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluation {
+    let (focus, rays) = focus_on_harm(setup, choice);
+    let sets = fresh.sets.par_iter();
+    // Each set is copied when it is fired: all of them together do not fit into a cache.
+    let ledgers = sets.map(|set| Ledger::of(setup, choice, &set.focused(&setup.problem, &focus)));
+    let mut evaluation = summed_up(setup, choice, ledgers.collect());
+    evaluation.rays += rays;
+    evaluation
 }
 
 /// The same on shots that are forgotten once they are fired, as [`Replicates`] of the same number
 /// would take 230 bytes a shot.
 pub fn evaluate_drawn(setup: &Setup, choice: &Choice, fresh: &Draw) -> Evaluation {
+    let (focus, rays) = focus_on_harm(setup, choice);
+    let fresh = fresh.focused(&focus);
     let numbers = (0..fresh.sets()).into_par_iter();
     let ledgers = numbers.map(|number| Ledger::of(setup, choice, &fresh.set(number)));
-    summed_up(setup, choice, ledgers.collect())
+    let mut evaluation = summed_up(setup, choice, ledgers.collect());
+    evaluation.rays += rays;
+    evaluation
 }
 
 fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluation {

@@ -2,6 +2,8 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
+use super::focus::{Cells, Focus, NO_CELL};
+
 /// An independent sequence of samples under one seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {
@@ -43,6 +45,20 @@ pub(super) enum Dimension {
     Tilts,
 }
 
+/// How many there are.
+pub(super) const DIMENSIONS: usize = 16;
+
+/// By what density points are drawn.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum By {
+    /// As the jet fires shots.
+    Jet,
+    /// Towards the rim.
+    Rim,
+    /// Towards the rim, and there by a focus.
+    Focus,
+}
+
 /// Points of one scrambling before it repeats itself.
 const POINTS_PER_SEED: u32 = 1 << 16;
 
@@ -50,13 +66,16 @@ const POINTS_PER_SEED: u32 = 1 << 16;
 const BELOW_TWO_DEVIATIONS: f64 = 0.477_249_868_051_820_8;
 
 /// One point of the unit cube.
-pub(super) struct Point {
+pub(super) struct Point<'a> {
     sequence: Sequence,
-    on_rim: bool,
-    /// Whether the next field is kept up.
-    pub keeps_account: bool,
+    by: By,
+    focus: &'a Focus,
+    /// Whether the next fields are kept up.
+    keeps_account: bool,
     /// Density of the rim's distribution over that of the jet, so far.
     pub rim_density: f64,
+    /// Where it lies in what the rim's distribution has uniform.
+    pub cells: Cells,
 }
 
 /// Where the coordinates of a point come from.
@@ -74,51 +93,70 @@ enum Sequence {
 /// Keeps the density finite on the rim itself: the square root of a depth.
 const LEAST_ROOT: f64 = 1e-9;
 
-impl Point {
-    pub fn new(seed: u64, stream: Stream, index: u32, on_rim: bool) -> Self {
+impl<'a> Point<'a> {
+    /// One of a mixture, drawn by a density.
+    pub fn new(seed: u64, stream: Stream, index: u32, by: By, focus: &'a Focus) -> Self {
         let block = u64::from(index / POINTS_PER_SEED);
-        let mixed = mix(mix(stream.seed(seed) ^ block) ^ u64::from(on_rim));
+        let set = match by {
+            By::Jet => 0,
+            By::Rim => 1,
+            By::Focus => 2,
+        };
+        let mixed = mix(mix(stream.seed(seed) ^ block) ^ set);
+        let sequence = Sequence::Sobol {
+            index: index % POINTS_PER_SEED,
+            seed: (mixed >> 32) as u32,
+            known: [None; 4],
+        };
         Self {
-            sequence: Sequence::Sobol {
-                index: index % POINTS_PER_SEED,
-                seed: (mixed >> 32) as u32,
-                known: [None; 4],
-            },
-            on_rim,
-            keeps_account: false,
-            rim_density: 1.0,
+            by,
+            focus,
+            keeps_account: true,
+            ..Self::of(sequence)
         }
     }
 
+    /// One of the jet's own.
+    pub fn of_jet(seed: u64, stream: Stream, index: u32) -> Self {
+        Self {
+            keeps_account: false,
+            ..Self::new(seed, stream, index, By::Jet, &Focus::NONE)
+        }
+    }
+
+    /// The same, independent of all others.
     pub fn random(seed: u64, stream: Stream, index: u32) -> Self {
+        Self::of(Sequence::Random {
+            seed: mix(stream.seed(seed) ^ u64::from(index)),
+        })
+    }
+
+    fn of(sequence: Sequence) -> Self {
         Self {
-            sequence: Sequence::Random {
-                seed: mix(stream.seed(seed) ^ u64::from(index)),
-            },
-            on_rim: false,
+            sequence,
+            by: By::Jet,
+            focus: &Focus::NONE,
             keeps_account: false,
             rim_density: 1.0,
+            cells: [NO_CELL; DIMENSIONS],
         }
     }
 
-    /// Uniform in 0 to 1.
+    /// Uniform in 0 to 1, but for a focus.
     pub fn uniform(&mut self, dimension: Dimension) -> f64 {
-        let dimension = dimension as u32;
-        match &mut self.sequence {
-            Sequence::Sobol { index, seed, known } => {
-                let set = dimension / 4;
-                let four = known[set as usize]
-                    .get_or_insert_with(|| sobol_burley::sample_4d(*index, set, *seed));
-                f64::from(four[dimension as usize % 4])
-            }
-            Sequence::Random { seed } => random(*seed, dimension),
-        }
+        let uniform = self.sequence.coordinate(dimension as u32);
+        let drawn = match self.by {
+            By::Focus => self.focus.drawn(dimension, uniform),
+            By::Jet | By::Rim => uniform,
+        };
+        self.cells[dimension as usize] = Focus::cell(drawn);
+        drawn
     }
 
     /// In 0 to 1, with the rim at 1.
     pub fn inwards(&mut self, dimension: Dimension) -> f64 {
         let depth = 1.0 - self.uniform(dimension);
-        1.0 - self.towards_rim(depth)
+        1.0 - self.towards_rim(depth, |root| 1.0 - root, dimension)
     }
 
     /// Within +- `half_width`, with the rim at both ends.
@@ -127,20 +165,28 @@ impl Point {
             return 0.0;
         }
         let signed = 2.0 * self.uniform(dimension) - 1.0;
-        let depth = self.towards_rim(1.0 - signed.abs());
+        let coordinate = |root: f64| 0.5 + 0.5 * (1.0 - root).copysign(signed);
+        let depth = self.towards_rim(1.0 - signed.abs(), coordinate, dimension);
         half_width * (1.0 - depth).copysign(signed)
     }
 
     /// The distance from the rim of this point, when that of the jet's own points is uniform in
-    /// 0 to 1; keeps account of the density.
-    fn towards_rim(&mut self, depth: f64) -> f64 {
+    /// 0 to 1; keeps account of the density, and of the cell by the coordinate that a root of the distance
+    /// belongs to.
+    fn towards_rim(
+        &mut self,
+        depth: f64,
+        coordinate: impl Fn(f64) -> f64,
+        dimension: Dimension,
+    ) -> f64 {
         // The square of a uniform variable crowds at 0, with density depth^(-1/2) / 2.
-        let (depth, root) = match (self.on_rim, self.keeps_account) {
-            (true, _) => (depth * depth, depth),
-            (false, true) => (depth, depth.sqrt()),
-            (false, false) => return depth,
+        let (depth, root) = match (self.by, self.keeps_account) {
+            (By::Rim | By::Focus, _) => (depth * depth, depth),
+            (By::Jet, true) => (depth, depth.sqrt()),
+            (By::Jet, false) => return depth,
         };
         self.rim_density /= 2.0 * root.max(LEAST_ROOT);
+        self.cells[dimension as usize] = Focus::cell(coordinate(root));
         depth
     }
 
@@ -151,6 +197,21 @@ impl Point {
         }
         let share = BELOW_TWO_DEVIATIONS * (1.0 - 2.0 * self.uniform(dimension));
         1.0 + spread * Normal::standard().inverse_cdf(0.5 - share)
+    }
+}
+
+impl Sequence {
+    /// Uniform in 0 to 1.
+    fn coordinate(&mut self, dimension: u32) -> f64 {
+        match self {
+            Self::Sobol { index, seed, known } => {
+                let set = dimension / 4;
+                let four = known[set as usize]
+                    .get_or_insert_with(|| sobol_burley::sample_4d(*index, set, *seed));
+                f64::from(four[dimension as usize % 4])
+            }
+            Self::Random { seed } => random(*seed, dimension),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
-use super::sample::Deviate;
+use super::deviate::Deviate;
 use crate::problem::setting::Choice;
 use crate::scene::patch::Frame;
 use crate::scene::ray::Ray;

@@ -13,9 +13,11 @@ pub const EFFECTS: u32 = 3;
 pub const EVIDENCE: u32 = 4;
 /// Densities of hits.
 pub const COVERAGE: u32 = 5;
+/// Where harm comes from.
+pub const HARM: u32 = 6;
 /// What charts take as true.
-pub const CHART_REFERENCE: u32 = 6;
+pub const CHART_REFERENCE: u32 = 7;
 /// Poses that charts compare.
-pub const CHART_COMPARISON: u32 = 7;
+pub const CHART_COMPARISON: u32 = 8;
 /// The scatter of samples in charts; the last, as it may take more streams than the others.
-pub const CHART_SCATTER: u32 = 8;
+pub const CHART_SCATTER: u32 = 9;

@@ -2,7 +2,7 @@
 
 use super::judge::{Effort, Standing};
 use super::polish::Candidate;
-use crate::evaluate::{Evaluation, evaluate};
+use crate::evaluate::{Evaluation, evaluate_focused};
 use crate::jet::Replicates;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -84,7 +84,7 @@ impl Answer {
         fresh: &Replicates,
         effort: &Effort,
     ) -> Self {
-        let evaluation = evaluate(setup, choice, fresh);
+        let evaluation = evaluate_focused(setup, choice, fresh);
         effort.add(1, evaluation.rays);
         Self {
             choice: *choice,

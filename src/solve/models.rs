@@ -8,7 +8,8 @@ use super::judge::{Effort, Judge};
 use super::ladder::{Ladder, fewer, objective, objective_in};
 use super::polish::Candidate;
 use super::search::Search;
-use crate::jet::{Replicates, Samples, Stream, purpose};
+use crate::evaluate::focus_on_harm;
+use crate::jet::{Focus, Replicates, Samples, Stream, purpose};
 use crate::objective::Tally;
 use crate::precision::Precision;
 use crate::problem::model::Model;
@@ -23,6 +24,8 @@ pub(super) struct Models<'a> {
     /// With those that matter.
     pub searched: Setup,
     pub ladder: Ladder,
+    /// Where harm comes from, once that is known.
+    focus: Option<Focus>,
 }
 
 impl<'a> Models<'a> {
@@ -33,6 +36,7 @@ impl<'a> Models<'a> {
             searched: asked.clone(),
             asked,
             ladder: Ladder::of(whole),
+            focus: None,
         }
     }
 
@@ -92,9 +96,23 @@ impl<'a> Models<'a> {
         must
     }
 
+    /// Focuses the shots of the search on the harm that the leading candidate does.
+    pub fn focus_on_harm(&mut self, searches: &[Search], effort: &Effort) {
+        let leader = leader(searches).filter(|it| it.standing.objective().is_some());
+        self.focus = leader.map(|leader| {
+            let (focus, rays) = focus_on_harm(&self.asked, &leader.choice);
+            effort.add(0, rays);
+            focus
+        });
+    }
+
     /// Shots of the search.
     pub fn draw(&self, shots: usize) -> Samples {
-        Samples::with_rim(&self.searched.problem, Stream::Search, shots)
+        self.draw_from(Stream::Search, &self.searched, shots)
+    }
+
+    fn draw_from(&self, stream: Stream, setup: &Setup, shots: usize) -> Samples {
+        Samples::focused(&setup.problem, stream, shots, self.focus.as_ref())
     }
 
     /// Judges the model that is searched.
@@ -118,9 +136,9 @@ impl<'a> Models<'a> {
     pub fn claims(&self, searches: &[Search], shots: usize) -> Vec<Claim> {
         let precision = self.ladder.precision;
         let is_whole = self.ladder.left_out().is_empty() && precision == Precision::F64;
-        let draw = || Samples::with_rim(&self.asked.problem, Stream::Search, shots).deviates;
+        let draw = || self.draw_from(Stream::Search, &self.asked, shots).deviates;
         let whole = if is_whole { Vec::new() } else { draw() };
-        let fewer = fewer(&self.asked, &self.searched, &whole);
+        let fewer = fewer(&self.asked, &self.searched, &whole, self.focus.as_ref());
         let claim = |search: &Search| {
             let best = search.best();
             let searched = best.standing.objective()?;
@@ -142,7 +160,7 @@ impl<'a> Models<'a> {
         };
         let on_another_set = |number| {
             let stream = Replicates::stream(purpose::EFFECTS, number);
-            let shots = Samples::with_rim(problem, stream, shots).deviates;
+            let shots = self.draw_from(stream, &self.searched, shots).deviates;
             let choice = &leader.choice;
             let precision = self.ladder.precision;
             let tally = Tally::trace_as(precision, &self.searched, choice, choice.speed, &shots);

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::{Rung, SHOTS};
 use crate::evaluate::evaluate;
-use crate::jet::{Deviate, Replicates, Samples, Stream, purpose};
+use crate::jet::{Deviate, Focus, Replicates, Samples, Stream, purpose};
 use crate::objective::Tally;
 use crate::precision::Precision;
 use crate::problem::model::Effect;
@@ -26,11 +26,13 @@ pub(in crate::solve) fn fewer<'a>(
     setup: &Setup,
     reduced: &Setup,
     whole: &'a [Deviate],
+    focus: Option<&Focus>,
 ) -> Cow<'a, [Deviate]> {
     if draw_alike(setup, reduced) {
         return whole.into();
     }
-    let mut shots = Samples::with_rim(&reduced.problem, Stream::Search, whole.len()).deviates;
+    let samples = Samples::focused(&reduced.problem, Stream::Search, whole.len(), focus);
+    let mut shots = samples.deviates;
     if shots.len() == whole.len() {
         for (shot, with) in shots.iter_mut().zip(whole) {
             shot.weight = with.weight;
@@ -116,7 +118,7 @@ impl<'a> Bench<'a> {
 
     /// Changes of J, relative, at every leading choice.
     fn changes(&self, reduced: &Setup) -> Vec<f64> {
-        let shots = fewer(self.setup, reduced, &self.shots);
+        let shots = fewer(self.setup, reduced, &self.shots, None);
         let pairs = self.leading.iter().zip(&self.whole);
         let change = |(choice, whole): (&Choice, &f64)| {
             self.relative(objective(reduced, choice, &shots) - whole, *whole)
@@ -180,7 +182,7 @@ impl<'a> Bench<'a> {
         let reduced = self.reduced(&[effect]);
         let changes = self.changes(&reduced);
         let whole = self.few_shots();
-        let fewer = fewer(self.setup, &reduced, whole);
+        let fewer = fewer(self.setup, &reduced, whole, None);
         let best_with = start.best;
         // An effect that does nothing here may be the cliff that the best settings keep away from.
         let best_without = self.descend(&reduced, &fewer);
@@ -211,7 +213,7 @@ impl<'a> Bench<'a> {
     pub(super) fn relative_time(&self, effect: Effect) -> f64 {
         let reduced = self.reduced(&[effect]);
         let whole = self.few_shots();
-        let fewer = fewer(self.setup, &reduced, whole);
+        let fewer = fewer(self.setup, &reduced, whole, None);
         let time = |setup: &Setup, shots: &[Deviate]| {
             let started = Instant::now();
             black_box(objective(setup, &self.leading[0], shots));

@@ -1,0 +1,98 @@
+//! Shots drawn by several densities, and what each of them stands for among the others.
+
+use super::deviate::Deviate;
+use super::focus::{Cells, Focus};
+use super::point::{By, Point, Stream};
+use crate::problem::Problem;
+
+/// How many shots are drawn by each density.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts {
+    /// As the jet fires them.
+    pub jet: usize,
+    /// Towards the rim.
+    pub rim: usize,
+    /// Towards the rim, and there by a focus.
+    pub focused: usize,
+}
+
+impl Parts {
+    pub const NONE: Self = Self {
+        jet: 0,
+        rim: 0,
+        focused: 0,
+    };
+
+    pub const JET_ALONE: Self = Self {
+        jet: 1,
+        ..Self::NONE
+    };
+
+    pub fn count(self) -> usize {
+        self.jet + self.rim + self.focused
+    }
+}
+
+/// Where a shot comes from: all that must be known of it to tell what it stands for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin {
+    pub cells: Cells,
+    /// Density of the rim's distribution over that of the jet.
+    rim_density: f64,
+}
+
+/// Shots of which certain shares are drawn by each density.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mixture<'a> {
+    parts: Parts,
+    focus: &'a Focus,
+}
+
+impl<'a> Mixture<'a> {
+    pub fn new(parts: Parts, focus: &'a Focus) -> Self {
+        Self { parts, focus }
+    }
+
+    /// What a shot stands for: the density of the jet over that of all these shots together, so that
+    /// weighted averages over them estimate what averages over the jet's shots do (the balance
+    /// heuristic of Veach and Guibas, SIGGRAPH 1995).
+    pub fn weight(&self, origin: &Origin) -> f64 {
+        let Parts { jet, rim, focused } = self.parts;
+        let on_rim = match focused {
+            0 => rim as f64,
+            _ => rim as f64 + focused as f64 * self.focus.density(&origin.cells),
+        };
+        self.parts.count() as f64 / (jet as f64 + origin.rim_density * on_rim)
+    }
+
+    /// One of the shots that are drawn by a density.
+    pub fn shot(&self, problem: &Problem, stream: Stream, index: u32, by: By) -> (Deviate, Origin) {
+        let mut point = Point::new(problem.seed, stream, index, by, self.focus);
+        let mut shot = Deviate::at(problem, &mut point);
+        let origin = Origin {
+            cells: point.cells,
+            rim_density: point.rim_density,
+        };
+        shot.weight = self.weight(&origin);
+        shot.of_jet = by == By::Jet;
+        (shot, origin)
+    }
+
+    /// One of the shots that follow each other in rounds, in each of which every density has its part.
+    pub fn in_rounds(&self, problem: &Problem, stream: Stream, index: u32) -> (Deviate, Origin) {
+        let parts = [
+            (By::Jet, self.parts.jet as u32),
+            (By::Rim, self.parts.rim as u32),
+            (By::Focus, self.parts.focused as u32),
+        ];
+        let round = index / self.parts.count() as u32;
+        let mut place = index % self.parts.count() as u32;
+        for (by, count) in parts {
+            if place < count {
+                return self.shot(problem, stream, round * count + place, by);
+            }
+            place -= count;
+        }
+        unreachable!("a place in a round belongs to one of its parts")
+    }
+}

@@ -1,0 +1,79 @@
+//! The shots of a jet: low-discrepancy or random samples, in which neither order nor threads can change
+//! a result.
+
+use rayon::prelude::*;
+
+use super::deviate::Deviate;
+use super::focus::Focus;
+use super::mixture::{Mixture, Parts};
+use super::point::{Point, Stream};
+use crate::problem::Problem;
+
+/// The shots of a jet, without its pose.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    /// One for each shot.
+    pub deviates: Vec<Deviate>,
+}
+
+impl Samples {
+    /// The first `count` shots of a stream, each standing for itself.
+    pub fn new(problem: &Problem, stream: Stream, count: usize) -> Self {
+        let shot = |index| Deviate::at(problem, &mut Point::of_jet(problem.seed, stream, index));
+        Self {
+            deviates: (0..count as u32).map(shot).collect(),
+        }
+    }
+
+    /// The first `count` shots of a stream, drawn independently of each other: what the
+    /// low-discrepancy points of [`Samples::new`] are to be compared with.
+    pub fn random(problem: &Problem, stream: Stream, count: usize) -> Self {
+        let shot = |index| Deviate::at(problem, &mut Point::random(problem.seed, stream, index));
+        Self {
+            deviates: (0..count as u32).map(shot).collect(),
+        }
+    }
+
+    /// Shots for a search: every second one is drawn towards the rim of the exit disc, of the cone
+    /// and of the tolerance box, where rare harm comes from, and stands for accordingly less. Of
+    /// many shots it is three out of four: few suffice for what is not rare.
+    ///
+    /// Averages weighted with [`Deviate::weight`] estimate the same as those over [`Samples::new`].
+    /// When all shots of a problem are the same, there is one.
+    pub fn with_rim(problem: &Problem, stream: Stream, count: usize) -> Self {
+        let rim = if count < MANY { 1 } else { 3 };
+        let parts = Parts {
+            rim,
+            ..Parts::JET_ALONE
+        };
+        Self::mixed(problem, stream, count, &Mixture::new(parts, &Focus::NONE))
+    }
+
+    /// The same with half of the shots on the rim drawn by a focus, of many two thirds; without one
+    /// they are those of [`Samples::with_rim`].
+    pub fn focused(problem: &Problem, stream: Stream, count: usize, focus: Option<&Focus>) -> Self {
+        let Some(focus) = focus else {
+            return Self::with_rim(problem, stream, count);
+        };
+        let [jet, focused] = if count < MANY { [2, 1] } else { [1, 2] };
+        let parts = Parts {
+            jet,
+            rim: 1,
+            focused,
+        };
+        Self::mixed(problem, stream, count, &Mixture::new(parts, focus))
+    }
+
+    fn mixed(problem: &Problem, stream: Stream, count: usize, mixture: &Mixture) -> Self {
+        if problem.has_one_ray() {
+            return Self::new(problem, stream, 1);
+        }
+        let shot = |index| mixture.in_rounds(problem, stream, index).0;
+        Self {
+            deviates: (0..count as u32).into_par_iter().map(shot).collect(),
+        }
+    }
+}
+
+/// From so many shots of a search on most of them are drawn towards the rim.
+const MANY: usize = 2048;
