@@ -8,7 +8,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use peenpose::evaluate::{evaluate, evaluate_drawn};
+use peenpose::evaluate::{evaluate, evaluate_drawn, evaluate_focused};
 use peenpose::jet::{Draw, Replicates, purpose};
 use peenpose::problem;
 use peenpose::scene::Walls;
@@ -293,7 +293,7 @@ fn shots_that_are_forgotten_once_fired_give_the_same_figures() {
         let kept = Replicates::new(&setup.problem, purpose::ANSWERS, 1000);
         let drawn = Draw::new(&setup.problem, purpose::ANSWERS, 1000);
         let [kept, drawn] = [
-            evaluate(&setup, &choice, &kept),
+            evaluate_focused(&setup, &choice, &kept),
             evaluate_drawn(&setup, &choice, &drawn),
         ];
         assert_eq!(format!("{kept:?}"), format!("{drawn:?}"));

@@ -5,7 +5,7 @@ use std::time::Instant;
 use peenpose::jet::Samples;
 use peenpose::objective::Tally;
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::{Control, Shortcuts, solve};
 use rayon::ThreadPoolBuilder;
 
 use crate::objective::{SHOTS, Step};
@@ -15,6 +15,10 @@ pub fn on_common_shots(setup: &Setup, shots: &Samples) -> Step {
     let control = Control {
         most_shots: SHOTS,
         fresh_shots: 1,
+        shortcuts: Shortcuts {
+            focus: false,
+            ..Shortcuts::default()
+        },
         ..Control::default()
     };
     run(setup, shots, &control)

@@ -7,7 +7,7 @@
 use std::error::Error;
 use std::fmt::{Display, Formatter};
 
-use peenpose::evaluate::evaluate;
+use peenpose::evaluate::evaluate_focused;
 use peenpose::jet::{Replicates, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::setup::Setup;
@@ -136,7 +136,7 @@ fn coverage(
         .map(|seed| {
             setup.problem.seed = seed;
             let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, shots);
-            let evaluation = evaluate(setup, choice, &fresh);
+            let evaluation = evaluate_focused(setup, choice, &fresh);
             Mean {
                 value: evaluation.terms.total(),
                 standard_error: evaluation.standard_error,

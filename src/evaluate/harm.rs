@@ -95,7 +95,7 @@ impl Inspector {
 
     fn end_volley(&mut self, shots: &[Deviate], rays: usize) {
         self.rays += rays;
-        for (i, shot) in shots.iter().enumerate() {
+        for i in 0..shots.len() {
             let miss = if self.on_target[i] { 0.0 } else { self.miss };
             self.harm.push(self.in_volley[i] + miss);
         }

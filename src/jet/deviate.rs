@@ -199,6 +199,7 @@ fn cone_direction(half_angle: f64, spread: Spread, point: &mut Point) -> [f64; 3
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::jet::{Samples, Stream};
     use crate::problem::example::keyway;
 
     #[test]

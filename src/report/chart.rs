@@ -90,7 +90,8 @@ fn poses(chart: &Chart) -> Option<Block> {
     block.table(table);
     block.paragraph(&format!(
         "Root mean square error of J, relative to J0; {}; one thread. With the rim: as the search draws \
-         shots, every second one or, of 2048 and more, three out of four where harm is rare. It ended with \
+         shots until it knows where harm comes from, every second one or, of 2048 and more, three out of four \
+         where harm is rare. It ended with \
          {} shots at each pose.",
         curve_name(first),
         count(chart.recommended.shots_per_pose),

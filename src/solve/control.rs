@@ -25,6 +25,8 @@ pub struct Shortcuts {
     pub single_precision: bool,
     /// Poses that a part of their shots proves to be worse are given no more.
     pub early_ends: bool,
+    /// More shots are drawn from where the leading settings do harm.
+    pub focus: bool,
 }
 
 impl Default for Shortcuts {
@@ -32,6 +34,7 @@ impl Default for Shortcuts {
         Self {
             single_precision: true,
             early_ends: true,
+            focus: true,
         }
     }
 }

@@ -91,7 +91,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         let stage = Stage::beyond(shots);
-        models.focus_on_harm(&searches, &effort);
+        models.focus_on_harm(&searches, &effort, control);
         refine(&models, &mut searches, &open, &stage, control, &effort);
         claims = agree(&mut models, &mut searches, shots, control, &effort);
         answers = figures.renewed(answers, &searches);
@@ -176,7 +176,7 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
     for (index, stage) in stages.into_iter().enumerate() {
         let before = searches.clone();
         if index > 0 {
-            models.focus_on_harm(&searches, effort);
+            models.focus_on_harm(&searches, effort, control);
         }
         advance(models, &mut searches, stage, control, effort);
         if control.is_stopped() {

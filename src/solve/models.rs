@@ -97,7 +97,10 @@ impl<'a> Models<'a> {
     }
 
     /// Focuses the shots of the search on the harm that the leading candidate does.
-    pub fn focus_on_harm(&mut self, searches: &[Search], effort: &Effort) {
+    pub fn focus_on_harm(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
+        if !control.shortcuts.focus {
+            return;
+        }
         let leader = leader(searches).filter(|it| it.standing.objective().is_some());
         self.focus = leader.map(|leader| {
             let (focus, rays) = focus_on_harm(&self.asked, &leader.choice);

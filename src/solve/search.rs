@@ -17,6 +17,9 @@ pub(super) struct Stage {
     pub size: f64,
     /// A descent ends when J differs by less than this share of the accuracy over its simplex.
     pub settled: f64,
+    /// Descents at most, each from where the one before ended: a new simplex leaves hollows in which
+    /// an old one has shrunk.
+    pub descents: usize,
 }
 
 /// More and more shots for fewer and fewer candidates.
@@ -26,18 +29,21 @@ pub(super) const STAGES: [Stage; 3] = [
         candidates: 6,
         size: 0.4,
         settled: 0.1,
+        descents: 1,
     },
     Stage {
         shots: 1024,
         candidates: 2,
         size: 0.3,
         settled: 0.05,
+        descents: 1,
     },
     Stage {
         shots: 4096,
         candidates: 1,
         size: 0.15,
         settled: 0.1,
+        descents: 2,
     },
 ];
 
@@ -63,12 +69,23 @@ impl Stage {
             candidates: 1,
             size: 0.06,
             settled: 0.1,
+            descents: 1,
         }
     }
 
-    /// Where a descent from a candidate ends.
+    /// Where the descents from a candidate end.
     fn descent(&self, space: &Space, judge: &Judge, start: Candidate, accuracy: f64) -> Candidate {
-        polish(space, judge, start, self.size, self.settled * accuracy)
+        let descents = 0..self.descents;
+        descents.fold(start, |best, _| {
+            let next = polish(
+                space,
+                judge,
+                best.clone(),
+                self.size,
+                self.settled * accuracy,
+            );
+            best.or_better(next)
+        })
     }
 }
 

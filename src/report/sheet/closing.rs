@@ -78,7 +78,7 @@ pub fn work(record: &Record) -> Block {
         }
         if record.best.rim_shots > 0 {
             block.paragraph(&format!(
-                "J also from {} on the rim of jet and tolerance, weighted by how rare they are",
+                "J also from {} where harm may come from, weighted by how rare they are",
                 count(record.best.rim_shots)
             ));
         }
