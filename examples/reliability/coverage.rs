@@ -76,7 +76,7 @@ impl Case {
             .find(|known| known.is_of(&self.variant) && known.contact == self.contact)
             .ok_or_else(|| format!("no best settings of {} are known", self.variant.name()))?
             .choice(&setup.problem)?;
-        let figures = whole_solves(&mut setup, intervals, reference_shots / 4);
+        let figures = whole_solves(&mut setup, intervals, reference_shots / 64);
         let line = format!("{},any,{figures}", self.variant.name());
         println!("{line}");
         let mut lines = vec![line];

@@ -39,7 +39,7 @@ struct Arguments {
     #[arg(long, default_value_t = 200)]
     intervals: u64,
     /// Shots behind what counts as the true J.
-    #[arg(long, default_value_t = 1 << 24)]
+    #[arg(long, default_value_t = 1 << 28)]
     reference_shots: usize,
     /// Only variants whose name contains this.
     #[arg(long, default_value = "")]

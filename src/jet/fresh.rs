@@ -69,6 +69,21 @@ impl Replicates {
     }
 }
 
+impl From<Samples> for Replicate {
+    /// Shots as they are, about none of which a focus decides.
+    fn from(jet: Samples) -> Self {
+        Self {
+            jet,
+            rim: Samples {
+                deviates: Vec::new(),
+            },
+            stream: Stream::Search,
+            parts: Parts::NONE,
+            origins: Vec::new(),
+        }
+    }
+}
+
 impl Replicate {
     fn new(problem: &Problem, stream: Stream, parts: Parts, focus: &Focus) -> Self {
         let mixture = Mixture::new(parts, focus);
