@@ -45,7 +45,7 @@ pub struct AnswerRecord {
     pub clearance_wanted_m: f64,
     /// Fresh shots behind the figures.
     pub shots: usize,
-    /// Fresh shots on the rim of jet and tolerance that stand behind the objective as well.
+    /// Fresh shots from where harm may come that stand behind the objective as well.
     #[serde(default)]
     pub rim_shots: usize,
     /// The terms of the objective with their weights; absent when the nozzle does not fit.
