@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::jet::{Draw, Replicates};
+use crate::jet::{Draw, Fresh, Replicates};
 use crate::objective::{Hits, Sums, Terms};
 use crate::problem::goal::Goals;
 use crate::problem::setting::Choice;
@@ -102,7 +102,7 @@ pub fn evaluate(setup: &Setup, choice: &Choice, shots: &Replicates) -> Evaluatio
 
 /// Evaluates `choice` on fresh shots, half of those on the rim drawn [from where harm comes
 /// from](focus_on_harm) with these settings.
-pub fn evaluate_focused(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Evaluation {
+pub fn evaluate_focused(setup: &Setup, choice: &Choice, fresh: &Fresh) -> Evaluation {
     let (focus, rays) = focus_on_harm(setup, choice);
     let sets = fresh.sets.par_iter();
     // Each set is copied when it is fired: all of them together do not fit into a cache.
@@ -112,7 +112,7 @@ pub fn evaluate_focused(setup: &Setup, choice: &Choice, fresh: &Replicates) -> E
     evaluation
 }
 
-/// The same on shots that are forgotten once they are fired, as [`Replicates`] of the same number
+/// The same on shots that are forgotten once they are fired, as [`Fresh`] ones of the same number
 /// would take 230 bytes a shot.
 pub fn evaluate_drawn(setup: &Setup, choice: &Choice, fresh: &Draw) -> Evaluation {
     let (focus, rays) = focus_on_harm(setup, choice);

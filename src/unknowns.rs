@@ -125,7 +125,7 @@ fn common_shots(setup: &Setup) -> Replicates {
 
 fn with(shots: &Replicates, quantity: Quantity, change: f64) -> Replicates {
     let mut shots = shots.clone();
-    for Replicate { jet, rim, .. } in &mut shots.sets {
+    for Replicate { jet, rim } in &mut shots.sets {
         for deviate in jet.deviates.iter_mut().chain(&mut rim.deviates) {
             *deviate = quantity.change(deviate, change);
         }

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 use peenpose::evaluate::{evaluate, evaluate_drawn, evaluate_focused};
-use peenpose::jet::{Draw, Replicates, purpose};
+use peenpose::jet::{Draw, Fresh, Replicates, purpose};
 use peenpose::problem;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
@@ -290,7 +290,7 @@ fn shots_that_are_forgotten_once_fired_give_the_same_figures() {
         let problem = problem::read_text(text, Path::new(name)).unwrap().problem;
         let setup = Setup::new(problem.unwrap(), Walls::Exact).unwrap();
         let choice = spread_choices(&setup, 0, 1)[0];
-        let kept = Replicates::new(&setup.problem, purpose::ANSWERS, 1000);
+        let kept = Fresh::new(&setup.problem, purpose::ANSWERS, 1000);
         let drawn = Draw::new(&setup.problem, purpose::ANSWERS, 1000);
         let [kept, drawn] = [
             evaluate_focused(&setup, &choice, &kept),

@@ -10,7 +10,7 @@ use std::time::Duration;
 use peenpose::checkpoint::Checkpoint;
 use peenpose::evaluate::evaluate;
 use peenpose::impact::Restitution;
-use peenpose::jet::{Replicates, Samples, Stream};
+use peenpose::jet::{Replicate, Replicates, Samples, Stream};
 use peenpose::map::{Axis, Control, Map, Place, standard_maps};
 use peenpose::problem::setting::{Choice, Range, Setting};
 use peenpose::record::{MapRecord, MapTerm};
@@ -54,7 +54,10 @@ fn agrees_with_evaluations(setup: &Setup, map: &Map) {
         SHOTS,
     );
     let shots = Replicates {
-        sets: vec![same_shots.into()],
+        sets: vec![Replicate {
+            jet: same_shots,
+            rim: Samples { deviates: vec![] },
+        }],
     };
     let columns = map.x.values.len();
     let (mut blocked, mut failing) = (0, 0);

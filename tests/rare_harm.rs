@@ -3,7 +3,7 @@
 mod common;
 
 use peenpose::evaluate::{evaluate, evaluate_focused, focus_on_harm};
-use peenpose::jet::{Focus, Replicates, purpose};
+use peenpose::jet::{Focus, Fresh, Replicates, purpose};
 use peenpose::problem::Problem;
 use peenpose::problem::setting::{Choice, Setting, Tolerance};
 use peenpose::scene::Walls;
@@ -47,9 +47,12 @@ fn statistics(objectives: &[f64]) -> (f64, f64, f64) {
 fn of_seeds(setup: &mut Setup, choice: &Choice, seeds: u64) -> [Vec<f64>; 2] {
     let each = (1..=seeds).map(|seed| {
         setup.problem.seed = seed;
-        let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, 2048);
-        let plain = evaluate(setup, choice, &fresh).terms.total();
-        (plain, evaluate_focused(setup, choice, &fresh).terms.total())
+        let plain = Replicates::new(&setup.problem, purpose::ANSWERS, 2048);
+        let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, 2048);
+        (
+            evaluate(setup, choice, &plain).terms.total(),
+            evaluate_focused(setup, choice, &fresh).terms.total(),
+        )
     });
     let (plain, focused) = each.unzip();
     [plain, focused]
@@ -105,10 +108,11 @@ fn a_focus_leaves_the_shots_of_the_jet_as_they_are_but_for_what_they_stand_for()
     let setup = Setup::new(hub(), Walls::Exact).unwrap();
     let (focus, _) = focus_on_harm(&setup, &at(&setup, 69.0));
     assert_ne!(focus, Focus::NONE);
-    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, 1 << 14);
+    let plain = Replicates::new(&setup.problem, purpose::ANSWERS, 1 << 14);
+    let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, 1 << 14);
     let mut weights = Vec::new();
-    for set in &fresh.sets {
-        let focused = set.focused(&setup.problem, &focus);
+    for (set, unfocused) in plain.sets.iter().zip(&fresh.sets) {
+        let focused = unfocused.focused(&setup.problem, &focus);
         assert_eq!(focused.jet.deviates.len(), set.jet.deviates.len());
         assert_eq!(focused.rim.deviates.len(), set.rim.deviates.len());
         for (shot, of_jet) in focused.jet.deviates.iter().zip(&set.jet.deviates) {
@@ -121,8 +125,8 @@ fn a_focus_leaves_the_shots_of_the_jet_as_they_are_but_for_what_they_stand_for()
         assert_eq!(changed.count(), set.rim.deviates.len() / 2);
         let shots = focused.jet.deviates.iter().chain(&focused.rim.deviates);
         weights.extend(shots.map(|shot| shot.weight));
-        // No focus at all is where it began.
-        let back = focused.focused(&setup.problem, &Focus::NONE);
+        // Without a focus they are the shots that anybody gets.
+        let back = unfocused.focused(&setup.problem, &Focus::NONE);
         assert_eq!(back.jet.deviates, set.jet.deviates);
         assert_eq!(back.rim.deviates, set.rim.deviates);
     }

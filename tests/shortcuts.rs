@@ -7,7 +7,7 @@ use std::path::Path;
 
 use peenpose::checkpoint::Checkpoint;
 use peenpose::evaluate::evaluate_focused;
-use peenpose::jet::{Replicates, purpose};
+use peenpose::jet::{Fresh, purpose};
 use peenpose::precision::Precision;
 use peenpose::problem::setting::{Choice, Range};
 use peenpose::scene::Walls;
@@ -69,7 +69,7 @@ const ALIKE: f64 = 0.1;
 fn figures_are_those_of_evaluations(setup: &Setup, solution: &Solution) {
     for answer in &solution.answers {
         let reported = answer.evaluation.as_ref().unwrap();
-        let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, reported.shots);
+        let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, reported.shots);
         let found = evaluate_focused(setup, &answer.choice, &fresh);
         assert_eq!(format!("{reported:?}"), format!("{found:?}"));
     }

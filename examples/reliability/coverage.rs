@@ -8,7 +8,7 @@ use std::error::Error;
 use std::fmt::{Display, Formatter};
 
 use peenpose::evaluate::evaluate_focused;
-use peenpose::jet::{Replicates, purpose};
+use peenpose::jet::{Fresh, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::setup::Setup;
 use peenpose::solve::{Control, solve};
@@ -135,7 +135,7 @@ fn coverage(
     let reported: Vec<Mean> = (1..=intervals)
         .map(|seed| {
             setup.problem.seed = seed;
-            let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, shots);
+            let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, shots);
             let evaluation = evaluate_focused(setup, choice, &fresh);
             Mean {
                 value: evaluation.terms.total(),

@@ -127,14 +127,8 @@ impl Deviate {
             speed: point.scatter(jet.speed_spread, Dimension::SpeedScatter)
                 * (1.0 + point.within(tolerance.speed, Dimension::SpeedSetting)),
             size: point.scatter(problem.shot.size_spread, Dimension::Size),
-            incidence: point
-                .within(tolerance.incidence, Dimension::Incidence)
-                .sin_cos()
-                .into(),
-            azimuth: point
-                .within(tolerance.azimuth, Dimension::Azimuth)
-                .sin_cos()
-                .into(),
+            incidence: sine_and_cosine(point.within(tolerance.incidence, Dimension::Incidence)),
+            azimuth: sine_and_cosine(point.within(tolerance.azimuth, Dimension::Azimuth)),
             standoff: point.within(tolerance.standoff, Dimension::Standoff),
             aim: [
                 point.within(tolerance.aim_along, Dimension::AimAlong),
@@ -164,6 +158,16 @@ pub fn speed_variance(problem: &Problem) -> f64 {
 
 /// Of a standard normal deviate that is cut at two deviations, 1 - 4 phi(2) / (2 Phi(2) - 1).
 const VARIANCE_WITHIN_TWO_DEVIATIONS: f64 = 0.773_741_303_549_923_2;
+
+/// Of most shots of a nozzle that is set exactly it is 0, which takes no work.
+#[inline]
+fn sine_and_cosine(angle: f64) -> [f64; 2] {
+    if angle == 0.0 {
+        [0.0, 1.0]
+    } else {
+        angle.sin_cos().into()
+    }
+}
 
 /// Uniform in a disc.
 fn exit_offset(radius: f64, point: &mut Point) -> [f64; 2] {

@@ -67,7 +67,11 @@ impl<'a> Mixture<'a> {
 
     /// One of the shots that are drawn by a density.
     pub fn shot(&self, problem: &Problem, stream: Stream, index: u32, by: By) -> (Deviate, Origin) {
-        let mut point = Point::new(problem.seed, stream, index, by, self.focus);
+        let mut point = if self.parts.rim + self.parts.focused == 0 {
+            Point::of_jet(problem.seed, stream, index)
+        } else {
+            Point::new(problem.seed, stream, index, by, self.focus)
+        };
         let mut shot = Deviate::at(problem, &mut point);
         let origin = Origin {
             cells: point.cells,

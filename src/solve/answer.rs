@@ -3,7 +3,7 @@
 use super::judge::{Effort, Standing};
 use super::polish::Candidate;
 use crate::evaluate::{Evaluation, evaluate_focused};
-use crate::jet::Replicates;
+use crate::jet::Fresh;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use crate::verdict::Verdict;
@@ -59,12 +59,7 @@ impl Answer {
     }
 
     /// The answer that a candidate is, with figures from shots that the search has not seen.
-    pub(super) fn of(
-        setup: &Setup,
-        candidate: &Candidate,
-        fresh: &Replicates,
-        effort: &Effort,
-    ) -> Self {
+    pub(super) fn of(setup: &Setup, candidate: &Candidate, fresh: &Fresh, effort: &Effort) -> Self {
         let choice = candidate.choice;
         match candidate.standing {
             Standing::Blocked(violation) => Self {
@@ -78,12 +73,7 @@ impl Answer {
     }
 
     /// The answer that settings are at which the nozzle fits.
-    pub(super) fn feasible(
-        setup: &Setup,
-        choice: &Choice,
-        fresh: &Replicates,
-        effort: &Effort,
-    ) -> Self {
+    pub(super) fn feasible(setup: &Setup, choice: &Choice, fresh: &Fresh, effort: &Effort) -> Self {
         let evaluation = evaluate_focused(setup, choice, fresh);
         effort.add(1, evaluation.rays);
         Self {

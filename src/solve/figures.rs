@@ -7,7 +7,7 @@ use super::answer::Answer;
 use super::control::Control;
 use super::judge::Effort;
 use super::search::Search;
-use crate::jet::{Replicates, purpose};
+use crate::jet::{Fresh, purpose};
 use crate::setup::Setup;
 use crate::verdict::Verdict;
 
@@ -16,7 +16,7 @@ pub(super) struct Figures<'a> {
     setup: &'a Setup,
     effort: &'a Effort,
     most_shots: usize,
-    fresh: Replicates,
+    fresh: Fresh,
 }
 
 impl<'a> Figures<'a> {
@@ -27,7 +27,7 @@ impl<'a> Figures<'a> {
             setup,
             effort,
             most_shots: control.fresh_shots,
-            fresh: Replicates::new(&setup.problem, purpose::ANSWERS, first),
+            fresh: Fresh::new(&setup.problem, purpose::ANSWERS, first),
         }
     }
 
@@ -59,7 +59,7 @@ impl<'a> Figures<'a> {
         if has_all || !(is_vague(&answers, problem) || is_open(&answers)) {
             return answers;
         }
-        self.fresh = Replicates::new(problem, purpose::ANSWERS, self.most_shots);
+        self.fresh = Fresh::new(problem, purpose::ANSWERS, self.most_shots);
         self.of(searches)
     }
 

@@ -14,7 +14,7 @@ use super::control::{Control, Progress};
 use super::judge::{Effort, Judge};
 use super::risks::{Risks, risks};
 use super::search::{STAGES, Search};
-use crate::jet::{Replicates, Samples, Stream, purpose};
+use crate::jet::{Fresh, Samples, Stream, purpose};
 use crate::precision::Precision;
 use crate::setup::Setup;
 
@@ -54,7 +54,7 @@ pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
         );
     });
     let judged = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
-    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
+    let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
     let evaluated = judged
         .par_iter()
         .map(|judged| Answer::feasible(setup, &judged.choice, &fresh, &effort));

@@ -1,0 +1,59 @@
+//! Independent scramblings of the same jet.
+
+use rayon::prelude::*;
+
+use super::fresh::Draw;
+use super::point::Stream;
+use super::samples::Samples;
+use crate::problem::Problem;
+
+/// Independent scramblings of the same jet, whose scatter tells the error of an average.
+#[derive(Clone, Debug)]
+pub struct Replicates {
+    /// One for each scrambling.
+    pub sets: Vec<Replicate>,
+}
+
+/// The shots of one scrambling.
+#[derive(Clone, Debug)]
+pub struct Replicate {
+    /// Shots as the jet fires them.
+    pub jet: Samples,
+    /// Shots drawn towards the rim, half of them by a focus; weighted averages over both estimate the
+    /// same as those over the jet alone, and see what harms rarely.
+    pub rim: Samples,
+}
+
+impl Replicates {
+    /// Number of scramblings.
+    pub const COUNT: usize = 32;
+
+    /// One of the streams of fresh shots for a [`purpose`](super::purpose).
+    pub fn stream(purpose: u32, number: u32) -> Stream {
+        Stream::Fresh(purpose * Self::COUNT as u32 + number)
+    }
+
+    /// Fresh shots of the jet, rounded up to a multiple of [`Self::COUNT`], and half as many on the
+    /// rim. Sets for different [purposes](super::purpose) are independent of each other and of every
+    /// search.
+    pub fn new(problem: &Problem, purpose: u32, shots: usize) -> Self {
+        Self::of(&Draw::new(problem, purpose, shots))
+    }
+
+    /// Fresh shots of the jet alone: for shares of shots.
+    pub fn without_rim(problem: &Problem, purpose: u32, shots: usize) -> Self {
+        Self::of(&Draw::new(problem, purpose, shots).without_rim())
+    }
+
+    fn of(draw: &Draw) -> Self {
+        let numbers = (0..draw.sets()).into_par_iter();
+        Self {
+            sets: numbers.map(|number| draw.set(number)).collect(),
+        }
+    }
+
+    /// Number of shots of the jet in all sets together.
+    pub fn shots(&self) -> usize {
+        self.sets.iter().map(|set| set.jet.deviates.len()).sum()
+    }
+}
