@@ -49,7 +49,8 @@ const PARTS: Parts = Parts {
 /// is: an exit may not grow into its walls, nor a standoff beyond the target.
 fn stretched(problem: &Problem, times: f64) -> Problem {
     let mut wide = problem.clone();
-    wide.jet.divergence = (wide.jet.divergence * times).min(WIDEST);
+    wide.jet.divergence = (problem.jet.divergence * times)
+        .clamp(problem.jet.divergence, WIDEST.max(problem.jet.divergence));
     for width in [
         &mut wide.tolerance.incidence,
         &mut wide.tolerance.azimuth,
