@@ -61,7 +61,8 @@ fn of_seeds(setup: &mut Setup, choice: &Choice, seeds: u64) -> [Vec<f64>; 2] {
 #[test]
 fn what_scouts_find_changes_no_average() {
     let mut setup = Setup::new(hub(), Walls::Exact).unwrap();
-    // Where next to no shot does harm, where few do, where one in eighteen does, where nearly half of them do.
+    // Where next to no shot does harm, where few do, where one in eighteen does, where nearly half
+    // of them do.
     for degrees in [67.5, 69.0, 72.0, 78.0] {
         let choice = at(&setup, degrees);
         let [plain, focused] = of_seeds(&mut setup, &choice, 48).map(|of| statistics(&of));

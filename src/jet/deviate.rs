@@ -159,7 +159,7 @@ pub fn speed_variance(problem: &Problem) -> f64 {
 /// Of a standard normal deviate that is cut at two deviations, 1 - 4 phi(2) / (2 Phi(2) - 1).
 const VARIANCE_WITHIN_TWO_DEVIATIONS: f64 = 0.773_741_303_549_923_2;
 
-/// Of most shots of a nozzle that is set exactly it is 0, which takes no work.
+/// An angle of 0, as of every shot of a nozzle that is set exactly, takes no work.
 #[inline]
 fn sine_and_cosine(angle: f64) -> [f64; 2] {
     if angle == 0.0 {

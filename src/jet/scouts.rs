@@ -48,9 +48,9 @@ const PARTS: Parts = Parts {
 /// A problem whose directions scatter so many times as far. What scatters in other ways is left as it
 /// is: an exit may not grow into its walls, nor a standoff beyond the target.
 fn stretched(problem: &Problem, times: f64) -> Problem {
+    let half_angle = problem.jet.divergence;
     let mut wide = problem.clone();
-    wide.jet.divergence = (problem.jet.divergence * times)
-        .clamp(problem.jet.divergence, WIDEST.max(problem.jet.divergence));
+    wide.jet.divergence = (half_angle * times).min(WIDEST).max(half_angle);
     for width in [
         &mut wide.tolerance.incidence,
         &mut wide.tolerance.azimuth,

@@ -2,10 +2,10 @@
 //!
 //! J over the settings is a flat valley that ends at a cliff, or a needle in a plateau, with a jump
 //! wherever one shot changes surface. So: screen widely with few shots, go down from the best few
-//! places with Nelder-Mead, raise the number of shots as the candidates get better, draw a part of them
-//! from where the leading candidate does harm, decide between candidates on common shots, and report the winner on shots that the search has not seen. The
-//! speed is not searched: its best value follows exactly from the traced paths wherever restitution
-//! does not depend on it.
+//! places with Nelder-Mead, raise the number of shots as the candidates get better, draw a part of
+//! them from where the leading candidate does harm, decide between candidates on common shots, and
+//! report the winner on shots that the search has not seen. The speed is not searched: its best value
+//! follows exactly from the traced paths wherever restitution does not depend on it.
 
 mod accuracy;
 mod answer;
