@@ -64,22 +64,30 @@ fn killed_after(arguments: &[&str], time: Duration) -> bool {
 /// Later than what still counts as the same request.
 const ASKED_AGAIN: Duration = Duration::from_millis(700);
 
-/// Sends signals to a run that was waited for, one after the other, and gives how it ended.
-fn signalled(arguments: &[&str], wait: impl Fn(), signals: &[&str]) -> Output {
+/// Sends signals to a run that was waited for, each with a pause after it, and gives how it ended.
+fn signalled(arguments: &[&str], wait: impl Fn(), signals: &[(&str, Duration)]) -> Output {
     let mut command = peenpose(arguments);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     let child = command.spawn().unwrap();
     wait();
-    for signal in signals {
+    for (signal, pause) in signals {
         // Fails where the program has ended by itself.
         let _ = Command::new("kill")
             .args([*signal, &child.id().to_string()])
             .stderr(Stdio::null())
             .status()
             .unwrap();
-        sleep(ASKED_AGAIN);
+        sleep(*pause);
     }
     child.wait_with_output().unwrap()
+}
+
+/// Waits until there is work in a checkpoint, after which a run goes on with more.
+fn until_work_is_in(kept: &str) {
+    let file = Path::new(kept).join("checkpoint.txt");
+    while !fs::metadata(&file).is_ok_and(|file| file.len() > 1000) {
+        sleep(Duration::from_millis(1));
+    }
 }
 
 /// Kills runs later and later until one ends before; returns how many were killed at work.
@@ -148,88 +156,113 @@ fn a_map_that_was_killed_again_and_again_ends_with_the_same_bytes() {
     }
 }
 
-/// Whatever the moment: nothing is written, or a map with blanks and without anything wrong, or the whole one.
+fn map_in(folder: &str) -> Option<String> {
+    fs::read_to_string(format!("{folder}/map-incidence-azimuth.csv")).ok()
+}
+
+/// Whether a map that was told to stop has blanks; beside them it is the whole one, and says so.
+fn has_blanks(told: &Output, out: &str, whole: &str) -> bool {
+    let found = map_in(out).unwrap();
+    let known = whole.lines().zip(found.lines());
+    let (known, blank): (Vec<_>, Vec<_>) = known.partition(|(whole, found)| whole == found);
+    assert_eq!(found.lines().count(), whole.lines().count());
+    assert!(blank.iter().all(|(_, found)| found.ends_with(",,,,,,,,")));
+    assert_eq!(fs::read_dir(out).unwrap().count(), 3);
+    if blank.is_empty() {
+        assert_eq!(told.status.code(), Some(0));
+        return false;
+    }
+    assert_eq!(told.status.code(), Some(130), "{}", messages(told));
+    let text = String::from_utf8(told.stdout.clone()).unwrap();
+    let known = known.len() - 1;
+    let count = format!("stopped when {known} of 3721 were known");
+    assert!(
+        text.replace(' ', "").contains(&count.replace(' ', "")),
+        "{text}"
+    );
+    assert!(messages(told).contains("blank where nothing is known"));
+    true
+}
+
 #[test]
 fn a_map_that_is_told_to_stop_shows_what_is_known_and_is_gone_on_with() {
     let folder = TempDir::new().unwrap();
     let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (kept, once) = (place("kept"), place("once"));
+    let once = place("once");
     let map = [&MAP[..], &SETTINGS, &["--set", "contact=oiled", "--out"]].concat();
-    let csv = |out: &str| fs::read_to_string(format!("{out}/map-incidence-azimuth.csv"));
     let started = Instant::now();
     run(&[&map[..], &[&once]].concat());
     let time = started.elapsed();
-    let whole = csv(&once).unwrap();
-    let mut with_blanks = 0;
+    let whole = map_in(&once).unwrap();
+    // Whatever the moment: nothing is written, or a map with blanks and without anything wrong, or the
+    // whole one.
     for (round, signal) in (1..6).zip(["-INT", "-TERM"].into_iter().cycle()) {
         let out = place(&format!("stopped-{round}"));
         let wait = || sleep(time * round / 6);
-        let told = signalled(&[&map[..], &[&out]].concat(), wait, &[signal]);
-        let Ok(found) = csv(&out) else {
-            continue;
-        };
-        let known = whole.lines().zip(found.lines());
-        let (known, blank): (Vec<_>, Vec<_>) = known.partition(|(whole, found)| whole == found);
-        assert_eq!(found.lines().count(), whole.lines().count());
-        assert!(blank.iter().all(|(_, found)| found.ends_with(",,,,,,,,")));
-        assert_eq!(fs::read_dir(&out).unwrap().count(), 3);
-        if blank.is_empty() {
-            assert_eq!(told.status.code(), Some(0));
-            continue;
-        }
-        with_blanks += 1;
-        assert_eq!(told.status.code(), Some(130), "{}", messages(&told));
-        let text = String::from_utf8(told.stdout.clone()).unwrap();
-        let known = known.len() - 1;
-        let count = format!("stopped when {known} of 3721 were known");
-        assert!(
-            text.replace(' ', "").contains(&count.replace(' ', "")),
-            "{text}"
+        let told = signalled(
+            &[&map[..], &[&out]].concat(),
+            wait,
+            &[(signal, Duration::ZERO)],
         );
-        assert!(messages(&told).contains("blank where nothing is known"));
-    }
-    assert!(with_blanks > 1);
-
-    let again = place("again");
-    let with_checkpoint = [&map[..], &[&again, "--checkpoint", &kept]].concat();
-    let kept_file = Path::new(&kept).join("checkpoint.txt");
-    let has_work = || fs::metadata(&kept_file).is_ok_and(|file| file.len() > 1000);
-    let until_kept = || {
-        while !has_work() {
-            sleep(Duration::from_millis(1));
+        if map_in(&out).is_some() {
+            has_blanks(&told, &out, &whole);
         }
-    };
-    let told = signalled(&with_checkpoint, until_kept, &["-INT"]);
-    assert_eq!(told.status.code(), Some(130), "{}", messages(&told));
-    let last = run(&with_checkpoint);
-    assert!(messages(&last).contains(" pieces of work were in the checkpoint"));
-    assert_eq!(last.status.code(), Some(0));
-    assert!(csv(&again).unwrap() == whole);
+    }
+    for signal in ["-INT", "-TERM"] {
+        let (kept, again) = (place(&format!("kept{signal}")), place("again"));
+        let with_checkpoint = [&map[..], &[&again, "--checkpoint", &kept]].concat();
+        let until_kept = || until_work_is_in(&kept);
+        let told = signalled(&with_checkpoint, until_kept, &[(signal, Duration::ZERO)]);
+        assert!(has_blanks(&told, &again, &whole));
+        let last = run(&with_checkpoint);
+        assert!(messages(&last).contains(" pieces of work were in the checkpoint"));
+        assert_eq!(last.status.code(), Some(0));
+        assert!(map_in(&again).unwrap() == whole);
+    }
 }
 
 #[test]
 fn a_map_that_is_told_twice_to_stop_ends_at_once() {
     let folder = TempDir::new().unwrap();
-    let out = folder.path().to_str().unwrap();
-    // A place with so many shots takes longer than it takes to ask again.
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (kept, out) = (place("kept"), place("out"));
+    // A row, whose paths are traced once, takes much longer than it takes to ask for an end.
     let map = [
-        &MAP[..9],
-        &["1048576"],
-        &SETTINGS,
-        &["--set", "contact=oiled", "--out", out],
+        "map",
+        KEYWAY,
+        "--x",
+        "speed",
+        "--y",
+        "incidence",
+        "--steps",
+        "401",
+        "--shots",
+        "1048576",
+        "--set",
+        "azimuth=0deg",
+        "--set",
+        "standoff=8mm",
+        "--contact",
+        "oiled",
+        "--out",
+        &out,
+        "--checkpoint",
+        &kept,
     ];
-    let signals = ["-INT", "-INT"];
-    let told = signalled(
-        &map.concat(),
-        || sleep(Duration::from_millis(500)),
-        &signals,
-    );
+    // While it is frozen it does not end by itself, however fast the machine is.
+    let signals = [
+        ("-INT", Duration::from_millis(100)),
+        ("-STOP", ASKED_AGAIN),
+        ("-INT", Duration::ZERO),
+        ("-CONT", Duration::ZERO),
+    ];
+    let told = signalled(&map, || until_work_is_in(&kept), &signals);
     assert_eq!(told.status.code(), Some(130));
     assert_eq!(
         messages(&told),
         "note: ended at once: not everything has been written\n"
     );
-    assert_eq!(fs::read_dir(out).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(&out).unwrap().count(), 0);
 }
 
 #[test]
