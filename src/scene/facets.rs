@@ -50,20 +50,25 @@ impl Facets {
     /// distance within which two points count as one, m.
     pub fn new(mesh: Mesh, surface_base: u32, slack: f64) -> Self {
         let corners = |index: u32| mesh.corners(&mesh.triangles[index as usize]);
-        let (tree, leaves) = WideTree::new(mesh.triangles.len(), corners, slack);
         let bounds = |triangles: &[u32]| {
             let corners = triangles.iter().flat_map(|&index| corners(index));
             let bounds = Aabb::from_points(corners.map(|corner| corner.coords.into()));
             bounds.loosened(slack)
         };
-        let bundled = mesh.triangles.len() > LARGE_MESH;
-        let distance_tree = if bundled {
-            let boxes = leaves.iter().map(|leaf| bounds(leaf));
-            Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate())
-        } else {
-            let boxes = (0..mesh.triangles.len() as u32).map(|index| bounds(&[index]));
+        let count = mesh.triangles.len();
+        let bundled = count > LARGE_MESH;
+        let over_triangles = || {
+            let boxes = (0..count as u32).map(|index| bounds(&[index]));
             Bvh::from_iter(BvhBuildStrategy::Ploc, boxes.enumerate())
         };
+        let ((tree, leaves), over_triangles) = rayon::join(
+            || WideTree::new(count, corners, slack),
+            || (!bundled).then(over_triangles),
+        );
+        let distance_tree = over_triangles.unwrap_or_else(|| {
+            let boxes = leaves.iter().map(|leaf| bounds(leaf));
+            Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate())
+        });
         Self {
             distance_tree,
             bundled,

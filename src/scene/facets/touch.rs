@@ -157,7 +157,8 @@ impl Search<'_> {
                     continue;
                 }
                 let near = near >> lane & 1 == 1;
-                if let Some(touch) = self.touch(plates, lane, index, near, cost) {
+                let (plate, folds) = plates.plate(lane, bundle.corners(lane));
+                if let Some(touch) = self.touch(&plate, folds, index, near, cost) {
                     let farther = if touch.on_face { 0.0 } else { slack };
                     let other = touch.distance + farther;
                     let found = Found { touch, index };
@@ -177,16 +178,15 @@ impl Search<'_> {
     #[inline(always)]
     fn touch(
         &mut self,
-        plates: &Plates,
-        lane: usize,
+        plate: &Plate,
+        folds: Folds,
         index: u32,
         near: bool,
         limit: f64,
     ) -> Option<Touch> {
-        let (plate, folds) = plates.plate(lane, self.facets.corners(index));
         let folds = if self.all_folds { Folds::ALL } else { folds };
         let placed = if near {
-            self.sphere.placed(&plate, folds)
+            self.sphere.placed(plate, folds)
         } else {
             Placed::Apart
         };
@@ -198,7 +198,7 @@ impl Search<'_> {
             };
         }
         match placed {
-            Placed::Apart => self.sphere.touch(&plate, folds, limit),
+            Placed::Apart => self.sphere.touch(plate, folds, limit),
             Placed::Touching(touch) => touch,
             Placed::Overlapping => None,
         }

@@ -148,12 +148,19 @@ impl Prism {
         let leaves_it = |wall: u32| start.piece == Some(first + wall);
         let settled = 1e-3 * self.extent.slack;
         let last = last.min(nearest.best.rank);
+        let begin = ray.origin + ray.direction * distance;
+        let Some(within_reach) = self.within_reach(&begin, radius + (last - distance)) else {
+            return;
+        };
         for _ in 0..MOST_STEPS {
             if distance > last {
                 return;
             }
             let centre = ray.origin + ray.direction * distance;
-            let (wall, least) = self.nearest_wall(&centre);
+            let (wall, least) = match within_reach {
+                Reach::One(wall) => (wall, self.distance_to_wall(wall, &centre)),
+                Reach::Several => self.nearest_wall(&centre),
+            };
             if least - radius > last - distance {
                 return;
             }
@@ -187,17 +194,42 @@ impl Prism {
         }
     }
 
+    /// The walls within reach of a point in the cross-section: whoever comes from there and goes no
+    /// farther need not look at others. `None` where there is none.
+    fn within_reach(&self, from: &Point3<f64>, reach: f64) -> Option<Reach> {
+        // More than rounding takes from a distance.
+        let reach = reach + self.extent.slack;
+        let walls = 0..self.walls.len() as u32;
+        let mut walls = walls.filter(|&wall| self.distance_to_wall(wall, from) <= reach);
+        let first = walls.next()?;
+        Some(match walls.next() {
+            None => Reach::One(first),
+            Some(_) => Reach::Several,
+        })
+    }
+
     /// The wall that is nearest in the cross-section, and how far away it is there.
     fn nearest_wall(&self, to: &Point3<f64>) -> (u32, f64) {
         let mut found = (0, f64::INFINITY);
-        for (wall, form) in (0..).zip(&self.walls) {
-            let apart = form.distance([to.x, to.y]);
+        for wall in 0..self.walls.len() as u32 {
+            let apart = self.distance_to_wall(wall, to);
             if apart < found.1 {
                 found = (wall, apart);
             }
         }
         found
     }
+
+    /// In the cross-section.
+    fn distance_to_wall(&self, wall: u32, to: &Point3<f64>) -> f64 {
+        self.walls[wall as usize].distance([to.x, to.y])
+    }
+}
+
+/// The walls whose rims a shot may touch.
+enum Reach {
+    One(u32),
+    Several,
 }
 
 /// Between which distances a ray is between two heights.

@@ -91,10 +91,10 @@ impl Prism {
             let distance = (end - z) / w;
             exits.x[i] = x + u * distance;
             exits.y[i] = y + v * distance;
-            // Beyond the end it can touch something until it is its radius away from the end.
-            let aside = (u * u + v * v).sqrt() / w.abs();
+            // What lies in the end's plane at a distance D from where the shot passes it is nowhere nearer
+            // than D |w| to its path.
             let is_inside = (z >= R::ZERO) & (z <= extent.length) & (w != R::ZERO);
-            let reach = flights.radius[first + i] * (R::ONE + aside) + extent.slack;
+            let reach = (flights.radius[first + i] + extent.slack) / w.abs();
             exits.reach[i] = if is_inside { reach } else { R::INFINITY };
         }
         exits
