@@ -3,6 +3,7 @@
 //! Prismatic parts are traced against their exact walls, other parts against their triangles.
 //! Surfaces are two-sided. This module is the only one that knows parry.
 
+mod build;
 mod bundle;
 mod clearance;
 mod facets;
@@ -11,6 +12,7 @@ pub mod lanes;
 pub mod mesh;
 pub mod mesh_file;
 mod moving;
+mod nearest;
 mod part;
 pub mod patch;
 mod prism;
@@ -28,11 +30,9 @@ use nalgebra::{Point3, Vector3};
 use crate::precision::{Real, along, scaled, unit};
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::{Fault, one_of};
-use crate::problem::part::Part;
 use crate::problem::rule::Rule;
 use lanes::{components, padded, put};
-use mesh_file::MOST_TRIANGLES;
-use part::{BuiltPart, Fronts, Geometry};
+use part::BuiltPart;
 use ray::{Hit, Ray, Spot};
 use rays::{Hits, Rays};
 use stand::Stand;
@@ -70,49 +70,6 @@ pub enum Walls {
 }
 
 impl Scene {
-    /// Builds every part.
-    ///
-    /// # Errors
-    /// Every mesh that cannot be read, and the part from which on there are too many triangles.
-    pub fn build(parts: &[Part], walls: Walls) -> Result<Self, Vec<Fault>> {
-        let mut faults = Vec::new();
-        let mut geometries: Vec<Geometry> = Vec::new();
-        let mut triangles = 0;
-        for part in parts {
-            match Geometry::of(part, walls) {
-                Ok(geometry) => {
-                    triangles += geometry.mesh.triangles.len();
-                    geometries.push(geometry);
-                }
-                Err(fault) => faults.push(*fault),
-            }
-            if let Some(fault) = too_many_triangles(part, triangles) {
-                faults.push(fault);
-                break;
-            }
-        }
-        if !faults.is_empty() {
-            return Err(faults);
-        }
-        let size = farthest_coordinate(&geometries);
-        let mut scene = Self {
-            parts: Vec::new(),
-            surfaces: Vec::new(),
-            warnings: Vec::new(),
-            size,
-            reach: size.min(longest_side(&geometries)),
-        };
-        for (part, mut geometry) in parts.iter().zip(geometries) {
-            let base = scene.surfaces.len() as u32;
-            let names = geometry.mesh.surfaces.iter();
-            let full = names.map(|name| format!("{}.{name}", part.name));
-            scene.surfaces.extend(full);
-            scene.warnings.append(&mut geometry.warnings);
-            scene.parts.push(geometry.build(part, base, SLACK * size));
-        }
-        Ok(scene)
-    }
-
     /// Full names of all surfaces, `part.surface`; their positions are their indices.
     pub fn surfaces(&self) -> &[String] {
         &self.surfaces
@@ -288,82 +245,6 @@ impl Scene {
             of_surface.map(|index| part.facets.corners(index))
         })
     }
-
-    /// The point of a surface that stands in the scene nearest to a given point, and the unit
-    /// normal there towards free space:
-    /// on the front, or for an open mesh, whose winding tells nothing, on the side that is more
-    /// enclosed.
-    pub fn nearest_on_surface(
-        &self,
-        to: &Point3<f64>,
-        surface: u32,
-    ) -> Option<(Point3<f64>, Vector3<f64>)> {
-        let standing = self.parts.iter().enumerate();
-        let standing = standing.filter(|(_, part)| !part.on_nozzle);
-        let candidates = standing.filter_map(|(index, part)| {
-            let on_it = |triangle| part.facets.surface(triangle) == surface;
-            let nearest = part.facets.nearest_point(to, on_it)?;
-            Some((index as u32, nearest))
-        });
-        let (part, nearest) = candidates.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance))?;
-        let facets = &self.parts[part as usize].facets;
-        let [a, b, c] = facets.corners(nearest.triangle);
-        let facet_normal = (b - a).cross(&(c - a)).normalize();
-        // Exact walls know their normal better than the facet that stands in for them.
-        let ray = Ray {
-            origin: nearest.point + facet_normal * (1e-3 * self.reach),
-            direction: -facet_normal,
-        };
-        let wall = self.parts[part as usize].first_crossing(&ray, None, false, f64::INFINITY);
-        let front = match wall {
-            Some((crossing, front)) if crossing.surface == surface && crossing.front => front,
-            _ => facet_normal,
-        };
-        let normal = match self.parts[part as usize].fronts {
-            Fronts::Free => front,
-            Fronts::Solid => -front,
-            Fronts::Unknown => self.enclosed_side(&nearest.point, &front),
-        };
-        Some((nearest.point, normal))
-    }
-
-    /// Of the two sides of a surface the one from which more directions meet the scene; the front
-    /// when the other has not clearly more.
-    fn enclosed_side(&self, point: &Point3<f64>, front: &Vector3<f64>) -> Vector3<f64> {
-        const DIRECTIONS: usize = 256;
-        let height = 1e-4 * self.reach;
-        let met = |side: Vector3<f64>| {
-            let origin = point + side * height;
-            let hits = (0..DIRECTIONS).filter(|&index| {
-                let direction = spiral_direction(index, DIRECTIONS);
-                let direction = direction * direction.dot(&side).signum();
-                self.first_hit(&Ray { origin, direction }, None).is_some()
-            });
-            hits.count()
-        };
-        if met(-front) > met(*front) + DIRECTIONS / 8 {
-            -front
-        } else {
-            *front
-        }
-    }
-}
-
-/// The fault of a part with which the scene gets too large.
-fn too_many_triangles(part: &Part, triangles: usize) -> Option<Fault> {
-    let message = format!("up to this part the scene has more than {MOST_TRIANGLES} triangles");
-    let fault = Fault::at_key(Rule::SceneTooLarge, format!("scene.{}", part.name), message)
-        .expecting("fewer or coarser meshes, at most so many triangles together");
-    (triangles > MOST_TRIANGLES).then_some(fault)
-}
-
-/// Longest side of the box round all corners: the scale of the shapes, wherever the scene stands.
-fn longest_side(geometries: &[Geometry]) -> f64 {
-    let bounds = geometries
-        .iter()
-        .filter_map(|geometry| geometry.mesh.bounds());
-    let all = bounds.reduce(|(low, high), (a, b)| (low.inf(&a), high.sup(&b)));
-    all.map_or(0.0, |(low, high)| (high - low).max())
 }
 
 /// Turns normals to the side that the rays come from, and finds the places of contact.
@@ -383,24 +264,6 @@ fn place<R: Real, const BALLS: bool>(rays: &Rays<R>, hits: &mut Hits<R>, lift: R
         put(&mut hits.normal, i, normal);
         put(&mut hits.point, i, point);
     }
-}
-
-fn farthest_coordinate(geometries: &[Geometry]) -> f64 {
-    let vertices = geometries
-        .iter()
-        .flat_map(|geometry| &geometry.mesh.vertices);
-    vertices.fold(0.0, |largest: f64, vertex| {
-        largest.max(vertex.coords.amax())
-    })
-}
-
-/// One of `count` directions that are spread evenly over the sphere along a golden spiral.
-fn spiral_direction(index: usize, count: usize) -> Vector3<f64> {
-    const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
-    let z = 1.0 - (2.0 * index as f64 + 1.0) / count as f64;
-    let (sin, cos) = (GOLDEN_ANGLE * index as f64).sin_cos();
-    let radius = (1.0 - z * z).sqrt();
-    Vector3::new(radius * cos, radius * sin, z)
 }
 
 #[cfg(test)]

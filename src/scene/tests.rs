@@ -1,7 +1,11 @@
 use std::f64::consts::PI;
 
+use super::build::too_many_triangles;
+use super::mesh_file::MOST_TRIANGLES;
+use super::nearest::spiral_direction;
+use super::part::Fronts;
 use super::*;
-use crate::problem::part::{Ends, Place, Shape};
+use crate::problem::part::{Ends, Part, Place, Shape};
 use crate::scene::lanes::LANES;
 use crate::scene::rays::Spots;
 use crate::scene::stand::Stands;

@@ -1,0 +1,77 @@
+//! The place on a surface that is nearest to a point, and which side of it is free.
+
+use nalgebra::{Point3, Vector3};
+
+use super::Scene;
+use super::part::Fronts;
+use super::ray::Ray;
+
+impl Scene {
+    /// The point of a surface that stands in the scene nearest to a given point, and the unit
+    /// normal there towards free space:
+    /// on the front, or for an open mesh, whose winding tells nothing, on the side that is more
+    /// enclosed.
+    pub fn nearest_on_surface(
+        &self,
+        to: &Point3<f64>,
+        surface: u32,
+    ) -> Option<(Point3<f64>, Vector3<f64>)> {
+        let standing = self.parts.iter().enumerate();
+        let standing = standing.filter(|(_, part)| !part.on_nozzle);
+        let candidates = standing.filter_map(|(index, part)| {
+            let on_it = |triangle| part.facets.surface(triangle) == surface;
+            let nearest = part.facets.nearest_point(to, on_it)?;
+            Some((index as u32, nearest))
+        });
+        let (part, nearest) = candidates.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance))?;
+        let facets = &self.parts[part as usize].facets;
+        let [a, b, c] = facets.corners(nearest.triangle);
+        let facet_normal = (b - a).cross(&(c - a)).normalize();
+        // Exact walls know their normal better than the facet that stands in for them.
+        let ray = Ray {
+            origin: nearest.point + facet_normal * (1e-3 * self.reach),
+            direction: -facet_normal,
+        };
+        let wall = self.parts[part as usize].first_crossing(&ray, None, false, f64::INFINITY);
+        let front = match wall {
+            Some((crossing, front)) if crossing.surface == surface && crossing.front => front,
+            _ => facet_normal,
+        };
+        let normal = match self.parts[part as usize].fronts {
+            Fronts::Free => front,
+            Fronts::Solid => -front,
+            Fronts::Unknown => self.enclosed_side(&nearest.point, &front),
+        };
+        Some((nearest.point, normal))
+    }
+
+    /// Of the two sides of a surface the one from which more directions meet the scene; the front
+    /// when the other has not clearly more.
+    pub(super) fn enclosed_side(&self, point: &Point3<f64>, front: &Vector3<f64>) -> Vector3<f64> {
+        const DIRECTIONS: usize = 256;
+        let height = 1e-4 * self.reach;
+        let met = |side: Vector3<f64>| {
+            let origin = point + side * height;
+            let hits = (0..DIRECTIONS).filter(|&index| {
+                let direction = spiral_direction(index, DIRECTIONS);
+                let direction = direction * direction.dot(&side).signum();
+                self.first_hit(&Ray { origin, direction }, None).is_some()
+            });
+            hits.count()
+        };
+        if met(-front) > met(*front) + DIRECTIONS / 8 {
+            -front
+        } else {
+            *front
+        }
+    }
+}
+
+/// One of `count` directions that are spread evenly over the sphere along a golden spiral.
+pub(super) fn spiral_direction(index: usize, count: usize) -> Vector3<f64> {
+    const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
+    let z = 1.0 - (2.0 * index as f64 + 1.0) / count as f64;
+    let (sin, cos) = (GOLDEN_ANGLE * index as f64).sin_cos();
+    let radius = (1.0 - z * z).sqrt();
+    Vector3::new(radius * cos, radius * sin, z)
+}
