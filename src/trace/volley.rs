@@ -3,17 +3,19 @@
 //! The same paths as [`Tracer`](super::Tracer) follows one by one, to the last bit in f64, many
 //! times faster.
 
+mod impacts;
+
 use multiversion::multiversion;
 use nalgebra::Vector3;
 
 use super::vacancies::Vacancies;
-use super::{End, MOST_DEFLECTIONS, Tracer, energy, rough};
-use crate::impact::{Coefficients, Contact, Friction, collide};
+use super::{End, MOST_DEFLECTIONS, Tracer, energy};
 use crate::jet::Deviate;
-use crate::precision::{Real, Triple, along, dot, unit};
+use crate::precision::{Real, Triple, along, unit};
 use crate::scene::lanes::{LANES, Lane, any, components, padded, put};
 use crate::scene::rays::{Hits, Rays};
 use crate::scene::stand::Stands;
+use impacts::{Impacts, Rules, fate};
 
 /// Up to [`LANES`] shots in flight, side by side.
 pub(crate) struct Volley<R> {
@@ -43,28 +45,6 @@ pub(crate) struct Volley<R> {
     restitution: Lane<R>,
     holds: Lane<R>,
     slides: Lane<R>,
-}
-
-/// What impacts do, side by side; what is true is 1, what is not 0. (With numbers of one size
-/// throughout, compilers see that loops over them can be worked on several at once.)
-pub(crate) struct Impacts<R> {
-    /// N*, N s.
-    pub normal: Lane<R>,
-    /// f*, N s.
-    pub tangential: Lane<R>,
-    pub sticks: Lane<R>,
-    /// Whether there is one that counts: a surface is hit, and it is no deflector.
-    pub counts: Lane<R>,
-    deflected: Lane<R>,
-    /// Why the flight ends here; see [`fate`].
-    fate: Lane<R>,
-}
-
-/// When paths end for their number of impacts.
-struct Rules<R> {
-    most_impacts: R,
-    /// With so few the rest of the hits were on deflectors: the shot is caught between them.
-    too_few_impacts: R,
 }
 
 /// Is told what happens to the shots of a volley.
@@ -115,41 +95,13 @@ fn fire_at_facets<R: Real, W: Witness<R>>(
     volley.fly(tracer, deviates, witness)
 }
 
-/// Why a flight ends, as numbers that are computed side by side.
-mod fate {
-    use super::End;
-    use crate::precision::Real;
-
-    pub const GOES_ON: f64 = 0.0;
-    pub const LEFT: f64 = 1.0;
-    pub const STAYS: f64 = 2.0;
-    pub const SPENT: f64 = 3.0;
-    pub const LIMIT: f64 = 4.0;
-
-    pub fn end<R: Real>(fate: R) -> End {
-        match fate.wide() {
-            STAYS => End::Stays,
-            SPENT => End::Spent,
-            LIMIT => End::Limit,
-            _ => End::Left,
-        }
-    }
-}
-
 impl<R: Real> Volley<R> {
     pub fn none() -> Self {
         let zeros = [R::ZERO; LANES];
         Self {
             rays: Rays::none(),
             hits: Hits::none(),
-            impacts: Impacts {
-                normal: zeros,
-                tangential: zeros,
-                sticks: zeros,
-                counts: zeros,
-                deflected: zeros,
-                fate: zeros,
-            },
+            impacts: Impacts::none(),
             shot: [0; LANES],
             number: zeros,
             weight: zeros,
@@ -243,105 +195,6 @@ impl<R: Real> Volley<R> {
         rays
     }
 
-    /// Marks the hits that belong to the flight.
-    fn mark_deflections(&mut self, tracer: &Tracer) {
-        for i in 0..self.rays.count {
-            let surface = self.hits.surface[i] as usize;
-            self.impacts.deflected[i] = truth(tracer.setup.surfaces[surface].deflector);
-        }
-    }
-
-    /// Lets the shots rebound from surfaces with one contact.
-    #[inline(always)]
-    fn collide(&mut self, only: &Coefficients<R>, rules: &Rules<R>) {
-        for i in 0..padded(self.rays.count) {
-            let contact = Coefficients {
-                restitution: self.restitution[i],
-                holds: self.holds[i],
-                slides: self.slides[i],
-                ..*only
-            };
-            self.rebound(i, components(&self.hits.normal, i), &contact, rules);
-        }
-    }
-
-    /// Lets the shots rebound where contacts differ, or where surfaces are rough.
-    fn collide_one_by_one(
-        &mut self,
-        tracer: &Tracer,
-        deviates: &[Deviate],
-        flight: u32,
-        rules: &Rules<R>,
-    ) {
-        for i in 0..self.rays.count {
-            let deviate = &deviates[self.shot[i] as usize];
-            let contact = tracer.contact_with(self.hits.surface[i] as usize, deviate);
-            let normal = self.normal_of_impact(i, tracer, deviate, flight, &contact);
-            let contact = coefficients(&contact, components(&self.velocity, i), normal);
-            self.rebound(i, normal, &contact, rules);
-        }
-    }
-
-    /// The normal that a shot finds, tilted by chance where the surface is rough.
-    fn normal_of_impact(
-        &self,
-        i: usize,
-        tracer: &Tracer,
-        deviate: &Deviate,
-        flight: u32,
-        contact: &Contact,
-    ) -> Triple<R> {
-        let normal = components(&self.hits.normal, i);
-        let roughness = tracer.setup.surfaces[self.hits.surface[i] as usize].roughness;
-        if roughness == 0.0 {
-            return normal;
-        }
-        let velocity = components(&self.velocity, i);
-        let rolling = components(&self.rolling, i);
-        let tilt = rough::tilt(deviate, flight, roughness);
-        rough::normal_of_impact(normal, tilt, velocity, |normal| {
-            let contact = coefficients(contact, velocity, normal);
-            let normal_speed = dot(velocity, normal);
-            collide(&contact, velocity, rolling, normal, normal_speed).velocity
-        })
-    }
-
-    /// Lets one shot rebound, and decides what becomes of it.
-    #[inline(always)]
-    fn rebound(
-        &mut self,
-        i: usize,
-        normal: Triple<R>,
-        contact: &Coefficients<R>,
-        rules: &Rules<R>,
-    ) {
-        let velocity = components(&self.velocity, i);
-        let rolling = components(&self.rolling, i);
-        let normal_speed = dot(velocity, normal);
-        let after = collide(contact, velocity, rolling, normal, normal_speed);
-        let met = (self.hits.distance[i] < R::INFINITY) & (normal_speed < R::ZERO);
-        let counts = met & (self.impacts.deflected[i] == R::ZERO);
-        let number = self.number[i] + truth(counts);
-        let spent = energy(after.velocity, after.rolling) < self.least_energy[i];
-        let last = (number == rules.most_impacts) | (number == rules.too_few_impacts);
-        let mut fate = if last { fate::LIMIT } else { fate::GOES_ON };
-        fate = if spent { fate::SPENT } else { fate };
-        fate = if after.departure == R::ZERO {
-            fate::STAYS
-        } else {
-            fate
-        };
-        fate = if met { fate } else { fate::LEFT };
-        self.impacts.normal[i] = self.mass[i] * after.normal;
-        self.impacts.tangential[i] = self.mass[i] * after.tangential;
-        self.impacts.sticks[i] = truth(after.sticks);
-        self.impacts.counts[i] = truth(counts);
-        self.impacts.fate[i] = R::of(fate);
-        self.number[i] = number;
-        put(&mut self.velocity, i, after.velocity);
-        put(&mut self.rolling, i, after.rolling);
-    }
-
     /// Drops the shots whose paths have ended; the last of the others take their lanes.
     #[inline(always)]
     fn end_paths<W: Witness<R>>(&mut self, flights: u32, witness: &mut W) {
@@ -416,17 +269,6 @@ impl<R: Real> Volley<R> {
             );
         }
     }
-}
-
-/// A contact at the speed with which a shot meets a surface.
-fn coefficients<R: Real>(
-    contact: &Contact,
-    velocity: Triple<R>,
-    normal: Triple<R>,
-) -> Coefficients<R> {
-    let normal_speed = dot(velocity, normal);
-    let restitution = contact.restitution.at(-normal_speed.wide());
-    Friction::of(contact).at(restitution)
 }
 
 /// Where the nozzle really stands for each shot.
