@@ -1,11 +1,13 @@
 //! What a choice of settings does, measured on shots that nothing was tuned on.
 
 mod counts;
+mod focused;
 mod harm;
 mod ledger;
 mod survey;
 
 pub use counts::Counts;
+pub use focused::{evaluate_drawn, evaluate_each_focused, evaluate_focused};
 pub use harm::focus_on_harm;
 pub(crate) use survey::Survey;
 
@@ -13,7 +15,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::jet::{Draw, Focus, Fresh, Replicates};
+use crate::jet::Replicates;
 use crate::objective::{Hits, Sums, Terms};
 use crate::problem::goal::Goals;
 use crate::problem::setting::Choice;
@@ -98,41 +100,6 @@ pub fn evaluate(setup: &Setup, choice: &Choice, shots: &Replicates) -> Evaluatio
     let sets = shots.sets.par_iter();
     let ledgers = sets.map(|set| Ledger::of(setup, choice, set)).collect();
     summed_up(setup, choice, ledgers)
-}
-
-/// Evaluates `choice` on fresh shots, half of those on the rim drawn [from where harm comes
-/// from](focus_on_harm) with these settings.
-pub fn evaluate_focused(setup: &Setup, choice: &Choice, fresh: &Fresh) -> Evaluation {
-    on_focus(setup, choice, |focus| {
-        let sets = fresh.sets.par_iter();
-        // Each set is copied when it is fired: all of them together do not fit into a cache.
-        sets.map(|set| Ledger::of(setup, choice, &set.focused(&setup.problem, focus)))
-            .collect()
-    })
-}
-
-/// The same on shots that are forgotten once they are fired, as [`Fresh`] ones of the same number
-/// would take 230 bytes a shot.
-pub fn evaluate_drawn(setup: &Setup, choice: &Choice, fresh: &Draw) -> Evaluation {
-    on_focus(setup, choice, |focus| {
-        let fresh = fresh.focused(focus);
-        let numbers = (0..fresh.sets()).into_par_iter();
-        numbers
-            .map(|number| Ledger::of(setup, choice, &fresh.set(number)))
-            .collect()
-    })
-}
-
-/// Sums up what shots do that are drawn by a focus on the harm of `choice`; its scouts' rays count.
-fn on_focus(
-    setup: &Setup,
-    choice: &Choice,
-    fire: impl FnOnce(&Focus) -> Vec<Ledger>,
-) -> Evaluation {
-    let (focus, rays) = focus_on_harm(setup, choice);
-    let mut evaluation = summed_up(setup, choice, fire(&focus));
-    evaluation.rays += rays;
-    evaluation
 }
 
 fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluation {

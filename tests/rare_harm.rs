@@ -2,7 +2,7 @@
 
 mod common;
 
-use peenpose::evaluate::{evaluate, evaluate_focused, focus_on_harm};
+use peenpose::evaluate::{evaluate, evaluate_each_focused, evaluate_focused, focus_on_harm};
 use peenpose::jet::{Focus, Fresh, Replicates, purpose};
 use peenpose::problem::Problem;
 use peenpose::problem::setting::{Choice, Setting, Tolerance};
@@ -141,4 +141,20 @@ fn a_focus_leaves_the_shots_of_the_jet_as_they_are_but_for_what_they_stand_for()
             (least.min(weight), most.max(weight))
         });
     assert!(least < 0.01 * most, "{least} {most}");
+}
+
+#[test]
+fn settings_that_share_their_shots_get_the_figures_that_each_gets_alone() {
+    let setup = Setup::new(hub(), Walls::Exact).unwrap();
+    let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, 1024);
+    // Clear of the cliff, beside it and beyond: more than are evaluated at a time.
+    let choices = [62.0, 66.0, 68.0, 69.0, 71.0, 76.0].map(|degrees| at(&setup, degrees));
+    let together = evaluate_each_focused(&setup, &choices, &fresh);
+    assert_eq!(together.len(), choices.len());
+    for (choice, together) in choices.iter().zip(&together) {
+        let alone = evaluate_focused(&setup, choice, &fresh);
+        assert_eq!(format!("{together:?}"), format!("{alone:?}"));
+    }
+    let none = evaluate_each_focused(&setup, &[], &fresh);
+    assert!(none.is_empty());
 }

@@ -1,11 +1,6 @@
 //! How many shots break goals and limits.
 
-use rayon::prelude::*;
-
 use super::Evaluation;
-use super::ledger::Ledger;
-use crate::jet::Replicate;
-use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
 /// How many shots break what: all that verdicts are given on.
@@ -56,27 +51,6 @@ impl Counts {
     pub fn together(setup: &Setup, each: impl IntoIterator<Item = Self>) -> Self {
         let each = each.into_iter();
         each.fold(Self::none(setup), |all, one| all.plus(&one))
-    }
-
-    /// Fires sets of fresh shots and measures nothing else.
-    pub fn on(setup: &Setup, choice: &Choice, sets: &[Replicate]) -> Self {
-        let of_set =
-            |set: &Replicate| Self::of_ledger(setup, choice, &Ledger::of(setup, choice, set));
-        let each: Vec<Self> = sets.par_iter().map(of_set).collect();
-        Self::together(setup, each)
-    }
-
-    fn of_ledger(setup: &Setup, choice: &Choice, ledger: &Ledger) -> Self {
-        let goals = &setup.problem.goals;
-        let hits = &ledger.tally.hits;
-        Self {
-            shots: ledger.tally.shots,
-            is_exact: setup.problem.has_one_ray(),
-            hits: hits.len(),
-            off_target: hits.off_target(goals, choice.speed),
-            over_limit: hits.over_limit(goals, choice.speed),
-            over: ledger.surfaces.iter().map(|sums| sums.over).collect(),
-        }
     }
 
     /// What was counted in an evaluation.

@@ -7,6 +7,8 @@ use super::point::{DIMENSIONS, Dimension};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Focus {
     density: [[f64; CELLS]; DIMENSIONS],
+    /// A bit for each dimension in which it is not the same everywhere.
+    varied: u32,
 }
 
 /// Cells of a dimension.
@@ -22,6 +24,7 @@ impl Focus {
     /// As dense as on the rim everywhere.
     pub const NONE: Self = Self {
         density: [[1.0; CELLS]; DIMENSIONS],
+        varied: 0,
     };
 
     /// Follows where harm was found, dimension by dimension, as far as that differs from where it was
@@ -60,7 +63,12 @@ impl Focus {
                 *density += share * (found - *density);
             }
         }
-        Self { density }
+        let is_varied = |cells: &[f64; CELLS]| u32::from(*cells != [1.0; CELLS]);
+        let bits = density.iter().enumerate();
+        let varied = bits
+            .map(|(dimension, cells)| is_varied(cells) << dimension)
+            .sum();
+        Self { density, varied }
     }
 
     /// The cell of a coordinate in 0 to 1.
@@ -84,9 +92,14 @@ impl Focus {
 
     /// The density at a point over that on the rim.
     pub(super) fn density(&self, cells: &Cells) -> f64 {
-        let each = self.density.iter().zip(cells);
-        each.filter_map(|(density, &cell)| density.get(usize::from(cell)))
-            .product()
+        let (mut product, mut varied) = (1.0, self.varied);
+        while varied != 0 {
+            let dimension = varied.trailing_zeros() as usize;
+            let density = self.density[dimension].get(usize::from(cells[dimension]));
+            product *= density.copied().unwrap_or(1.0);
+            varied &= varied - 1;
+        }
+        product
     }
 }
 

@@ -1,5 +1,7 @@
 //! Fresh shots, which no search has seen, some of which are drawn where settings are found to do harm.
 
+use std::mem::take;
+
 use rayon::prelude::*;
 
 use super::deviate::Deviate;
@@ -65,27 +67,44 @@ impl Unfocused {
 
     /// These shots and those that a focus draws, each with what it stands for among all of them.
     pub fn focused(&self, problem: &Problem, focus: &Focus) -> Replicate {
-        self.clone().into_focused(problem, focus)
+        let mut replicate = self.open();
+        self.focus(&mut replicate, problem, focus);
+        replicate
     }
 
-    fn into_focused(self, problem: &Problem, focus: &Focus) -> Replicate {
-        let Self {
-            mut jet,
-            mut rim,
-            origins,
-            stream,
-            parts,
-        } = self;
-        let mixture = Mixture::new(parts, focus);
-        for (shot, origin) in jet.iter_mut().chain(&mut rim).zip(&origins) {
-            shot.weight = mixture.weight(origin);
-        }
-        let numbers = 0..parts.focused as u32;
-        rim.extend(numbers.map(|index| mixture.shot(problem, stream, index, By::Focus).0));
+    /// The same without a copy of them.
+    fn into_focused(mut self, problem: &Problem, focus: &Focus) -> Replicate {
+        let [jet, rim] = [&mut self.jet, &mut self.rim].map(|shots| Samples {
+            deviates: take(shots),
+        });
+        let mut replicate = Replicate { jet, rim };
+        self.focus(&mut replicate, problem, focus);
+        replicate
+    }
+
+    /// These shots, and space for those that a focus will draw.
+    pub(crate) fn open(&self) -> Replicate {
+        let mut rim = Vec::with_capacity(self.parts.rim + self.parts.focused);
+        rim.extend_from_slice(&self.rim);
         Replicate {
-            jet: Samples { deviates: jet },
+            jet: Samples {
+                deviates: self.jet.clone(),
+            },
             rim: Samples { deviates: rim },
         }
+    }
+
+    /// Makes [open](Self::open) shots, or those of another focus, what [`Self::focused`] gives.
+    pub(crate) fn focus(&self, replicate: &mut Replicate, problem: &Problem, focus: &Focus) {
+        let mixture = Mixture::new(self.parts, focus);
+        let jet = &mut replicate.jet.deviates;
+        let rim = &mut replicate.rim.deviates;
+        rim.truncate(self.parts.rim);
+        for (shot, origin) in jet.iter_mut().chain(&mut *rim).zip(&self.origins) {
+            shot.weight = mixture.weight(origin);
+        }
+        let numbers = 0..self.parts.focused as u32;
+        rim.extend(numbers.map(|index| mixture.shot(problem, self.stream, index, By::Focus).0));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::judge::{Effort, Standing};
 use super::polish::Candidate;
-use crate::evaluate::{Evaluation, evaluate_focused};
+use crate::evaluate::{Evaluation, evaluate_each_focused};
 use crate::jet::Fresh;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -58,23 +58,39 @@ impl Answer {
             && self.verdicts.iter().all(Verdict::passes)
     }
 
-    /// The answer that a candidate is, with figures from shots that the search has not seen.
-    pub(super) fn of(setup: &Setup, candidate: &Candidate, fresh: &Fresh, effort: &Effort) -> Self {
-        let choice = candidate.choice;
-        match candidate.standing {
-            Standing::Blocked(violation) => Self {
-                choice,
+    /// The answers that candidates are, with figures from shots that the search has not seen.
+    pub(super) fn of_all(
+        setup: &Setup,
+        candidates: &[&Candidate],
+        fresh: &Fresh,
+        effort: &Effort,
+    ) -> Vec<Self> {
+        let fits = |candidate: &&&Candidate| candidate.standing.objective().is_some();
+        let feasible = candidates.iter().filter(fits);
+        let choices: Vec<Choice> = feasible.map(|candidate| candidate.choice).collect();
+        let mut evaluations = evaluate_each_focused(setup, &choices, fresh).into_iter();
+        let answer = |candidate: &&Candidate| match candidate.standing {
+            Standing::Feasible(_) => {
+                let evaluation = evaluations.next()?;
+                Some(Self::feasible(setup, &candidate.choice, evaluation, effort))
+            }
+            Standing::Blocked(violation) => Some(Self {
+                choice: candidate.choice,
                 evaluation: None,
                 verdicts: Vec::new(),
                 violation,
-            },
-            Standing::Feasible(_) => Self::feasible(setup, &choice, fresh, effort),
-        }
+            }),
+        };
+        candidates.iter().filter_map(answer).collect()
     }
 
     /// The answer that settings are at which the nozzle fits.
-    pub(super) fn feasible(setup: &Setup, choice: &Choice, fresh: &Fresh, effort: &Effort) -> Self {
-        let evaluation = evaluate_focused(setup, choice, fresh);
+    pub(super) fn feasible(
+        setup: &Setup,
+        choice: &Choice,
+        evaluation: Evaluation,
+        effort: &Effort,
+    ) -> Self {
         effort.add(1, evaluation.rays);
         Self {
             choice: *choice,

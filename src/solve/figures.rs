@@ -1,11 +1,10 @@
 //! The figures of the answers, on as many fresh shots as they need.
 
-use rayon::prelude::*;
-
 use super::accuracy::is_vague;
 use super::answer::Answer;
 use super::control::Control;
 use super::judge::Effort;
+use super::polish::Candidate;
 use super::search::Search;
 use crate::jet::{Fresh, purpose};
 use crate::setup::Setup;
@@ -39,12 +38,16 @@ impl<'a> Figures<'a> {
 
     /// The answers again, where searches have gone on.
     pub fn renewed(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
-        let pairs = answers.into_par_iter().zip(searches);
-        let renewed = pairs.map(|(answer, search)| {
+        let pairs = answers.iter().zip(searches);
+        let moved = pairs.filter(|(answer, search)| answer.choice != search.best().choice);
+        let moved: Vec<&Candidate> = moved.map(|(_, search)| search.best()).collect();
+        let mut new = Answer::of_all(self.setup, &moved, &self.fresh, self.effort).into_iter();
+        let pairs = answers.into_iter().zip(searches);
+        let renewed = pairs.filter_map(|(answer, search)| {
             if answer.choice == search.best().choice {
-                answer
+                Some(answer)
             } else {
-                self.of_one(search)
+                new.next()
             }
         });
         let renewed = renewed.collect();
@@ -64,11 +67,8 @@ impl<'a> Figures<'a> {
     }
 
     fn of(&self, searches: &[Search]) -> Vec<Answer> {
-        searches.par_iter().map(|it| self.of_one(it)).collect()
-    }
-
-    fn of_one(&self, search: &Search) -> Answer {
-        Answer::of(self.setup, search.best(), &self.fresh, self.effort)
+        let candidates: Vec<&Candidate> = searches.iter().map(Search::best).collect();
+        Answer::of_all(self.setup, &candidates, &self.fresh, self.effort)
     }
 }
 

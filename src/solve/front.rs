@@ -9,11 +9,12 @@ use rayon::prelude::*;
 
 use super::SCREENING_SHOTS;
 use super::answer::Answer;
-use super::archive::{Archive, dominates, not_dominated, spread_out};
+use super::archive::{Archive, Judged, dominates, not_dominated, spread_out};
 use super::control::{Control, Progress};
 use super::judge::{Effort, Judge};
 use super::risks::{Risks, risks};
 use super::search::{STAGES, Search};
+use crate::evaluate::evaluate_focused;
 use crate::jet::{Fresh, Samples, Stream, purpose};
 use crate::precision::Precision;
 use crate::setup::Setup;
@@ -55,10 +56,11 @@ pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
     });
     let judged = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
     let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
-    let evaluated = judged
-        .par_iter()
-        .map(|judged| Answer::feasible(setup, &judged.choice, &fresh, &effort));
-    let evaluated: Vec<Answer> = evaluated.collect();
+    let answer = |judged: &Judged| {
+        let evaluation = evaluate_focused(setup, &judged.choice, &fresh);
+        Answer::feasible(setup, &judged.choice, evaluation, &effort)
+    };
+    let evaluated: Vec<Answer> = judged.par_iter().map(answer).collect();
     let all = found.iter().chain(&evaluated).filter_map(Measured::of);
     let all: Vec<Measured> = all.collect();
     let mut kept = apart(&all);

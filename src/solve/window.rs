@@ -102,11 +102,19 @@ trait Shots {
 }
 
 /// Scramblings that are fired together.
-const SETS: usize = 8;
+const SETS: usize = 2;
 
-/// Some of the sets, those that are fired together; `None` beyond the last.
-fn sets_of(fresh: &Replicates, part: usize) -> Option<&[Replicate]> {
-    fresh.sets.chunks(SETS).nth(part)
+/// Surveys of some of the sets, those that are fired together; `None` beyond the last.
+fn surveys(setup: &Setup, choice: &Choice, fresh: &Replicates, part: usize) -> Option<Vec<Survey>> {
+    let sets = fresh.sets.chunks(SETS).nth(part)?.par_iter();
+    let survey = |set: &Replicate| Survey::of(setup, choice, &set.jet.deviates);
+    Some(sets.map(survey).collect())
+}
+
+/// What is seen in them with shots of some speed, m/s.
+fn counts(setup: &Setup, surveys: &[Survey], speed: f64) -> Counts {
+    let each = surveys.iter().map(|survey| survey.counts(setup, speed));
+    Counts::together(setup, each)
 }
 
 /// Shots that are traced at every choice.
@@ -117,7 +125,8 @@ struct Traced<'a> {
 
 impl Shots for Traced<'_> {
     fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
-        Some(Counts::on(self.setup, choice, sets_of(self.fresh, part)?))
+        let surveys = surveys(self.setup, choice, self.fresh, part)?;
+        Some(counts(self.setup, &surveys, choice.speed))
     }
 }
 
@@ -126,7 +135,7 @@ struct Recorded<'a> {
     setup: &'a Setup,
     choice: &'a Choice,
     fresh: &'a Replicates,
-    /// One survey of each set that was asked for.
+    /// Those that were asked for.
     seen: Vec<Vec<Survey>>,
 }
 
@@ -144,13 +153,10 @@ impl<'a> Recorded<'a> {
 impl Shots for Recorded<'_> {
     fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
         if part == self.seen.len() {
-            let survey = |set: &Replicate| Survey::of(self.setup, self.choice, &set.jet.deviates);
-            let sets = sets_of(self.fresh, part)?.par_iter();
-            self.seen.push(sets.map(survey).collect());
+            let surveys = surveys(self.setup, self.choice, self.fresh, part)?;
+            self.seen.push(surveys);
         }
-        let counts = |survey: &Survey| survey.counts(self.setup, choice.speed);
-        let each = self.seen.get(part)?.iter().map(counts);
-        Some(Counts::together(self.setup, each))
+        Some(counts(self.setup, self.seen.get(part)?, choice.speed))
     }
 }
 
