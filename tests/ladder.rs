@@ -4,6 +4,7 @@ use std::path::Path;
 
 use peenpose::precision::Precision;
 use peenpose::problem::model::{Effect, Model};
+use peenpose::problem::setting::Tolerance;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::solve::{Control, Solution, solve};
@@ -113,6 +114,28 @@ fn in_a_keyway_rebounds_and_the_size_of_the_shot_matter() {
             !left_out.contains(&Effect::Divergence),
             "{file}: {left_out:?}"
         );
+    }
+}
+
+/// From afar the size of the shot and the width of the exit do nothing in this keyway: J is the same without
+/// them until the jet is half a degree from the cliff that they make.
+#[test]
+fn what_makes_a_cliff_is_not_left_out_from_afar() {
+    let mut setup = shipped("keyway.yaml");
+    setup.problem.tolerance = Tolerance::default();
+    for seed in [1, 2, 3, 10] {
+        setup.problem.seed = seed;
+        let ladder = with_model(&setup, Model::Auto).ladder;
+        let size = &ladder.rungs[0];
+        assert_eq!(size.effect, Effect::ShotSize);
+        assert_eq!(
+            (size.largest_change, size.regret),
+            (0.0, 0.0),
+            "seed {seed}"
+        );
+        let left_out = [Effect::LaterRebounds, Effect::Spin];
+        assert_eq!(ladder.left_out(), left_out, "seed {seed}");
+        assert_eq!(ladder.put_back, 0, "seed {seed}");
     }
 }
 

@@ -93,6 +93,11 @@ impl Effect {
         }
     }
 
+    /// Whether it decides where shots hit first.
+    pub const fn decides_first_hits(self) -> bool {
+        matches!(self, Self::ShotSize | Self::ExitWidth | Self::Divergence)
+    }
+
     /// What a model without it does instead, for people.
     pub const fn without(self) -> &'static str {
         match self {

@@ -39,6 +39,11 @@ impl Standing {
         }
     }
 
+    /// Whether shots miss the target or meet secondary surfaces.
+    pub(super) fn does_harm(&self) -> bool {
+        matches!(self, Self::Feasible(terms) if terms.rebound > 0.0 || terms.miss > 0.0)
+    }
+
     /// Whether there can be such a standing.
     fn is_sound(&self) -> bool {
         match self {

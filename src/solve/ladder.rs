@@ -6,15 +6,10 @@
 
 mod bench;
 
-pub(super) use bench::{fewer, objective, objective_in};
+pub(super) use bench::{Bench, fewer, objective, objective_in};
 
 use rayon::prelude::*;
 
-use bench::Bench;
-
-use super::control::Control;
-use super::judge::Effort;
-use super::search::Search;
 use crate::precision::Precision;
 use crate::problem::model::{Effect, Model};
 use crate::problem::setting::Choice;
@@ -61,6 +56,15 @@ pub struct Ladder {
 const SHOTS: usize = 1024;
 /// Share of the accuracy by which leaving out effects may change J or worsen the best settings.
 const TOLERABLE: f64 = 0.5;
+/// The same for effects that may move a cliff: J is least where harm has hardly begun, and so an effect that
+/// changes harm a lot changes J little there.
+const TOLERABLE_AT_CLIFFS: f64 = 0.1;
+
+impl Rung {
+    fn matters(&self, tolerable: f64) -> bool {
+        self.largest_change > tolerable || self.regret > tolerable
+    }
+}
 
 impl Ladder {
     /// Nothing was measured yet.
@@ -77,58 +81,50 @@ impl Ladder {
         left_out.map(|rung| rung.effect).collect()
     }
 
-    /// Lets the search trace in single precision, if that is faster and changes next to nothing at the
-    /// best candidates.
-    pub(super) fn choose_precision(
-        &mut self,
-        setup: &Setup,
-        searches: &[Search],
-        effort: &Effort,
-        control: &Control,
-    ) {
-        if !(control.shortcuts.single_precision && setup.scene.has_exact_walls()) {
-            return;
-        }
-        let Some(bench) = Bench::new(setup, searches, effort, control) else {
-            return;
-        };
-        let tolerable = Precision::LITTLE * setup.problem.accuracy;
+    /// Lets the search trace in single precision, if that changes next to nothing at the best candidates.
+    pub(super) fn choose_precision(&mut self, bench: &Bench) {
+        let tolerable = Precision::LITTLE * bench.setup.problem.accuracy;
         if bench.largest_change_in(Precision::F32) <= tolerable {
             self.precision = Precision::F32;
         }
     }
 
-    /// Measures what some effects of a setup do at the best candidates.
-    pub(super) fn climb(
-        &mut self,
-        setup: &Setup,
-        effects: &[Effect],
-        searches: &[Search],
-        effort: &Effort,
-        control: &Control,
-    ) {
-        let Some(bench) = Bench::new(setup, searches, effort, control) else {
-            return;
-        };
+    /// Measures what some effects do at the best candidates.
+    pub(super) fn climb(&mut self, bench: &Bench, effects: &[Effect]) {
         let start = bench.start();
         self.rungs = effects
             .par_iter()
             .map(|&effect| bench.rung(effect, &start))
             .collect();
-        for rung in &mut self.rungs {
-            rung.relative_time = bench.relative_time(rung.effect);
-        }
-        if self.model == Model::Auto {
-            self.leave_out(&bench);
-        }
     }
 
-    /// Leaves out one effect after the other as long as all of them together do not matter.
-    fn leave_out(&mut self, bench: &Bench) {
-        let tolerable = TOLERABLE * bench.setup.problem.accuracy;
-        let mut left_out = Vec::new();
+    /// Leaves out what does not matter. Where shots hit first decides where cliffs are, if there are any,
+    /// and from afar nobody sees one move.
+    pub(super) fn leave_out_from_afar(&mut self, bench: &Bench, has_cliffs: bool) {
+        self.leave_out(bench, TOLERABLE, |it| {
+            !(has_cliffs && it.decides_first_hits())
+        });
+    }
+
+    /// Whether the size of the shots might be left out where more shots are fired. Of what decides where
+    /// shots hit first nothing else takes time at every pose.
+    pub(super) fn asks_about_size(&self, accuracy: f64) -> bool {
+        let tolerable = TOLERABLE_AT_CLIFFS * accuracy;
+        let mut open = self.rungs.iter().filter(|rung| !rung.left_out);
+        open.any(|rung| rung.effect == Effect::ShotSize && !rung.matters(tolerable))
+    }
+
+    /// Leaves out the size of the shots, if it does not matter at the best candidates.
+    pub(super) fn leave_out_size(&mut self, bench: &Bench) {
+        self.leave_out(bench, TOLERABLE_AT_CLIFFS, |it| it == Effect::ShotSize);
+    }
+
+    /// Leaves out one effect of a kind after the other as long as all of them together do not matter.
+    fn leave_out(&mut self, bench: &Bench, share: f64, is_of_kind: impl Fn(Effect) -> bool) {
+        let tolerable = share * bench.setup.problem.accuracy;
+        let mut left_out = self.left_out();
         for rung in &mut self.rungs {
-            if rung.largest_change > tolerable || rung.regret > tolerable {
+            if rung.left_out || rung.matters(tolerable) || !is_of_kind(rung.effect) {
                 continue;
             }
             left_out.push(rung.effect);
@@ -148,17 +144,8 @@ impl Ladder {
 
     /// Puts back the effects that matter at the best candidates by now, or the one that matters most
     /// where none does alone.
-    pub(super) fn put_back(
-        &mut self,
-        setup: &Setup,
-        searches: &[Search],
-        effort: &Effort,
-        control: &Control,
-    ) {
-        let Some(bench) = Bench::new(setup, searches, effort, control) else {
-            return;
-        };
-        let tolerable = TOLERABLE * setup.problem.accuracy;
+    pub(super) fn put_back(&mut self, bench: &Bench) {
+        let tolerable = TOLERABLE * bench.setup.problem.accuracy;
         let mut left_out: Vec<&mut Rung> =
             self.rungs.iter_mut().filter(|rung| rung.left_out).collect();
         for rung in &mut left_out {

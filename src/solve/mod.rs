@@ -178,6 +178,9 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         if index > 0 {
             models.focus_on_harm(&searches, effort, control);
         }
+        if stage.shots > CHEAP_SHOTS {
+            models.leave_out_size(&mut searches, effort, control);
+        }
         advance(models, &mut searches, stage, control, effort);
         if control.is_stopped() {
             continue;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::accuracy::{Claim, is_in_reach, is_sharp, least_objective, rounding_of_objective};
 use super::control::Control;
 use super::judge::{Effort, Judge};
-use super::ladder::{Ladder, fewer, objective, objective_in};
+use super::ladder::{Bench, Ladder, fewer, objective, objective_in};
 use super::polish::Candidate;
 use super::search::Search;
 use crate::evaluate::focus_on_harm;
@@ -42,16 +42,38 @@ impl<'a> Models<'a> {
 
     /// Finds out in which precision paths can be traced.
     pub fn choose_precision(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
-        self.ladder
-            .choose_precision(&self.asked, searches, effort, control);
+        let is_faster = self.asked.scene.has_exact_walls();
+        if control.shortcuts.single_precision
+            && is_faster
+            && let Some(bench) = Bench::new(&self.asked, None, searches, effort, control)
+        {
+            self.ladder.choose_precision(&bench);
+        }
     }
 
     /// Finds out which effects matter at the best candidates, where that is left to the program.
     pub fn climb(&mut self, searches: &mut [Search], effort: &Effort, control: &Control) {
         if self.whole.problem.model == Model::Auto {
-            let effects = self.asked.problem.effects();
-            self.ladder
-                .climb(&self.asked, &effects, searches, effort, control);
+            let focus = self.focus.as_ref();
+            if let Some(bench) = Bench::new(&self.asked, focus, searches, effort, control) {
+                self.ladder.climb(&bench, &self.asked.problem.effects());
+                let has_cliffs = searches.iter().any(Search::has_met_harm);
+                self.ladder.leave_out_from_afar(&bench, has_cliffs);
+            }
+            self.reduce(searches);
+        }
+    }
+
+    /// Leaves out the size of the shots, if the candidates stand near the best settings and it does not
+    /// matter there.
+    pub fn leave_out_size(&mut self, searches: &mut [Search], effort: &Effort, control: &Control) {
+        if self.whole.problem.model == Model::Auto {
+            let focus = self.focus.as_ref();
+            if self.ladder.asks_about_size(self.asked.problem.accuracy)
+                && let Some(bench) = Bench::new(&self.asked, focus, searches, effort, control)
+            {
+                self.ladder.leave_out_size(&bench);
+            }
             self.reduce(searches);
         }
     }
@@ -59,11 +81,14 @@ impl<'a> Models<'a> {
     /// Measures what the effects do that were not asked for.
     pub fn measure_unasked(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
         let unasked = self.whole.unasked();
-        if !unasked.is_empty() {
-            self.ladder
-                .climb(self.whole, &unasked, searches, effort, control);
-            self.ladder.leave_out_all();
+        if unasked.is_empty() {
+            return;
         }
+        let focus = self.focus.as_ref();
+        if let Some(bench) = Bench::new(self.whole, focus, searches, effort, control) {
+            self.ladder.climb(&bench, &unasked);
+        }
+        self.ladder.leave_out_all();
     }
 
     /// Puts back the effect that matters most, when the whole model disagrees with the one that
@@ -90,7 +115,10 @@ impl<'a> Models<'a> {
             if self.ladder.left_out().is_empty() {
                 self.ladder.precision = Precision::F64;
             }
-            self.ladder.put_back(&self.asked, searches, effort, control);
+            let focus = self.focus.as_ref();
+            if let Some(bench) = Bench::new(&self.asked, focus, searches, effort, control) {
+                self.ladder.put_back(&bench);
+            }
             self.reduce(searches);
         }
         must

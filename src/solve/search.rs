@@ -95,6 +95,8 @@ pub(super) struct Search {
     space: Space,
     /// Best first.
     candidates: Vec<Candidate>,
+    /// Whether any place of the screening did harm.
+    has_met_harm: bool,
 }
 
 impl Search {
@@ -110,11 +112,15 @@ impl Search {
             _ => 128 * dimensions,
         };
         let seed = setup.problem.seed as u32;
-        let candidates = (0..points as u32)
+        let candidates: Vec<Candidate> = (0..points as u32)
             .into_par_iter()
             .map(|index| Candidate::at(&space, judge, &space.spread(index, seed)))
             .collect();
-        let mut search = Self { space, candidates };
+        let mut search = Self {
+            space,
+            has_met_harm: candidates.iter().any(|it| it.standing.does_harm()),
+            candidates,
+        };
         search.sort();
         search
     }
@@ -122,6 +128,12 @@ impl Search {
     /// The best candidate so far.
     pub fn best(&self) -> &Candidate {
         &self.candidates[0]
+    }
+
+    /// Whether shots missed or met secondary surfaces anywhere when it looked all over the settings: then
+    /// there are cliffs.
+    pub fn has_met_harm(&self) -> bool {
+        self.has_met_harm
     }
 
     /// The same candidates in the space of another model of the same problem.
@@ -135,6 +147,7 @@ impl Search {
         Self {
             candidates: self.candidates.iter().map(carried).collect(),
             space,
+            ..*self
         }
     }
 
@@ -269,7 +282,11 @@ mod tests {
                 ..space.choice(&space.spread(0, 0))
             };
             let candidates = vec![Candidate::at(&space, &judge, &space.point(&choice))];
-            Search { space, candidates }
+            Search {
+                space,
+                candidates,
+                has_met_harm: true,
+            }
         };
         check(&judge, &search);
     }
@@ -300,7 +317,11 @@ mod tests {
         let (effort, control) = (Effort::default(), Control::default());
         let judge = Judge::new(&setup, Precision::F64, &shots, &effort, &control);
         let candidates = vec![Candidate::at(&space, &judge, &point)];
-        let mut search = Search { space, candidates };
+        let mut search = Search {
+            space,
+            candidates,
+            has_met_harm: true,
+        };
         // J falls by 3 % from the bound to the cliff at 33.3 deg, and is higher again beyond.
         let on_bound = rank(&search);
         search.refine(&judge, &STAGES_SET_EXACTLY[1], ACCURACY);

@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::hint::black_box;
 use std::time::Instant;
 
+use rayon::prelude::*;
+
 use super::{Rung, SHOTS};
 use crate::evaluate::evaluate;
 use crate::jet::{Deviate, Focus, Replicates, Samples, Stream, purpose};
@@ -67,8 +69,10 @@ pub(in crate::solve) fn objective_in(
 }
 
 /// Where effects are measured.
-pub(super) struct Bench<'a> {
+pub(in crate::solve) struct Bench<'a> {
     pub(super) setup: &'a Setup,
+    /// Where a part of the shots come from.
+    focus: Option<&'a Focus>,
     /// The best choice of every contact that could win, the best one first.
     leading: Vec<Choice>,
     /// Shots of the whole model.
@@ -81,8 +85,9 @@ pub(super) struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     /// `None` where the nozzle has fitted nowhere.
-    pub(super) fn new(
+    pub(in crate::solve) fn new(
         setup: &'a Setup,
+        focus: Option<&'a Focus>,
         searches: &[Search],
         effort: &'a Effort,
         control: &'a Control,
@@ -97,14 +102,15 @@ impl<'a> Bench<'a> {
         leading.sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
         let leading: Vec<Choice> = leading.into_iter().map(|best| best.choice).collect();
         leading.first()?;
-        let shots = Samples::with_rim(&setup.problem, Stream::Search, SHOTS).deviates;
+        let shots = Samples::focused(&setup.problem, Stream::Search, SHOTS, focus).deviates;
         let whole = leading
-            .iter()
+            .par_iter()
             .map(|choice| objective(setup, choice, &shots))
             .collect();
         Some(Self {
             shots,
             setup,
+            focus,
             leading,
             whole,
             effort,
@@ -118,8 +124,8 @@ impl<'a> Bench<'a> {
 
     /// Changes of J, relative, at every leading choice.
     fn changes(&self, reduced: &Setup) -> Vec<f64> {
-        let shots = fewer(self.setup, reduced, &self.shots, None);
-        let pairs = self.leading.iter().zip(&self.whole);
+        let shots = fewer(self.setup, reduced, &self.shots, self.focus);
+        let pairs = self.leading.par_iter().zip(&self.whole);
         let change = |(choice, whole): (&Choice, &f64)| {
             self.relative(objective(reduced, choice, &shots) - whole, *whole)
         };
@@ -136,7 +142,8 @@ impl<'a> Bench<'a> {
             let coarse = objective_in(precision, self.setup, choice, &self.shots);
             self.relative(coarse - whole, *whole)
         };
-        let changes: Vec<f64> = self.leading.iter().zip(&self.whole).map(change).collect();
+        let pairs = self.leading.par_iter().zip(&self.whole);
+        let changes: Vec<f64> = pairs.map(change).collect();
         largest(&changes)
     }
 
@@ -182,7 +189,7 @@ impl<'a> Bench<'a> {
         let reduced = self.reduced(&[effect]);
         let changes = self.changes(&reduced);
         let whole = self.few_shots();
-        let fewer = fewer(self.setup, &reduced, whole, None);
+        let fewer = fewer(self.setup, &reduced, whole, self.focus);
         let best_with = start.best;
         // An effect that does nothing here may be the cliff that the best settings keep away from.
         let best_without = self.descend(&reduced, &fewer);
@@ -204,16 +211,14 @@ impl<'a> Bench<'a> {
             best_without,
             best_with,
             regret: self.relative(without - with, with).max(0.0),
-            relative_time: 1.0,
+            relative_time: self.relative_time(&reduced, &fewer),
             left_out: false,
         }
     }
 
-    /// Time for a pose without an effect over time with all.
-    pub(super) fn relative_time(&self, effect: Effect) -> f64 {
-        let reduced = self.reduced(&[effect]);
-        let whole = self.few_shots();
-        let fewer = fewer(self.setup, &reduced, whole, None);
+    /// Time for a pose of a reduced setup over that of the whole one, in turns, which other threads
+    /// that are busy slow down alike.
+    fn relative_time(&self, reduced: &Setup, fewer: &[Deviate]) -> f64 {
         let time = |setup: &Setup, shots: &[Deviate]| {
             let started = Instant::now();
             black_box(objective(setup, &self.leading[0], shots));
@@ -221,8 +226,8 @@ impl<'a> Bench<'a> {
         };
         let mut least = [f64::INFINITY; 2];
         for _ in 0..TIMED_TURNS {
-            least[0] = time(&reduced, &fewer).min(least[0]);
-            least[1] = time(self.setup, whole).min(least[1]);
+            least[0] = time(reduced, fewer).min(least[0]);
+            least[1] = time(self.setup, self.few_shots()).min(least[1]);
         }
         least[0] / least[1]
     }
