@@ -5,15 +5,23 @@
 
 mod common;
 
+use std::fs::File;
 use std::hint::black_box;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{
+    BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
+};
+use nalgebra::Point3;
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::precision::Precision;
 use peenpose::problem;
-use peenpose::scene::Walls;
+use peenpose::problem::part::Shape;
+use peenpose::problem::setting::Choice;
+use peenpose::scene::{Scene, Walls};
 use peenpose::setup::Setup;
 
 use common::choice;
@@ -116,22 +124,106 @@ fn growth(criterion: &mut Criterion) {
         );
     }
     group.finish();
+    narrow_facets(criterion);
+    even_facets(criterion);
+}
+
+/// Facets as long as the hub: the narrower they are, the more of them a shot passes over.
+fn narrow_facets(criterion: &mut Criterion) {
+    let steep = choice(60.0, 20.0, 10e-3, 10.0);
     let mut group = criterion.benchmark_group("chord angle in degrees");
     for (kind, shot_size) in KINDS {
         for degrees in [1.0, 0.1, 0.01, 0.001] {
             let mut setup = setup("keyway-long.yaml", facets(degrees));
             setup.problem.paths.shot_size = shot_size;
-            let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
-            let once = Tally::trace(&setup, &steep, 1.0, &samples.deviates);
-            group.throughput(Throughput::Elements(once.rays as u64));
-            let triangles = setup.scene.triangles();
-            let name = format!("{degrees}, {triangles} triangles, {kind}");
-            group.bench_function(name, |bencher| {
-                bencher.iter(|| Tally::trace(&setup, black_box(&steep), 1.0, &samples.deviates));
-            });
+            trace(&mut group, &setup, &steep, &format!("{degrees}, {kind}"));
         }
     }
     group.finish();
+}
+
+/// Facets about as long as wide, as most programs for meshes make them.
+fn even_facets(criterion: &mut Criterion) {
+    let steep = choice(60.0, 20.0, 10e-3, 10.0);
+    let mut group = criterion.benchmark_group("side in mm");
+    for side in [8.0, 2.5, 0.8, 0.25] {
+        let folder = tempfile::TempDir::new().expect("there is space for a mesh");
+        let mut setup = setup_of_even_facets(folder.path(), side * 1e-3);
+        for (kind, shot_size) in KINDS {
+            setup.problem.paths.shot_size = shot_size;
+            trace(&mut group, &setup, &steep, &format!("{side}, {kind}"));
+        }
+    }
+    group.finish();
+}
+
+/// Measures a pose of 1024 shots.
+fn trace(group: &mut BenchmarkGroup<WallTime>, setup: &Setup, choice: &Choice, name: &str) {
+    let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
+    let once = Tally::trace(setup, choice, 1.0, &samples.deviates);
+    group.throughput(Throughput::Elements(once.rays as u64));
+    let name = format!("{name}, {} triangles", setup.scene.triangles());
+    group.bench_function(name, |bencher| {
+        bencher.iter(|| Tally::trace(setup, black_box(choice), 1.0, &samples.deviates));
+    });
+}
+
+/// The long keyway as a mesh of halved squares with sides of at most `side`, m.
+fn setup_of_even_facets(folder: &Path, side: f64) -> Setup {
+    let strips = setup(
+        "keyway-long.yaml",
+        facets((side / BORE_RADIUS).to_degrees()),
+    );
+    let path = folder.join("hub.obj");
+    write_even(&strips.scene, side, &path).expect("there is space for a mesh");
+    let mut problem = strips.problem;
+    problem.parts[0].shape = Shape::Mesh {
+        path,
+        metres_per_unit: 1.0,
+        regions: Vec::new(),
+    };
+    Setup::new(problem, Walls::Exact).expect("its scene has no faults")
+}
+
+/// m.
+const BORE_RADIUS: f64 = 0.015;
+
+/// Writes the strips of a prism, cut into squares.
+fn write_even(scene: &Scene, side: f64, path: &Path) -> std::io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    let mut corners = 0;
+    for (index, name) in (0..).zip(scene.surfaces()) {
+        let (_, surface) = name.split_once('.').unwrap_or(("", name));
+        writeln!(file, "g {surface}")?;
+        for [from, to, top] in scene.surface_triangles(index).filter_map(on_near_end) {
+            let pieces = |length: f64| (length / side).ceil().max(1.0) as usize;
+            let (columns, rows) = (pieces((to - from).norm()), pieces(top.z));
+            let at = |column: usize, row: usize| {
+                let share = column as f64 / columns as f64;
+                let [x, y] = [0, 1].map(|axis| from[axis] * (1.0 - share) + to[axis] * share);
+                [x, y, top.z * row as f64 / rows as f64]
+            };
+            for (column, row) in (0..columns).flat_map(|c| (0..rows).map(move |r| (c, r))) {
+                for [column, row] in
+                    [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[c, r]| [column + c, row + r])
+                {
+                    let [x, y, z] = at(column, row);
+                    writeln!(file, "v {x} {y} {z}")?;
+                }
+                let [a, b, c, d] = [1, 2, 3, 4].map(|corner| corners + corner);
+                writeln!(file, "f {a} {b} {c}\nf {a} {c} {d}")?;
+                corners += 4;
+            }
+        }
+    }
+    file.flush()
+}
+
+/// A triangle with two corners on the near end, those first.
+fn on_near_end([a, b, c]: [Point3<f64>; 3]) -> Option<[Point3<f64>; 3]> {
+    let turns = [[a, b, c], [b, c, a], [c, a, b]];
+    let is_on = |[a, b, c]: &[Point3<f64>; 3]| a.z == 0.0 && b.z == 0.0 && c.z > 0.0;
+    turns.into_iter().find(is_on)
 }
 
 criterion_group! {
