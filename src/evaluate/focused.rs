@@ -12,10 +12,12 @@ use crate::setup::Setup;
 /// Evaluates `choice` on fresh shots, half of those on the rim drawn [from where harm comes
 /// from](super::focus_on_harm) with these settings.
 pub fn evaluate_focused(setup: &Setup, choice: &Choice, fresh: &Fresh) -> Evaluation {
-    let (focus, rays) = focus_on_harm(setup, choice);
-    let sets = fresh.sets.par_iter();
-    let ledgers = sets.map(|set| Ledger::of(setup, choice, &set.focused(&setup.problem, &focus)));
-    summed_up(setup, choice, ledgers.collect()).with_rays(rays)
+    on_focus(setup, choice, |focus| {
+        let sets = fresh.sets.par_iter();
+        // Each set is copied when it is fired: all of them together do not fit into a cache.
+        sets.map(|set| Ledger::of(setup, choice, &set.focused(&setup.problem, focus)))
+            .collect()
+    })
 }
 
 /// The same for several choices; a few of them share what it takes to fetch a set from memory.
@@ -58,11 +60,23 @@ fn evaluate_few_focused(setup: &Setup, choices: &[Choice], fresh: &Fresh) -> Vec
 /// The same as [`evaluate_focused`] on shots that are forgotten once they are fired, as [`Fresh`] ones of
 /// the same number would take 230 bytes a shot.
 pub fn evaluate_drawn(setup: &Setup, choice: &Choice, fresh: &Draw) -> Evaluation {
+    on_focus(setup, choice, |focus| {
+        let fresh = fresh.focused(focus);
+        let numbers = (0..fresh.sets()).into_par_iter();
+        numbers
+            .map(|number| Ledger::of(setup, choice, &fresh.set(number)))
+            .collect()
+    })
+}
+
+/// Sums up what shots do that are drawn by a focus on the harm of `choice`; its scouts' rays count.
+fn on_focus(
+    setup: &Setup,
+    choice: &Choice,
+    fire: impl FnOnce(&Focus) -> Vec<Ledger>,
+) -> Evaluation {
     let (focus, rays) = focus_on_harm(setup, choice);
-    let fresh = fresh.focused(&focus);
-    let numbers = (0..fresh.sets()).into_par_iter();
-    let ledgers = numbers.map(|number| Ledger::of(setup, choice, &fresh.set(number)));
-    summed_up(setup, choice, ledgers.collect()).with_rays(rays)
+    summed_up(setup, choice, fire(&focus)).with_rays(rays)
 }
 
 impl Evaluation {

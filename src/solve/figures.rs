@@ -38,16 +38,17 @@ impl<'a> Figures<'a> {
 
     /// The answers again, where searches have gone on.
     pub fn renewed(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
+        let has_moved = |answer: &Answer, search: &Search| answer.choice != search.best().choice;
         let pairs = answers.iter().zip(searches);
-        let moved = pairs.filter(|(answer, search)| answer.choice != search.best().choice);
+        let moved = pairs.filter(|(answer, search)| has_moved(answer, search));
         let moved: Vec<&Candidate> = moved.map(|(_, search)| search.best()).collect();
         let mut new = Answer::of_all(self.setup, &moved, &self.fresh, self.effort).into_iter();
         let pairs = answers.into_iter().zip(searches);
         let renewed = pairs.filter_map(|(answer, search)| {
-            if answer.choice == search.best().choice {
-                Some(answer)
-            } else {
+            if has_moved(&answer, search) {
                 new.next()
+            } else {
+                Some(answer)
             }
         });
         let renewed = renewed.collect();
