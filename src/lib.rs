@@ -94,6 +94,7 @@
 //! | [`scene`] | what is there: walls, meshes, the target patch; rays and clearances |
 //! | [`setup`] | a problem together with its scene |
 //! | [`jet`] | what comes out of the nozzle: its pose, and the shots |
+//! | [`feasibility`] | whether the nozzle can be where settings put it |
 //! | [`trace`] | shots through the scene, impact by impact |
 //! | [`objective`] | impacts to terms to J, and the best speed |
 //! | [`evaluate`] | what settings do, on shots that nothing was tuned on |
@@ -126,6 +127,7 @@ pub mod problem;
 pub mod scene;
 pub mod setup;
 
+pub mod feasibility;
 pub mod jet;
 pub mod trace;
 

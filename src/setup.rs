@@ -149,8 +149,9 @@ impl Setup {
             .unwrap_or_else(|| self.problem.contacts[choice.contact].at(choice.static_friction))
     }
 
-    fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
+    fn assemble(problem: Problem, mut scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
         let surfaces = surface_limits(&problem, &scene, target.surface)?;
+        scene.settle(&target);
         Ok(Self {
             problem,
             scene: Arc::new(scene),

@@ -2,7 +2,6 @@
 //!
 //! `docs/model.md` derives the numbers behind the notes.
 
-mod clearance;
 mod facets;
 mod flight;
 mod interference;
@@ -40,7 +39,6 @@ pub fn notes(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluation>) ->
                 .into(),
         });
     }
-    notes.extend(clearance::within_tolerance(setup, choice));
     notes.extend(interference::note(setup, choice, evaluation));
     notes.extend(size::fillet(setup));
     notes.extend(size::opening(setup, choice));

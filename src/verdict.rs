@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::evaluate::{Counts, Evaluation};
+use crate::feasibility::{Infeasible, Obstacle};
 use crate::setup::Setup;
 
 /// What a verdict is about.
@@ -16,6 +17,10 @@ pub enum Subject {
     Miss,
     /// Impacts on one surface of the scene.
     Surface(u32),
+    /// The distance of the nozzle from every surface, at the worst pose within the tolerance.
+    Clearance,
+    /// The side of every surface on which the nozzle and its line of fire are.
+    FreeSpace,
 }
 
 /// The share of shots that break a goal, against what is allowed.
@@ -80,6 +85,23 @@ impl Verdict {
             }
         }
         verdicts
+    }
+
+    /// The verdicts on the nozzle: it is where it may be, or not.
+    pub fn of_pose(infeasible: Option<&Infeasible>) -> [Self; 2] {
+        let is_near = |it: &&Infeasible| matches!(it.obstacle, Obstacle::Surface(_));
+        let too_near = infeasible.filter(is_near).is_some();
+        let verdict = |subject, is_broken| Self {
+            subject,
+            broken: usize::from(is_broken),
+            counted: 1,
+            allowed: 0.0,
+            is_exact: true,
+        };
+        [
+            verdict(Subject::Clearance, too_near),
+            verdict(Subject::FreeSpace, infeasible.is_some() && !too_near),
+        ]
     }
 
     /// Share of the counted shots that break the goal; 0 when none was counted.

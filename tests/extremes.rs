@@ -9,11 +9,12 @@ use std::fs;
 use std::path::Path;
 
 use peenpose::evaluate::{evaluate, evaluate_drawn, evaluate_focused};
+use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Draw, Fresh, Replicates, purpose};
 use peenpose::problem;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
-use peenpose::solve::{clearance_violation, spread_choices};
+use peenpose::solve::spread_choices;
 use program::{Run, peenpose};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -271,7 +272,7 @@ fn j_is_finite_at_every_pose_that_fits() {
     let setup = Setup::new(problem, Walls::Exact).unwrap();
     for contact in 0..setup.problem.contacts.len() {
         for choice in spread_choices(&setup, contact, 256) {
-            if clearance_violation(&setup, &choice).is_some_and(|violation| violation > 0.0) {
+            if infeasibility(&setup, &choice).is_some_and(|it| it.violation > 0.0) {
                 continue;
             }
             feasible += 1;

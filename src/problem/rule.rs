@@ -181,6 +181,8 @@ listed! {
         PathLeavesFolder,
         /// No piece of the target in its box.
         TargetEmpty,
+        /// A target whose free side its mesh does not tell.
+        FreeSideUnclear,
         /// An aim point beside the target.
         AimOffTarget,
         /// A target whose own centre is beside it.

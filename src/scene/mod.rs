@@ -8,6 +8,7 @@ mod bundle;
 mod clearance;
 mod facets;
 mod form;
+mod free_side;
 pub mod lanes;
 pub mod mesh;
 pub mod mesh_file;
@@ -21,9 +22,11 @@ pub mod ray;
 pub mod rays;
 pub mod stand;
 mod start;
+pub mod swept;
 pub mod tessellate;
 mod triangle;
 mod wide_tree;
+mod winding;
 
 use nalgebra::{Point3, Vector3};
 

@@ -15,6 +15,8 @@ pub struct Patch {
     pub surface: u32,
     /// Only this box of it.
     pub within: Option<(Point3<f64>, Point3<f64>)>,
+    /// Whether its free side is that in front: a hit from the other one is off target.
+    pub front: bool,
     /// Where the settings are measured from.
     pub frame: Frame,
     /// Area of the patch, m2.
@@ -38,7 +40,7 @@ impl Patch {
     /// Whether a hit is on the target.
     #[inline]
     pub fn holds(&self, hit: &Hit) -> bool {
-        hit.surface == self.surface && self.covers(&hit.point)
+        hit.surface == self.surface && hit.spot.front == self.front && self.covers(&hit.point)
     }
 
     /// Whether a place on its surface belongs to it.
@@ -70,8 +72,8 @@ impl Patch {
     /// Finds the patch in a scene.
     ///
     /// # Errors
-    /// An unknown surface, one that moves with the nozzle, an empty patch, an aim point off the patch, or `along` perpendicular
-    /// to it.
+    /// An unknown surface, one that moves with the nozzle, an empty patch, an aim point off the patch, a
+    /// free side that cannot be told, or `along` perpendicular to it.
     pub fn find(scene: &Scene, target: &Target) -> Result<Self, Vec<Fault>> {
         let surface = scene.surface_named(&target.surface).map_err(|fault| {
             vec![Fault {
@@ -110,7 +112,7 @@ impl Patch {
         }
         let aim = target.aim.unwrap_or(centre);
         let reach = area.sqrt();
-        let nearest = scene.nearest_on_surface(&aim, surface);
+        let nearest = scene.foot(&aim, surface);
         let on_patch = |p: &Point3<f64>| {
             target.within.is_none_or(|(low, high)| {
                 let margin = Vector3::repeat(1e-9);
@@ -119,15 +121,18 @@ impl Patch {
         };
         // A mesh's facets lie a little inside the true surface that a drawing's numbers mean.
         let near_enough = 1e-5_f64.max(1e-3 * reach);
-        let Some((_, front)) =
-            nearest.filter(|(foot, _)| (foot - aim).norm() <= near_enough && on_patch(&aim))
+        let Some(foot) =
+            nearest.filter(|foot| (foot.point - aim).norm() <= near_enough && on_patch(&aim))
         else {
             return Err(vec![aim_fault(target, &aim)]);
         };
-        let normal = match target.facing {
-            Some(facing) if facing.dot(&front) < 0.0 => -front,
-            _ => front,
+        let front = match target.facing {
+            Some(facing) => facing.dot(&foot.front) >= 0.0,
+            None => scene
+                .front_is_free(&foot)
+                .map_err(|undecided| vec![undecided.fault(&target.surface)])?,
         };
+        let normal = if front { foot.front } else { -foot.front };
         let frame = Frame::new(aim, normal, target.along).ok_or_else(|| {
             let fault = Fault::at_key(
                 Rule::AlongPerpendicular,
@@ -139,6 +144,7 @@ impl Patch {
         Ok(Self {
             surface,
             within: target.within,
+            front,
             frame,
             area,
         })

@@ -25,7 +25,7 @@ mod window;
 pub use answer::Answer;
 pub use control::{Control, Progress, Shortcuts, Status};
 pub use front::{Front, front};
-pub use judge::{Effort, Standing, clearance_violation};
+pub use judge::{Effort, Standing};
 pub use ladder::{Ladder, Rung};
 pub use risks::{Risks, risks};
 pub use window::{Drift, Turn, Window, passing_windows, windows};

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::Solution;
-use super::judge::clearance_violation;
 use crate::evaluate::{Counts, Survey};
+use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
@@ -39,6 +39,8 @@ pub enum Turn {
     Verdict(Subject),
     /// The nozzle comes too near to the part.
     Clearance,
+    /// The nozzle leaves free space.
+    FreeSpace,
 }
 
 /// Halvings of the interval in which a verdict turns.
@@ -219,8 +221,11 @@ fn turned(
     passing: &[Subject],
     shots: &mut dyn Shots,
 ) -> Option<Turn> {
-    if clearance_violation(setup, choice).is_some() {
-        return Some(Turn::Clearance);
+    if let Some(infeasible) = infeasibility(setup, choice) {
+        return Some(match infeasible.obstacle {
+            Obstacle::Surface(_) => Turn::Clearance,
+            Obstacle::Material(_) | Obstacle::Body => Turn::FreeSpace,
+        });
     }
     let mut all = Counts::none(setup);
     let mut turn = None;

@@ -8,11 +8,10 @@ use peenpose::jet::{Draw, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{Answer, Ladder, clearance_violation};
+use peenpose::solve::{Answer, Ladder};
 use peenpose::units;
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
-use peenpose::verdict::Verdict;
 
 use crate::args::EvaluateArgs;
 use crate::output::{self, Failure, quoted};
@@ -33,12 +32,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let fresh = Draw::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
     let evaluation = evaluate_drawn(&setup, &choice, &fresh);
     let (shots, rays) = (evaluation.shots, evaluation.rays);
-    let answer = Answer {
-        verdicts: Verdict::all(&setup, &evaluation),
-        evaluation: Some(evaluation),
-        violation: clearance_violation(&setup, &choice).unwrap_or(0.0),
-        choice,
-    };
+    let answer = Answer::judged(&setup, &choice, Some(evaluation));
     let circumstances = Circumstances {
         source: &source,
         status: StatusRecord::Evaluated,

@@ -65,12 +65,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     let map = Map::of(&setup, &choice, x, y, args.shots as usize, &control);
     watcher.finish();
     kept::close(kept, args.start.quiet);
-    let answer = Answer {
-        choice,
-        evaluation: None,
-        verdicts: Vec::new(),
-        violation: 0.0,
-    };
+    let answer = Answer::judged(&setup, &choice, None);
     let view = MapView {
         map: &MapRecord::new(&setup, &map),
         problem: &QuestionRecord::new(&setup.problem, &source),

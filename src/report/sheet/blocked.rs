@@ -1,6 +1,7 @@
 //! A nozzle that does not fit: where, by how much, what would cure it.
 
 use super::setting::{SETTINGS, Setting};
+use super::subject;
 use crate::record::{AnswerRecord, Record, StatusRecord};
 use crate::report::layout::Block;
 use crate::report::number::{plain, significant};
@@ -10,9 +11,16 @@ const AT_THE_END: f64 = 0.005;
 
 /// Where the body stands against what was asked: `its body reaches 2.0 mm into hub.floor`.
 pub fn conflict(answer: &AnswerRecord) -> String {
-    let surface = answer.clearance_surface.as_deref().unwrap_or("a surface");
-    let Some(gap) = answer.clearance_m else {
+    let is_near = failed_by_clearance(answer);
+    if let Some(reason) = answer.infeasible_because.as_ref().filter(|_| !is_near) {
+        return reason.clone();
+    }
+    let Some((gap, surface)) = worst(answer) else {
         return "the nozzle does not fit".into();
+    };
+    let errors = match answer.clearance_within_tolerance_m {
+        Some(_) => " with the worst errors",
+        None => "",
     };
     let wanted = answer.clearance_wanted_m;
     let asked = if wanted > 0.0 {
@@ -22,20 +30,40 @@ pub fn conflict(answer: &AnswerRecord) -> String {
     };
     if gap < 0.0 {
         format!(
-            "the nozzle body reaches {} mm into {surface}{asked}",
+            "the nozzle body reaches {} mm into {surface}{errors}{asked}",
             millimetres(-gap)
         )
     } else {
         format!(
-            "the nozzle body is only {} mm from {surface}{asked}",
+            "the nozzle body is only {} mm from {surface}{errors}{asked}",
             millimetres(gap)
         )
     }
 }
 
-/// By how much the body is too near, m.
-fn shortage(answer: &AnswerRecord) -> f64 {
-    answer.clearance_wanted_m - answer.clearance_m.unwrap_or(0.0)
+/// What limits the answer: room for the nozzle, or free space for it.
+pub fn limit(answer: &AnswerRecord) -> String {
+    match (&answer.infeasible_because, failed_by_clearance(answer)) {
+        (Some(reason), false) => reason.clone(),
+        _ => format!(
+            "room for the nozzle body at {}",
+            worst(answer).map_or("the part", |(_, surface)| surface)
+        ),
+    }
+}
+
+/// Whether the nozzle is too near to a surface, and not on the wrong side of one.
+fn failed_by_clearance(answer: &AnswerRecord) -> bool {
+    let mut verdicts = answer.verdicts.iter();
+    verdicts.any(|verdict| verdict.subject == subject::CLEARANCE && !verdict.passes)
+}
+
+/// How near the nozzle comes to a surface, with the worst errors where there is a tolerance.
+fn worst(answer: &AnswerRecord) -> Option<(f64, &str)> {
+    let set = answer.clearance_m.zip(answer.clearance_surface.as_deref());
+    let errors = answer.clearance_within_tolerance_m;
+    let worst = errors.zip(answer.clearance_within_tolerance_surface.as_deref());
+    worst.or(set)
 }
 
 fn millimetres(metres: f64) -> String {
@@ -48,18 +76,19 @@ pub fn cures(record: &Record) -> Option<Block> {
     if best.feasible {
         return None;
     }
-    let surface = best.clearance_surface.as_deref().unwrap_or("the part");
-    let short = shortage(best);
+    let (gap, surface) = worst(best).unwrap_or((0.0, "the part"));
+    let is_near = failed_by_clearance(best);
     let mut block = Block::titled("WHAT WOULD CURE IT");
-    block.hanging(
-        "- ",
-        &format!(
-            "a body that is smaller by {} mm on the side of {surface}; or",
-            millimetres(short)
-        ),
-    );
-    let gap = best.clearance_m.unwrap_or(0.0);
-    if best.clearance_wanted_m > 0.0 && gap > 0.0 {
+    if is_near {
+        block.hanging(
+            "- ",
+            &format!(
+                "a body that is smaller by {} mm on the side of {surface}; or",
+                millimetres(best.clearance_wanted_m - gap)
+            ),
+        );
+    }
+    if is_near && best.clearance_wanted_m > 0.0 && gap > 0.0 {
         block.hanging(
             "- ",
             &format!(

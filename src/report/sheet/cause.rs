@@ -59,14 +59,7 @@ fn nearest_edge<'a>(record: &'a Record, counts: impl Fn(&Edge) -> bool) -> Optio
 /// One line for the head of the sheet.
 pub fn headline(record: &Record) -> String {
     match Cause::of(record) {
-        Cause::Clearance => format!(
-            "room for the nozzle body at {}",
-            record
-                .best
-                .clearance_surface
-                .as_deref()
-                .unwrap_or("the part")
-        ),
+        Cause::Clearance => super::blocked::limit(&record.best),
         Cause::Verdict(verdict) => {
             let driver = nearest_edge(record, |edge| edge.turns == verdict.subject).map_or_else(
                 || reason(record, verdict),

@@ -222,14 +222,27 @@ fn clearance(best: &AnswerRecord) -> String {
         "at least {} mm wanted",
         plain(best.clearance_wanted_m * 1e3)
     );
-    match (best.clearance_m, &best.clearance_surface) {
-        (Some(gap), Some(surface)) if gap >= 0.0 => {
-            format!("{} mm to {surface}, {wanted}", fixed(gap * 1e3, 2))
+    let gap = |gap: f64, surface: &str| {
+        if gap >= 0.0 {
+            format!("{} mm to {surface}", fixed(gap * 1e3, 2))
+        } else {
+            format!(
+                "NONE: it reaches {} mm into {surface}",
+                fixed(-gap * 1e3, 2)
+            )
         }
-        (Some(gap), Some(surface)) => format!(
-            "NONE: the body reaches {} mm into {surface}, {wanted}",
-            fixed(-gap * 1e3, 2)
+    };
+    let set = best.clearance_m.zip(best.clearance_surface.as_deref());
+    let worst = best
+        .clearance_within_tolerance_m
+        .zip(best.clearance_within_tolerance_surface.as_deref());
+    match (set, worst) {
+        (Some((set, surface)), Some((worst, nearest))) => format!(
+            "{} as set, {} with the worst errors, {wanted}",
+            gap(set, surface),
+            gap(worst, nearest)
         ),
-        _ => "not checked: the nozzle has no body in the file".into(),
+        (Some((set, surface)), None) => format!("{}, {wanted}", gap(set, surface)),
+        _ => "unlimited: nothing is near".into(),
     }
 }

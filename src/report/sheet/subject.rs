@@ -1,12 +1,27 @@
 //! What a verdict is about, in words.
 
 use crate::record::{AnswerRecord, GoalsRecord, VerdictRecord};
-use crate::report::number::{impulse_asked, share, share_asked};
+use crate::report::number::{impulse_asked, plain, share, share_asked};
+
+/// The verdict on the distance of the nozzle from every surface.
+pub const CLEARANCE: &str = "clearance";
+/// The verdict on the side of every surface on which the nozzle is.
+const FREE_SPACE: &str = "free_space";
+
+/// Whether a verdict is about the pose of the nozzle: then it counts no shots.
+pub fn is_of_pose(subject: &str) -> bool {
+    matches!(subject, CLEARANCE | FREE_SPACE)
+}
 
 /// What breaks a goal, as it stands behind its name: `N* off 40 uN.s by > 15 %`.
 pub fn broken_when(subject: &str, goals: &GoalsRecord, answer: &AnswerRecord) -> String {
     match subject {
         "miss" => "first hit off target".into(),
+        CLEARANCE => format!(
+            "nozzle within {} mm of a surface",
+            plain(answer.clearance_wanted_m * 1e3)
+        ),
+        FREE_SPACE => "nozzle or line of fire in material".into(),
         "normal_impulse" => format!(
             "N* off {} +- {}",
             impulse_asked(goals.normal_impulse),
@@ -66,12 +81,12 @@ pub fn load(verdict: &VerdictRecord) -> f64 {
     }
 }
 
-/// The verdicts that fail, worst first.
+/// The verdicts on shots that fail, worst first.
 pub fn failing(answer: &AnswerRecord) -> Vec<&VerdictRecord> {
     let mut failing: Vec<&VerdictRecord> = answer
         .verdicts
         .iter()
-        .filter(|verdict| !verdict.passes)
+        .filter(|verdict| !verdict.passes && !is_of_pose(&verdict.subject))
         .collect();
     failing.sort_by(|a, b| load(b).total_cmp(&load(a)));
     failing

@@ -31,7 +31,7 @@ use std::path::Path;
 
 use assembly::Assembly;
 
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Shells};
 use crate::problem::fault::nearest_name;
 use crate::problem::part::Region;
 
@@ -76,13 +76,34 @@ pub fn read(
     metres_per_unit: f64,
     regions: &[Region],
 ) -> Result<(Mesh, Vec<MeshWarning>), MeshFault> {
+    let loaded = load(path, metres_per_unit, regions)?;
+    Ok((loaded.mesh, loaded.warnings))
+}
+
+/// A mesh with what its reader found out about it.
+pub(super) struct Loaded {
+    pub mesh: Mesh,
+    pub warnings: Vec<MeshWarning>,
+    pub shells: Shells,
+}
+
+/// The same with the shells of the mesh.
+pub(super) fn load(
+    path: &Path,
+    metres_per_unit: f64,
+    regions: &[Region],
+) -> Result<Loaded, MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
     let found = || {
         let mut mesh = parse(path, metres_per_unit)?;
-        let warnings = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
+        let (warnings, shells) = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
         check_surfaces(&mesh.surfaces).map_err(whole)?;
         region::name_triangles(&mut mesh, metres_per_unit, regions).map_err(whole)?;
-        Ok((mesh, warnings))
+        Ok(Loaded {
+            mesh,
+            warnings,
+            shells,
+        })
     };
     found().map_err(|fault: MeshFault| fault.in_file(path))
 }

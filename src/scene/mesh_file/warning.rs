@@ -66,8 +66,10 @@ pub enum MeshWarning {
         /// A corner of one.
         near: Point3<f64>,
     },
-    /// A closed mesh whose triangles' fronts look inwards.
+    /// Closed bodies whose triangles' fronts looked inwards; they were turned.
     InsideOut {
+        /// How many.
+        bodies: usize,
         /// The enclosed volume, m3; negative.
         signed_volume: f64,
     },
@@ -187,12 +189,20 @@ impl fmt::Display for MeshWarning {
                     Coordinates(near)
                 )
             }
-            Self::InsideOut { signed_volume } => write!(
-                f,
-                "the fronts of the triangles look into the material (signed volume {signed_volume:.3e} \
-                 m3); the free side is taken to be outside all the same: give `facing` for a target \
-                 inside, or flip the normals"
-            ),
+            Self::InsideOut {
+                bodies,
+                signed_volume,
+            } => {
+                let which = match bodies {
+                    1 => "a closed body is inside out: its".into(),
+                    count => format!("{count} closed bodies are inside out: their"),
+                };
+                write!(
+                    f,
+                    "{which} normals point into the material (signed volume {signed_volume:.3e} m3); they \
+                     were turned: give `facing` for a target inside, or flip the normals in the file"
+                )
+            }
         }
     }
 }
