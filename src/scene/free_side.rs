@@ -83,10 +83,19 @@ impl Scene {
             Some(true) if is_nearly_closed && holes <= LARGE_HOLES => Err(undecided),
             Some(true) => Ok(true),
             // A pocket whose triangles run the wrong way, or a solid with a large hole.
-            Some(false) if is_nearly_closed => Err(undecided),
-            Some(false) => Ok(false),
-            None => Err(undecided),
+            Some(false) | None => Err(undecided),
         }
+    }
+
+    /// The solid part whose material is behind a place on it, if its shape leaves no doubt: of a body that
+    /// is inside out in its file nobody knows whether it is a cavity.
+    pub(super) fn solid_behind(&self, foot: &Foot) -> Option<&str> {
+        let part = &self.parts[foot.part as usize];
+        let is_solid = match part.shell(foot.triangle) {
+            Some(shell) => shell.is_solid && !shell.was_inside_out,
+            None => !part.is_skin(),
+        };
+        is_solid.then_some(part.name.as_str())
     }
 
     /// Whether the side in front of a surface is the one from which more directions meet the scene;

@@ -28,6 +28,9 @@ pub fn load(args: &StartArgs, file: &Path, out: Option<&Path>) -> Result<(Setup,
     let (mut setup, source) = Setup::load(file)?;
     if !args.quiet {
         output::warnings(&setup, &source);
+        for warning in setup.scene.warnings() {
+            output::warn(warning);
+        }
     }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;

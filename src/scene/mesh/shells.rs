@@ -41,6 +41,8 @@ pub(in crate::scene) struct Shell {
     pub agrees: bool,
     /// Whether it wraps round a volume, but for damage.
     pub is_solid: bool,
+    /// Whether its triangles looked into that volume in the file.
+    pub was_inside_out: bool,
 }
 
 impl Shells {
@@ -164,6 +166,7 @@ impl Shells {
         for &shell in &which {
             let shell = &mut self.list[shell as usize];
             shell.volume = -shell.volume;
+            shell.was_inside_out = true;
         }
         which
     }
