@@ -48,7 +48,10 @@ fn setup(flipped: bool, facing: &str) -> Result<Setup, Vec<Rule>> {
             "keyway: { bore: 30 mm, width: 8 mm, depth: 3.3 mm, length: 40 mm }",
             "mesh: hub.obj",
         )
-        .replace("  along: [0, 0, 1]", &format!("  along: [0, 0, 1]\n{facing}"));
+        .replace(
+            "  along: [0, 0, 1]",
+            &format!("  along: [0, 0, 1]\n{facing}"),
+        );
     assert!(problem.contains("hub.obj"));
     let file = folder.path().join("keyway.yaml");
     std::fs::write(&file, problem).unwrap();

@@ -111,9 +111,9 @@ pub(in crate::problem) enum SpreadEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct NozzleEntry {
-    /// Its pieces; none, so that it takes no room, where absent.
+    /// Its pieces. Where absent, the disc of the exit, grown by the radius of a shot, takes the room.
     pub body: Field<Vec<Field<BodyEntry>>>,
-    /// Least distance to every surface, up to 1 km.
+    /// Least distance to every surface, up to 1 km, for every pose within the [tolerance](#tolerance).
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub clearance: Field<Length>,
 }

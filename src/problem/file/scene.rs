@@ -278,9 +278,9 @@ pub(in crate::problem) struct TargetEntry {
     /// faces along z, where absent.
     #[schemars(example = [0, 0, 1])]
     pub along: Field<Triple>,
-    /// Any direction towards the nozzle's side of the target, where the default is not meant: thin
-    /// sheets, the outside of an open shell. The default is the front of the surface; for an open
-    /// mesh, whose winding tells nothing, the side that is more enclosed; the free side where absent.
+    /// Any direction towards the nozzle's side of the target: for thin sheets, the outside of a bore (a
+    /// pin), and open meshes that do not tell which side is free. Parametric parts and closed meshes do:
+    /// there the direction may not point into the material; the free side where absent.
     #[schemars(example = [0, -1, 0])]
     pub facing: Field<Triple>,
 }
