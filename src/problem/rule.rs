@@ -183,8 +183,6 @@ listed! {
         TargetEmpty,
         /// A target whose free side its mesh does not tell.
         FreeSideUnclear,
-        /// A direction from the target into a solid part.
-        FacingIntoMaterial,
         /// An aim point beside the target.
         AimOffTarget,
         /// A target whose own centre is beside it.

@@ -87,15 +87,14 @@ impl Scene {
         }
     }
 
-    /// The solid part whose material is behind a place on it, if its shape leaves no doubt: of a body that
-    /// is inside out in its file nobody knows whether it is a cavity.
-    pub(super) fn solid_behind(&self, foot: &Foot) -> Option<&str> {
+    /// Whether there is material behind a place on a surface beyond doubt. Of a body that is inside out in
+    /// its file nobody knows whether it is a cavity.
+    pub(super) fn is_solid(&self, foot: &Foot) -> bool {
         let part = &self.parts[foot.part as usize];
-        let is_solid = match part.shell(foot.triangle) {
+        match part.shell(foot.triangle) {
             Some(shell) => shell.is_solid && !shell.was_inside_out,
             None => !part.is_skin(),
-        };
-        is_solid.then_some(part.name.as_str())
+        }
     }
 
     /// Whether the side in front of a surface is the one from which more directions meet the scene;
@@ -129,7 +128,7 @@ impl Scene {
             |part: &BuiltPart| !part.on_nozzle && part.facets.has_surface(target.surface);
         for part in &mut self.parts {
             if is_targets(part) {
-                part.free = if target.front {
+                part.free = if target.front || target.in_material {
                     FreeSide::Front
                 } else {
                     FreeSide::Back

@@ -21,7 +21,6 @@ use crate::problem::part::{Ends, Part, Place, Shape};
 /// A part whose surfaces have their indices in the scene.
 #[derive(Clone)]
 pub(super) struct BuiltPart {
-    pub name: String,
     /// Its triangles: for distances, for the target patch, and for rays where there is no prism.
     pub facets: Facets,
     /// Which side of its surfaces is free.
@@ -136,7 +135,6 @@ impl Geometry {
     /// Makes it ready for rays.
     pub fn build(self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
         BuiltPart {
-            name: part.name.clone(),
             facets: Facets::new(self.mesh, surface_base, slack),
             free: self.free,
             shells: self.shells,

@@ -17,6 +17,8 @@ pub struct Patch {
     pub within: Option<(Point3<f64>, Point3<f64>)>,
     /// Whether its free side is that in front: a hit from the other one is off target.
     pub front: bool,
+    /// Whether it faces the inside of a solid part: then no nozzle is in free space.
+    pub in_material: bool,
     /// Where the settings are measured from.
     pub frame: Frame,
     /// Area of the patch, m2.
@@ -73,7 +75,7 @@ impl Patch {
     ///
     /// # Errors
     /// An unknown surface, one that moves with the nozzle, an empty patch, an aim point off the patch, a
-    /// free side that cannot be told or that `facing` contradicts, or `along` perpendicular to it.
+    /// free side that cannot be told, or `along` perpendicular to it.
     pub fn find(scene: &Scene, target: &Target) -> Result<Self, Vec<Fault>> {
         let surface = scene.surface_named(&target.surface).map_err(|fault| {
             vec![Fault {
@@ -127,13 +129,7 @@ impl Patch {
             return Err(vec![aim_fault(target, &aim)]);
         };
         let front = match target.facing {
-            Some(facing) => {
-                let front = facing.dot(&foot.front) >= 0.0;
-                match scene.solid_behind(&foot) {
-                    Some(part) if !front => return Err(vec![into_material(part)]),
-                    _ => front,
-                }
-            }
+            Some(facing) => facing.dot(&foot.front) >= 0.0,
             None => scene
                 .front_is_free(&foot)
                 .map_err(|undecided| vec![undecided.fault(&target.surface)])?,
@@ -151,6 +147,7 @@ impl Patch {
             surface,
             within: target.within,
             front,
+            in_material: !front && scene.is_solid(&foot),
             frame,
             area,
         })
@@ -181,13 +178,6 @@ impl Frame {
             across: along.cross(&normal),
         })
     }
-}
-
-/// The fault of a target that faces the inside of a solid part.
-fn into_material(part: &str) -> Fault {
-    let message = format!("points into the material of `{part}`");
-    Fault::at_key(Rule::FacingIntoMaterial, "target.facing", message)
-        .expecting("a direction from the target into free space, towards the nozzle")
 }
 
 fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {

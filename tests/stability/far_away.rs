@@ -122,9 +122,8 @@ tolerance: {{ incidence: 2 deg, azimuth: 2 deg }}
         }
         for k in 0..outline.len() - 1 {
             let group = ["wall_pos", "floor", "wall_neg", "bore"][k.min(3)];
-            // The wrong way round.
             let [a, b, c, d] = [1, 2, 4, 3].map(|corner| 2 * k + corner);
-            writeln!(text, "g {group}\nf {a} {d} {c} {b}").unwrap();
+            writeln!(text, "g {group}\nf {a} {b} {c} {d}").unwrap();
         }
         text
     }

@@ -280,7 +280,7 @@ pub(in crate::problem) struct TargetEntry {
     pub along: Field<Triple>,
     /// Any direction towards the nozzle's side of the target: for thin sheets, the outside of a bore (a
     /// pin), and open meshes that do not tell which side is free. Parametric parts and closed meshes do:
-    /// there the direction may not point into the material; the free side where absent.
+    /// a nozzle in their material is infeasible, whatever is said here; the free side where absent.
     #[schemars(example = [0, -1, 0])]
     pub facing: Field<Triple>,
 }
