@@ -641,9 +641,9 @@ fn oddities_are_reported_with_a_place() {
         (
             12,
             vec![
-                "the fronts of the triangles look into the material (signed volume -1.000e-9 m3); \
-                 the free side is taken to be outside all the same: give `facing` for a target \
-                 inside, or flip the normals"
+                "a closed body is inside out: its normals point into the material (signed volume \
+                 -1.000e-9 m3); they were turned: give `facing` for a target inside, or flip the \
+                 normals in the file"
                     .to_owned()
             ]
         )

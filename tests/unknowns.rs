@@ -12,7 +12,7 @@ use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Ladder};
 use peenpose::unknowns::{Quantity, Unknowns};
-use peenpose::verdict::{Subject, Verdict};
+use peenpose::verdict::Subject;
 
 /// A parallel jet on a plate: every shot does the same.
 const PLATE: &str = "
