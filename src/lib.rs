@@ -118,6 +118,7 @@
 
 // In reading order: a module builds on those above it.
 
+mod content;
 pub mod precision;
 pub mod units;
 

@@ -4,6 +4,7 @@ use nalgebra::{Point3, center, distance};
 
 use super::defect::Defect;
 use super::warning::MeshWarning;
+use super::weld::weld;
 use crate::scene::mesh::{Mesh, Triangle, duplicates, examine, rims, tiny_pieces, unify};
 
 /// Height over longest edge below which a triangle has no area: some thousand roundings.
@@ -16,8 +17,8 @@ const UNUSED: u32 = u32::MAX;
 /// to a closed mesh.
 const SMALL_HOLES: f64 = 0.1;
 
-/// Drops triangles without area, duplicates and unused vertices, turns triangles that disagree with
-/// their neighbours; gives the warnings.
+/// Joins corners that are one within the file's precision, drops triangles without area, duplicates and
+/// unused vertices, turns triangles that disagree with their neighbours; gives the warnings.
 pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWarning>, Defect> {
     let read = mesh.triangles.len();
     let mut degenerate = Noticed::default();
@@ -29,7 +30,17 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
     duplicate.drop_duplicates(mesh);
     // Edges are examined before flat triangles go: those join their neighbours all the same.
     let mut turned = Noticed::default();
-    if !examine(mesh).topology.is_consistently_wound() {
+    let mut topology = examine(mesh).topology;
+    let welded = if topology.open_edges > 0 {
+        weld(mesh, metres_per_unit)
+    } else {
+        None
+    };
+    if welded.is_some() {
+        duplicate.drop_duplicates(mesh);
+        topology = examine(mesh).topology;
+    }
+    if !topology.is_consistently_wound() {
         turned.turn(mesh);
     }
     let edges = edge_warnings(mesh);
@@ -42,6 +53,11 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
     mesh.vertices.shrink_to_fit();
 
     let mut warnings = Vec::new();
+    warnings.extend(welded.map(|weld| MeshWarning::WeldedCorners {
+        count: weld.corners,
+        apart: weld.apart / metres_per_unit,
+        near: weld.near,
+    }));
     let mut warn = |finding: Option<(usize, Point3<f64>)>, warning: fn(_, _) -> MeshWarning| {
         warnings.extend(finding.map(|(count, near)| warning(count, near)));
     };
