@@ -119,6 +119,7 @@
 
 // In reading order: a module builds on those above it.
 
+mod content;
 pub mod precision;
 pub mod units;
 

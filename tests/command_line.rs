@@ -640,7 +640,7 @@ fn settings_that_make_no_sense_are_refused() {
     with("speed=-3m/s", &["above 0"]);
     with("speed=1e300m/s", &["at most 10000 m/s"]);
     with("standoff=0mm", &["above 0"]);
-    with("aim_along=1e300m", &["at most 1 km"]);
+    with("aim_along=1e300m", &["at most 1000 m"]);
     with(
         "contact=oild",
         &["no contact `oild`", "did you mean `oiled`"],

@@ -420,7 +420,8 @@ fn a_binary_stl_must_hold_what_it_promises() {
         refused("stl", cut).1,
         Defect::WrongCount {
             promised: 12,
-            held: 2
+            held: 2,
+            rest: 16
         }
     );
     let mut promising = vec![0; 84];
@@ -429,7 +430,8 @@ fn a_binary_stl_must_hold_what_it_promises() {
         refused("stl", &promising).1,
         Defect::WrongCount {
             promised: 4_294_967_295,
-            held: 0
+            held: 0,
+            rest: 0
         }
     );
     let longer = [whole.as_slice(), &[0; 100]].concat();

@@ -228,6 +228,10 @@ listed! {
         MeshNoSuchVertex,
         /// Another number of triangles than promised.
         MeshWrongCount,
+        /// Bytes of a program's own between the triangles.
+        MeshVendorData,
+        /// A file of another kind under the name of a mesh.
+        MeshForeign,
         /// Something else than the format wants.
         MeshUnexpected,
         /// A mesh file cut short.

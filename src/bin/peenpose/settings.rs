@@ -266,9 +266,9 @@ pub fn parse(setting: Setting, text: &str) -> Result<f64, String> {
     } else {
         Err(match setting {
             Setting::Incidence => format!("`{text}` must be at least 0 deg and at most 90 deg"),
-            Setting::Standoff => format!("`{text}` must be above 0 mm and at most 1 km"),
+            Setting::Standoff => format!("`{text}` must be above 0 mm and at most 1000 m"),
             Setting::Speed => format!("`{text}` must be above 0 m/s and at most 10000 m/s"),
-            _ => format!("`{text}` must be at most 1 km"),
+            _ => format!("`{text}` must be at most 1000 m"),
         })
     }
 }

@@ -27,7 +27,7 @@ pub(in crate::problem) struct ShotEntry {
     #[serde(rename = "use")]
     #[schemars(with = "Field<form::MediumName>", example = &"S110")]
     pub medium: Field<String>,
-    /// Mean radius, 1 nm to 1 km; that of `use` where absent.
+    /// Mean radius, 0.001 um to 1000 m; that of `use` where absent.
     #[schemars(example = &"0.5 mm")]
     pub radius: Field<Length>,
     /// Density, 1 to 100000 kg/m3; that of `use` where absent.
@@ -42,7 +42,7 @@ pub(in crate::problem) struct ShotEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct JetEntry {
-    /// Diameter of the exit, 0 mm (a point) to 1 km.
+    /// Diameter of the exit, 0 mm (a point) to 1000 m.
     #[schemars(example = &"1.5 mm")]
     pub exit_diameter: Needed<Length>,
     /// Half-angle of the cone, 0 deg (a parallel jet) to below 90 deg.
@@ -113,7 +113,7 @@ pub(in crate::problem) enum SpreadEntry {
 pub(in crate::problem) struct NozzleEntry {
     /// Its pieces. Where absent, the disc of the exit, grown by the radius of a shot, takes the room.
     pub body: Field<Vec<Field<BodyEntry>>>,
-    /// Least distance to every surface, up to 1 km, for every pose within the [tolerance](#tolerance).
+    /// Least distance to every surface, up to 1000 m, for every pose within the [tolerance](#tolerance).
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub clearance: Field<Length>,
 }
@@ -138,7 +138,7 @@ impl BodyEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BallEntry {
-    /// Radius, 1 nm to 1 km.
+    /// Radius, 0.001 um to 1000 m.
     #[schemars(example = &"3 mm")]
     pub radius: Needed<Length>,
 }
@@ -147,10 +147,10 @@ pub(in crate::problem) struct BallEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct CapsuleEntry {
-    /// Length, 1 nm to 1 km.
+    /// Length, 0.001 um to 1000 m.
     #[schemars(example = &"60 mm")]
     pub length: Needed<Length>,
-    /// Radius, 1 nm to 1 km.
+    /// Radius, 0.001 um to 1000 m.
     #[schemars(example = &"2 mm")]
     pub radius: Needed<Length>,
     /// A fixed direction in the scene: a lance that keeps it whatever the jet does; back along the
@@ -215,7 +215,7 @@ pub(in crate::problem) enum RoleEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct CoverageEntry {
-    /// Diameter d of the dent that one hit leaves, as measured on a strip, 1 nm to 1 km.
+    /// Diameter d of the dent that one hit leaves, as measured on a strip, 0.001 um to 1000 m.
     #[schemars(example = &"0.2 mm")]
     pub dent_diameter: Needed<Length>,
     /// Share of the area that is to be dented, above 0 % and below 100 %.

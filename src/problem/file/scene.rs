@@ -70,16 +70,16 @@ impl PartEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct KeywayEntry {
-    /// Diameter of the bore, 1 nm to 1 km.
+    /// Diameter of the bore, 0.001 um to 1000 m.
     #[schemars(example = &"30 mm")]
     pub bore: Needed<Length>,
     /// Width of the groove, below `bore`.
     #[schemars(example = &"8 mm")]
     pub width: Needed<Length>,
-    /// Depth of the floor below the crown of the bore, 1 nm to 1 km.
+    /// Depth of the floor below the crown of the bore, 0.001 um to 1000 m.
     #[schemars(example = &"3.3 mm")]
     pub depth: Needed<Length>,
-    /// Length along z, 1 nm to 1 km.
+    /// Length along z, 0.001 um to 1000 m.
     #[schemars(example = &"40 mm")]
     pub length: Needed<Length>,
     /// Radius between floor and walls, at most half the width and at most the height of the
@@ -93,10 +93,10 @@ pub(in crate::problem) struct KeywayEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BoreEntry {
-    /// Diameter, 1 nm to 1 km.
+    /// Diameter, 0.001 um to 1000 m.
     #[schemars(example = &"12 mm")]
     pub diameter: Needed<Length>,
-    /// Length along z, 1 nm to 1 km.
+    /// Length along z, 0.001 um to 1000 m.
     #[schemars(example = &"48 mm")]
     pub length: Needed<Length>,
     /// Whether its ends are closed: both alike, or each on its own.
@@ -122,7 +122,7 @@ pub(in crate::problem) struct BoxEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ExtrudeEntry {
-    /// Length along z, 1 nm to 1 km.
+    /// Length along z, 0.001 um to 1000 m.
     #[schemars(example = &"40 mm")]
     pub length: Needed<Length>,
     /// Whether its ends are closed, as for `bore`. The outline must be closed where an end is.

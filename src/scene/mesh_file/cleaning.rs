@@ -4,6 +4,7 @@ use nalgebra::{Point3, center, distance};
 
 use super::defect::Defect;
 use super::warning::MeshWarning;
+use super::weld::weld;
 use crate::scene::mesh::{Mesh, Shells, Triangle, duplicates, examine, rims, tiny_pieces, unify};
 
 /// Height over longest edge below which a triangle has no area: some thousand roundings.
@@ -16,8 +17,9 @@ const UNUSED: u32 = u32::MAX;
 /// to a closed mesh.
 const SMALL_HOLES: f64 = 0.1;
 
-/// Drops triangles without area, duplicates and unused vertices, turns triangles that disagree with
-/// their neighbours and shells that are inside out; gives the warnings and the shells.
+/// Joins corners that are one within the file's precision, drops triangles without area, duplicates and
+/// unused vertices, turns triangles that disagree with their neighbours and shells that are inside out; gives
+/// the warnings and the shells.
 pub(super) fn clean(
     mesh: &mut Mesh,
     metres_per_unit: f64,
@@ -32,7 +34,17 @@ pub(super) fn clean(
     duplicate.drop_duplicates(mesh);
     // Edges are examined before flat triangles go: those join their neighbours all the same.
     let mut turned = Noticed::default();
-    if !examine(mesh).topology.is_consistently_wound() {
+    let mut topology = examine(mesh).topology;
+    let welded = if topology.open_edges > 0 {
+        weld(mesh, metres_per_unit)
+    } else {
+        None
+    };
+    if welded.is_some() {
+        duplicate.drop_duplicates(mesh);
+        topology = examine(mesh).topology;
+    }
+    if !topology.is_consistently_wound() {
         turned.turn(mesh);
     }
     let edges = edge_warnings(mesh);
@@ -47,6 +59,11 @@ pub(super) fn clean(
     let inside_out = shells.turn_inside_out(mesh);
 
     let mut warnings = Vec::new();
+    warnings.extend(welded.map(|weld| MeshWarning::WeldedCorners {
+        count: weld.corners,
+        apart: weld.apart / metres_per_unit,
+        near: weld.near,
+    }));
     let mut warn = |finding: Option<(usize, Point3<f64>)>, warning: fn(_, _) -> MeshWarning| {
         warnings.extend(finding.map(|(count, near)| warning(count, near)));
     };

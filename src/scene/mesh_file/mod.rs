@@ -1,37 +1,46 @@
 //! Reads triangle meshes from STL, OBJ and PLY files, and refuses or reports what is wrong with them.
 //!
 //! Coordinates keep all digits that the file has (f64 in text, f32 in binary STL). Vertices at
-//! exactly the same point become one, in every format. Surfaces come from the groups of an OBJ file
-//! (`g`, or `o` where the file has no `g`) or the solids of a text STL file, provided that there are
-//! several with different names; everything else belongs to the surface `all`.
+//! exactly the same point become one, in every format; at open edges also those that the file's
+//! precision does not tell apart. Surfaces come from the solids of a text STL file, or from the level
+//! of an OBJ file that tells its faces apart: the groups (`g`), else the objects (`o`), else the
+//! materials (`usemtl`). Everything else belongs to the surface `all`.
 
 mod assembly;
 mod cleaning;
+mod clusters;
 mod defect;
 mod fault;
 mod lines;
+mod mending;
 mod obj;
+mod obj_names;
 mod ply;
 mod ply_header;
 mod ply_numbers;
 mod polygon;
+mod precision;
 mod region;
 mod stl;
+mod stl_layout;
 mod stl_text;
 mod vertex_index;
 mod warning;
+mod weld;
 
 pub use defect::Defect;
 pub use fault::{MeshFault, Place};
+pub use mending::Mending;
 pub use warning::MeshWarning;
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::Path;
 
-use assembly::Assembly;
+use assembly::{Assembled, Assembly};
 
 use super::mesh::{Mesh, Shells};
+use crate::content::{Content, HEAD, Utf16};
 use crate::problem::fault::nearest_name;
 use crate::problem::part::Region;
 
@@ -95,8 +104,18 @@ pub(super) fn load(
 ) -> Result<Loaded, MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
     let found = || {
-        let mut mesh = parse(path, metres_per_unit)?;
-        let (warnings, shells) = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
+        let Assembled {
+            mut mesh,
+            mendings,
+            open_fault,
+        } = parse(path, metres_per_unit)?;
+        let mut warnings: Vec<_> = mendings.into_iter().map(MeshWarning::Mended).collect();
+        let (odd, shells) = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
+        let is_open = |warning: &MeshWarning| matches!(warning, MeshWarning::OpenEdges { .. });
+        if let Some(fault) = open_fault.filter(|_| odd.iter().any(is_open)) {
+            return Err(fault);
+        }
+        warnings.extend(odd);
         check_surfaces(&mesh.surfaces).map_err(whole)?;
         region::name_triangles(&mut mesh, metres_per_unit, regions).map_err(whole)?;
         Ok(Loaded {
@@ -124,18 +143,45 @@ fn check_surfaces(names: &[String]) -> Result<(), Defect> {
     }
 }
 
-fn parse(path: &Path, metres_per_unit: f64) -> Result<Mesh, MeshFault> {
+fn parse(path: &Path, metres_per_unit: f64) -> Result<Assembled, MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
     let (file, bytes) = open(path).map_err(whole)?;
     let format = Format::of(path).map_err(whole)?;
-    let source = BufReader::with_capacity(1 << 16, file);
+    let mut source = BufReader::with_capacity(1 << 16, file);
+    let head = head(&mut source).map_err(|error| whole(error.into()))?;
     let mut assembly = Assembly::new(metres_per_unit);
-    match format {
-        Format::Stl => stl::read(source, bytes, &mut assembly),
-        Format::Obj => obj::read(source, &mut assembly),
-        Format::Ply => ply::read(source, &mut assembly),
+    match Content::of(&head) {
+        _ if matches!(format, Format::Stl) && stl::is_binary(&head, bytes) => {
+            stl::read(&mut source, &head, bytes, &mut assembly)
+        }
+        Content::Foreign(foreign) => {
+            let told = foreign.to_string();
+            Err(whole(Defect::Foreign { told }))
+        }
+        Content::Plain if format.misnamed(&head, bytes).is_some() => {
+            let other = format.misnamed(&head, bytes).unwrap_or_default();
+            let told = format!("this is {other} file: give its name that ending");
+            Err(whole(Defect::Foreign { told }))
+        }
+        Content::Utf16(order) => {
+            assembly.mended(Mending::Utf16);
+            let mut source = BufReader::new(Utf16::new(source, order));
+            format.read_text(&mut source, &mut assembly)
+        }
+        Content::Plain if matches!(format, Format::Stl) && !stl::is_text(&head) => {
+            stl::read(&mut source, &head, bytes, &mut assembly)
+        }
+        Content::Plain => format.read_text(&mut source, &mut assembly),
     }?;
     assembly.finish().map_err(whole)
+}
+
+/// The first bytes of a file, which is then read from its beginning.
+fn head(source: &mut BufReader<File>) -> io::Result<Vec<u8>> {
+    let mut head = Vec::with_capacity(HEAD);
+    source.take(HEAD as u64).read_to_end(&mut head)?;
+    source.rewind()?;
+    Ok(head)
 }
 
 /// Opens a file of a bearable size.
@@ -154,6 +200,30 @@ fn open(path: &Path) -> Result<(File, u64), Defect> {
 }
 
 impl Format {
+    /// The format of a file that begins like this, where its name has the ending of another.
+    fn misnamed(self, head: &[u8], bytes: u64) -> Option<&'static str> {
+        let is_ply = head.starts_with(b"ply\n") || head.starts_with(b"ply\r");
+        let is_stl = || stl::is_binary(head, bytes) || stl::is_text(head);
+        match self {
+            Self::Stl | Self::Obj if is_ply => Some("a .ply"),
+            Self::Obj | Self::Ply if !is_ply && is_stl() => Some("an .stl"),
+            _ => None,
+        }
+    }
+
+    /// Reads a file that is not binary STL.
+    fn read_text(
+        self,
+        source: &mut impl BufRead,
+        assembly: &mut Assembly,
+    ) -> Result<(), MeshFault> {
+        match self {
+            Self::Stl => stl_text::read(source, assembly),
+            Self::Obj => obj::read(source, assembly),
+            Self::Ply => ply::read(source, assembly),
+        }
+    }
+
     fn of(path: &Path) -> Result<Self, Defect> {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         match ending.to_ascii_lowercase().as_str() {

@@ -10,7 +10,7 @@ fn mesh<const CORNERS: usize>(faces: &[[[f64; 3]; CORNERS]]) -> Mesh {
         let corners = face.map(|corner| assembly.vertex(corner).expect("it is near"));
         assembly.face(&corners, surface).expect("it is small");
     }
-    assembly.finish().expect("it has faces")
+    assembly.finish().expect("it has faces").mesh
 }
 
 /// A cube of side 1 with this lowest corner, whose fronts look inwards.
