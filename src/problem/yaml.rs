@@ -174,7 +174,7 @@ fn node(text: &str, raw: Spanned<Raw>) -> Node {
         Raw::Number => Value::Number(written()),
         Raw::Flag => Value::Text(written()),
         // YAML knows no other minus and no other blank than ASCII's.
-        Raw::Text(content) if is_plain(&written()) && parse_number(&content).is_some() => {
+        Raw::Text(content) if is_typeset(&content) && !is_quoted(&written()) => {
             Value::Number(content)
         }
         Raw::Text(content) => Value::Text(content),
@@ -203,10 +203,15 @@ fn node(text: &str, raw: Spanned<Raw>) -> Node {
     Node { value, span }
 }
 
-/// Whether a scalar stands without quotes, and with a sign or a blank of typesetters: what else YAML
-/// takes for text, such as `1_000`, is none of its numbers.
-fn is_plain(written: &str) -> bool {
-    !written.is_ascii() && !written.starts_with(['"', '\'', '|', '>', '!', '&'])
+/// Whether a text is a number with a sign or a blank of typesetters. What else YAML takes for text,
+/// such as `1_000`, is none.
+fn is_typeset(content: &str) -> bool {
+    !content.is_ascii() && parse_number(content).is_some()
+}
+
+/// Whether a scalar was written so that it is text whatever it holds.
+fn is_quoted(written: &str) -> bool {
+    written.starts_with(['"', '\'', '|', '>', '!', '&'])
 }
 
 /// Where a list or map ends: at its bracket, or with its last entry.

@@ -60,16 +60,8 @@ fn every_unit_leads_to_si() {
         (Dimension::Density, "7.8 g/cc", 7800.0),
         (Dimension::Density, "7.8 kg/dm³", 7800.0),
         // A pound on 28.316 846 592 l, and on 16.387 064 ml.
-        (
-            Dimension::Density,
-            "1 lb/ft3",
-            0.453_592_37 / 0.028_316_846_592,
-        ),
-        (
-            Dimension::Density,
-            "1 lb/in^3",
-            0.453_592_37 / 16.387_064e-6,
-        ),
+        (Dimension::Density, "1 lb/ft3", 16.018_463_373_960_138),
+        (Dimension::Density, "1 lb/in^3", 27_679.904_710_203_12),
         (Dimension::MassFlow, "6 kg/min", 0.1),
         (Dimension::MassFlow, "0.1 kg/s", 0.1),
         (Dimension::MassFlow, "100 g/s", 0.1),

@@ -80,8 +80,8 @@ fn unit_behind_list(text: &str, at: Span) -> Option<Fault> {
                 .split(',')
                 .map(|item| format!("{} {unit}", item.trim()))
                 .collect();
-            let mut fault = Fault::at_key(Rule::NotYaml, "", "units belong to each number")
-                .expecting(format!("`[{}]`", items.join(", ")));
+            let message = format!("units belong to each number: [{}]", items.join(", "));
+            let mut fault = Fault::at_key(Rule::NotYaml, "", message);
             let from = line.len() - rest.trim_start().len();
             let before = text.split_inclusive('\n').take(number - 1);
             let line_start: usize = before.map(str::len).sum();
