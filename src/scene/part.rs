@@ -1,5 +1,7 @@
 //! One part of the scene, ready for rays and distances.
 
+use std::path::PathBuf;
+
 use nalgebra::Vector3;
 
 use super::Walls;
@@ -12,6 +14,7 @@ use super::ray::{Crossing, Ray, Spot};
 use super::rays::{Hits, Rays};
 use super::tessellate;
 use crate::precision::Real;
+use crate::printable;
 use crate::problem::fault::Fault;
 use crate::problem::part::{Ends, Part, Shape};
 
@@ -59,11 +62,22 @@ fn tells_nothing_about_fronts(warning: &MeshWarning) -> bool {
     )
 }
 
+/// A mesh file as it was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshSource {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
+}
+
 /// The geometry of a part before its surfaces are numbered.
 pub(super) struct Geometry {
     pub mesh: Mesh,
     /// What the reader of a mesh file noticed.
     pub warnings: Vec<String>,
+    /// The file that it was read from.
+    pub file: Option<MeshSource>,
     fronts: Fronts,
     prism: Option<(Profile, f64, Ends)>,
 }
@@ -75,6 +89,7 @@ impl Geometry {
     /// The geometry of a part in its place.
     pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
         let mut warnings = Vec::new();
+        let mut file = None;
         let (mesh, prism) = match &part.shape {
             Shape::Keyway(keyway) => prismatic(
                 Profile::keyway(keyway),
@@ -98,23 +113,31 @@ impl Geometry {
                 metres_per_unit,
                 regions,
             } => {
-                let (mesh, found) =
-                    mesh_file::read(path, *metres_per_unit, regions).map_err(|fault| {
-                        let key = match fault.defect.region() {
-                            Some(region) => format!("scene.{}.regions.{region}", part.name),
-                            None => format!("scene.{}.mesh", part.name),
-                        };
-                        Fault::at_key(fault.defect.rule(), key, fault.to_string())
-                    })?;
+                let read = mesh_file::read_with_checksum(path, *metres_per_unit, regions);
+                let (mesh, found, sha256) = read.map_err(|fault| {
+                    let key = match fault.defect.region() {
+                        Some(region) => format!("scene.{}.regions.{region}", part.name),
+                        None => format!("scene.{}.mesh", part.name),
+                    };
+                    Fault::at_key(fault.defect.rule(), key, fault.to_string())
+                })?;
                 warnings = found;
+                file = Some(MeshSource {
+                    path: path.clone(),
+                    sha256,
+                });
                 (mesh, None)
             }
         };
-        let named = |warning| format!("part `{}`: {warning}", part.name);
+        let named = |warning| {
+            let text = format!("part `{}`: {warning}", part.name);
+            printable::line(&text).into_owned()
+        };
         Ok(Self {
             mesh: tessellate::placed(mesh, &part.place),
             fronts: Fronts::of(&warnings),
             warnings: warnings.iter().map(named).collect(),
+            file,
             prism,
         })
     }

@@ -3,10 +3,10 @@
 use std::process::ExitCode;
 use std::time::Instant;
 
+use peenpose::problem::given;
 use peenpose::record::{Circumstances, FrontRecord, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
 use peenpose::solve::{Control, front, passing_windows, solve};
-use peenpose::units::{self, Dimension};
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 
@@ -14,6 +14,7 @@ use crate::args::SolveArgs;
 use crate::kept;
 use crate::output::{self, Failure, quoted};
 use crate::progress::Watcher;
+use crate::result;
 use crate::start;
 
 /// Solves a problem file and reports the answer.
@@ -21,7 +22,8 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     let (mut setup, source) = start::load(&args.start, &args.file, args.out.as_deref())?;
     if let Some(accuracy) = &args.accuracy {
-        setup.problem.accuracy = accuracy_of(accuracy)?;
+        setup.problem.accuracy =
+            given::accuracy(accuracy).map_err(|fault| format!("--accuracy: {fault}"))?;
     }
     let checkpoint = kept::open(args.checkpoint.as_deref(), &setup)?;
     let watcher = Watcher::new(args.start.quiet);
@@ -81,7 +83,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     if args.out.is_some() {
         record = record.with_evidence(&setup, best);
     }
-    output::record(&record, args.json, args.out.as_deref())
+    result::report(&record, args.json, args.out.as_deref())
 }
 
 /// The command that gives the same answer again.
@@ -93,16 +95,4 @@ fn command(args: &SolveArgs, setup: &Setup) -> String {
         setup.problem.accuracy * 100.0,
         setup.problem.seed
     )
-}
-
-fn accuracy_of(text: &str) -> Result<f64, String> {
-    let accuracy =
-        units::parse(Dimension::Fraction, text).map_err(|fault| format!("--accuracy: {fault}"))?;
-    if accuracy > 0.0 && accuracy < 1.0 {
-        Ok(accuracy)
-    } else {
-        Err(format!(
-            "--accuracy: `{text}` must lie between 0 and 100 %, such as `1 %`"
-        ))
-    }
 }

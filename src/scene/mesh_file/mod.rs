@@ -26,7 +26,7 @@ pub use fault::{MeshFault, Place};
 pub use warning::MeshWarning;
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 use assembly::Assembly;
@@ -34,6 +34,7 @@ use assembly::Assembly;
 use super::mesh::Mesh;
 use crate::problem::fault::nearest_name;
 use crate::problem::part::Region;
+use crate::problem::sha256;
 
 /// Bytes of the largest file that is read.
 pub const LARGEST_FILE: u64 = 1_000_000_000;
@@ -76,13 +77,26 @@ pub fn read(
     metres_per_unit: f64,
     regions: &[Region],
 ) -> Result<(Mesh, Vec<MeshWarning>), MeshFault> {
+    let (mesh, warnings, _) = read_with_checksum(path, metres_per_unit, regions)?;
+    Ok((mesh, warnings))
+}
+
+/// The same, and the SHA-256 of the very bytes that the mesh was made of, in hexadecimal digits.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_with_checksum(
+    path: &Path,
+    metres_per_unit: f64,
+    regions: &[Region],
+) -> Result<(Mesh, Vec<MeshWarning>, String), MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
     let found = || {
-        let mut mesh = parse(path, metres_per_unit)?;
+        let (mut mesh, checksum) = parse(path, metres_per_unit)?;
         let warnings = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
         check_surfaces(&mesh.surfaces).map_err(whole)?;
         region::name_triangles(&mut mesh, metres_per_unit, regions).map_err(whole)?;
-        Ok((mesh, warnings))
+        Ok((mesh, warnings, checksum))
     };
     found().map_err(|fault: MeshFault| fault.in_file(path))
 }
@@ -103,22 +117,25 @@ fn check_surfaces(names: &[String]) -> Result<(), Defect> {
     }
 }
 
-fn parse(path: &Path, metres_per_unit: f64) -> Result<Mesh, MeshFault> {
+fn parse(path: &Path, metres_per_unit: f64) -> Result<(Mesh, String), MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
-    let (file, bytes) = open(path).map_err(whole)?;
+    let source = open(path).map_err(whole)?;
     let format = Format::of(path).map_err(whole)?;
-    let source = BufReader::with_capacity(1 << 16, file);
+    let bytes = source.get_ref().len() as u64;
+    let checksum = sha256(source.get_ref());
     let mut assembly = Assembly::new(metres_per_unit);
     match format {
         Format::Stl => stl::read(source, bytes, &mut assembly),
         Format::Obj => obj::read(source, &mut assembly),
         Format::Ply => ply::read(source, &mut assembly),
     }?;
-    assembly.finish().map_err(whole)
+    let mesh = assembly.finish().map_err(whole)?;
+    Ok((mesh, checksum))
 }
 
-/// Opens a file of a bearable size.
-fn open(path: &Path) -> Result<(File, u64), Defect> {
+/// Reads a file of a bearable size, once: what is parsed is what the checksum is of, whoever writes to the
+/// file meanwhile.
+fn open(path: &Path) -> Result<Cursor<Vec<u8>>, Defect> {
     let about = std::fs::metadata(path)?;
     if !about.is_file() {
         return Err(Defect::Unreadable {
@@ -128,7 +145,15 @@ fn open(path: &Path) -> Result<(File, u64), Defect> {
     match about.len() {
         0 => Err(Defect::Empty),
         bytes if bytes > LARGEST_FILE => Err(Defect::TooLarge { bytes }),
-        bytes => Ok((File::open(path)?, bytes)),
+        bytes => {
+            let mut contents = Vec::with_capacity(bytes as usize);
+            let file = File::open(path)?;
+            match file.take(LARGEST_FILE + 1).read_to_end(&mut contents)? {
+                0 => Err(Defect::Empty),
+                read if read as u64 > LARGEST_FILE => Err(Defect::TooLarge { bytes: read as u64 }),
+                _ => Ok(Cursor::new(contents)),
+            }
+        }
     }
 }
 
