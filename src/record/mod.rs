@@ -40,12 +40,13 @@ pub use window::{DriftRecord, WindowRecord};
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 
 use crate::coverage::Coverage;
 use crate::evidence::{Evidence, SHOTS};
-use crate::map::standard_maps;
+use crate::map::{Control, standard_maps_until};
 use crate::printable;
 use crate::problem::Source;
 use crate::scene::MeshSource;
@@ -251,12 +252,23 @@ impl Record {
     /// of the answers behind it.
     #[must_use]
     pub fn with_evidence(self, setup: &Setup, best: &Answer) -> Self {
+        self.with_evidence_until(setup, best, &AtomicBool::new(false))
+    }
+
+    /// The same without the maps of which nothing is known when `stop` is set, and with blanks in the others.
+    #[must_use]
+    pub fn with_evidence_until(self, setup: &Setup, best: &Answer, stop: &AtomicBool) -> Self {
         let fits = best.evaluation.is_some();
         let shots = if fits { SHOTS } else { 0 };
         let shown = Evidence::of(setup, &best.choice, shots);
         let mut evidence = EvidenceRecord::new(setup, &best.choice, &shown);
-        let maps = standard_maps(setup, &best.choice);
-        evidence.maps = maps.iter().map(|map| MapRecord::new(setup, map)).collect();
+        let control = Control {
+            stop,
+            ..Control::default()
+        };
+        let maps = standard_maps_until(setup, &best.choice, &control);
+        let maps = maps.iter().map(|map| MapRecord::new(setup, map));
+        evidence.maps = maps.filter(|map| map.known_places() > 0).collect();
         Self {
             evidence: Some(evidence),
             ..self

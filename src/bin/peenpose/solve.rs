@@ -1,12 +1,13 @@
 //! `peenpose solve`: the main job.
 
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use peenpose::problem::given;
 use peenpose::record::{Circumstances, FrontRecord, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, front, passing_windows, solve};
+use peenpose::solve::{Control, front, passing_windows_until, solve};
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 
@@ -41,7 +42,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let is_stopped = control.is_stopped();
     watcher.finish();
     kept::close(checkpoint.as_ref(), args.start.quiet);
-    let windows = passing_windows(&setup, &solution);
+    let windows = passing_windows_until(&setup, &solution, &watcher.late);
     if is_stopped {
         output::note("stopped: this is the best answer so far");
     }
@@ -51,7 +52,10 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         .ok_or("there is no contact to choose".to_owned())?;
     let notes = validity::notes(&setup, &best.choice, best.evaluation.as_ref());
     let fits = best.evaluation.is_some();
-    let unknowns = fits.then(|| Unknowns::of(&setup, &best.choice)).flatten();
+    let has_time = !watcher.late.load(Ordering::Relaxed);
+    let unknowns = (fits && has_time)
+        .then(|| Unknowns::of(&setup, &best.choice))
+        .flatten();
     let circumstances = Circumstances {
         source: &source,
         status: if is_stopped {
@@ -81,7 +85,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         record.front = FrontRecord::all(&setup, front);
     }
     if args.out.is_some() {
-        record = record.with_evidence(&setup, best);
+        record = record.with_evidence_until(&setup, best, &watcher.late);
     }
     result::report(&record, args.json, args.out.as_deref())
 }

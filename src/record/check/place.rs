@@ -57,7 +57,11 @@ impl Place {
     /// A number that is not too small.
     pub fn at_least(&self, value: f64, min: f64) -> Outcome {
         self.holds_or(value >= min && value.is_finite(), || {
-            format!("is {value}; expected a number from {min}")
+            if min > 0.0 {
+                format!("is {value}; expected a number above 0")
+            } else {
+                format!("is {value}; expected a number from {min}")
+            }
         })
     }
 

@@ -10,12 +10,12 @@ pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
         ("shot_radius_m", it.shot_radius_m),
         ("shot_density_kg_m3", it.shot_density_kg_m3),
         ("shot_mass_kg", it.shot_mass_kg),
-        ("exit_diameter_m", it.exit_diameter_m),
         ("goals.normal_impulse_N_s", it.goals.normal_impulse),
     ] {
         at.of(key).at_least(value, f64::MIN_POSITIVE)?;
     }
     for (key, value) in [
+        ("exit_diameter_m", it.exit_diameter_m),
         ("size_spread", it.size_spread),
         ("divergence_deg", it.divergence_deg),
         ("speed_spread", it.speed_spread),
