@@ -88,6 +88,7 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`precision`] | the two precisions that paths can be traced in |
+//! | [`printable`] | text from elsewhere, made safe to show |
 //! | [`units`] | `0.5 mm` to SI: the only conversions |
 //! | [`impact`] | one impact of a sphere on a surface: the contact laws |
 //! | [`problem`] | what was asked: problem files, their schema, the library, and the faults of a check |
@@ -121,6 +122,7 @@
 
 mod content;
 pub mod precision;
+pub mod printable;
 pub mod units;
 
 pub mod impact;

@@ -2,7 +2,7 @@
 
 mod standard;
 
-pub use standard::standard_maps;
+pub use standard::{standard_maps, standard_maps_until};
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::impact::Contact;
+use crate::printable;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
 use crate::problem::model::{Effect, Model};
@@ -202,7 +203,7 @@ impl Rejection {
             None => self
                 .faults
                 .iter()
-                .map(|fault| format!("error: {fault}\n"))
+                .map(|fault| format!("error: {}\n", printable::line(&fault.to_string())))
                 .collect(),
         }
     }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::library::{LibraryContactRecord, MediumRecord};
 use super::window::key_and_unit;
+use crate::printable;
 use crate::problem::equipment::Spread;
 use crate::problem::setting::{Range, Setting};
 use crate::problem::{Problem, Source};
@@ -124,7 +125,7 @@ impl QuestionRecord {
         let (goals, tolerance) = (&problem.goals, &problem.tolerance);
         Self {
             title: problem.title.clone(),
-            file: source.path.display().to_string(),
+            file: printable::line(&source.path.display().to_string()).into_owned(),
             shot_radius_m: problem.shot.radius,
             shot_density_kg_m3: problem.shot.density,
             shot_mass_kg: problem.shot.mass(),

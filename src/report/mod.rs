@@ -15,7 +15,7 @@ mod sheet;
 pub mod table;
 
 pub use chart::chart;
-pub use files::files;
+pub use files::{files, names};
 pub use library::library;
 pub use map::{MapView, map};
 pub use page::{PageFault, page};

@@ -1,5 +1,6 @@
 //! One part of the scene, ready for rays and distances.
 
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use nalgebra::{Point3, Vector3};
@@ -15,6 +16,7 @@ use super::rays::{Hits, Rays};
 use super::tessellate;
 use super::winding::Winding;
 use crate::precision::Real;
+use crate::printable;
 use crate::problem::fault::Fault;
 use crate::problem::part::{Ends, Part, Place, Shape};
 
@@ -59,11 +61,22 @@ pub(super) enum FreeSide {
     Either,
 }
 
+/// A mesh file as it was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshSource {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
+}
+
 /// The geometry of a part before its surfaces are numbered.
 pub(super) struct Geometry {
     pub mesh: Mesh,
     /// What the reader of a mesh file noticed.
     pub warnings: Vec<String>,
+    /// The file that it was read from.
+    pub file: Option<MeshSource>,
     free: FreeSide,
     shells: Option<Shells>,
     prism: Option<(Profile, f64, Ends)>,
@@ -76,6 +89,7 @@ impl Geometry {
     /// The geometry of a part in its place.
     pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
         let mut warnings = Vec::new();
+        let mut file = None;
         let mut shells = None;
         let free = match &part.shape {
             Shape::Bore { .. } => FreeSide::Round,
@@ -113,6 +127,10 @@ impl Geometry {
                 })?;
                 warnings = loaded.warnings;
                 shells = Some(loaded.shells);
+                file = Some(MeshSource {
+                    path: path.clone(),
+                    sha256: loaded.sha256,
+                });
                 (loaded.mesh, None)
             }
         };
@@ -122,12 +140,16 @@ impl Geometry {
         } else {
             free
         };
-        let named = |warning| format!("part `{}`: {warning}", part.name);
+        let named = |warning| {
+            let text = format!("part `{}`: {warning}", part.name);
+            printable::line(&text).into_owned()
+        };
         Ok(Self {
             mesh: tessellate::placed(mesh, &part.place),
             free,
             shells,
             warnings: warnings.iter().map(named).collect(),
+            file,
             prism,
         })
     }

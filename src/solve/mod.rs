@@ -28,7 +28,7 @@ pub use front::{Front, front};
 pub use judge::{Effort, Standing};
 pub use ladder::{Ladder, Rung};
 pub use risks::{Risks, risks};
-pub use window::{Drift, Turn, Window, passing_windows, windows};
+pub use window::{Drift, Turn, Window, passing_windows, passing_windows_until, windows};
 
 use rayon::prelude::*;
 
@@ -126,12 +126,12 @@ fn agree(
     control: &Control,
     effort: &Effort,
 ) -> Vec<Claim> {
-    let mut claims = models.claims(searches, shots);
+    let mut claims = models.claims(searches, shots, control);
     while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
         let all: Vec<usize> = (0..searches.len()).collect();
         let stage = Stage::beyond(shots);
         refine(models, searches, &all, &stage, control, effort);
-        claims = models.claims(searches, shots);
+        claims = models.claims(searches, shots, control);
     }
     claims
 }
@@ -172,8 +172,13 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         .par_iter()
         .map(|&contact| Search::screen(&models.searched, contact, &judge))
         .collect();
-    models.choose_precision(&searches, effort, control);
+    if !control.is_stopped() {
+        models.choose_precision(&searches, effort, control);
+    }
     for (index, stage) in stages.into_iter().enumerate() {
+        if control.is_stopped() {
+            break;
+        }
         let before = searches.clone();
         if index > 0 {
             models.focus_on_harm(&searches, effort, control);
@@ -188,14 +193,14 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         if index == 0 {
             models.climb(&mut searches, effort, control);
         } else if stage.shots < most_shots {
-            let mut claims = models.claims(&searches, stage.shots);
+            let mut claims = models.claims(&searches, stage.shots, control);
             // What was found without effects that matter leads astray: once more from where it began.
             while !control.is_stopped() && models.put_back(&mut searches, &claims, effort, control)
             {
                 let carried = |search: &Search| search.carried_over(&models.searched);
                 searches = before.iter().map(carried).collect();
                 advance(models, &mut searches, stage, control, effort);
-                claims = models.claims(&searches, stage.shots);
+                claims = models.claims(&searches, stage.shots, control);
             }
             if is_set_exactly && models.are_sharp(&searches, stage.shots, effort) {
                 return (searches, stage.shots);

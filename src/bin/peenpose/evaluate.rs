@@ -14,7 +14,8 @@ use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 
 use crate::args::EvaluateArgs;
-use crate::output::{self, Failure, quoted};
+use crate::output::{Failure, quoted};
+use crate::result;
 use crate::settings::{self, Earlier};
 use crate::start;
 
@@ -25,7 +26,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let from = args
         .from
         .as_deref()
-        .map(|path| Earlier::read(path, &setup.problem, args.start.quiet))
+        .map(|path| Earlier::read(path, &setup, &source, args.start.quiet))
         .transpose()?;
     let setup = setup.as_asked();
     let choice = settings::choice(&args.set, from.as_ref(), &setup.problem)?;
@@ -53,7 +54,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     if args.out.is_some() {
         record = record.with_evidence(&setup, &answers[0]);
     }
-    output::record(&record, args.json, args.out.as_deref())
+    result::report(&record, args.json, args.out.as_deref())
 }
 
 /// The command that gives the same figures again.

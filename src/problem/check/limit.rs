@@ -7,8 +7,8 @@ use crate::problem::rule::Rule;
 /// An interval of allowed values in SI.
 ///
 /// The outermost ends are far beyond any workshop; they keep masses and squares computable.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Limit {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limit {
     min: f64,
     max: f64,
     /// Whether `max` itself is too large.

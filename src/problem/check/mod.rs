@@ -8,7 +8,7 @@ mod contacts;
 mod coordinates;
 mod goals;
 mod library;
-mod limit;
+pub(in crate::problem) mod limit;
 mod mesh;
 mod model;
 mod nozzle;
@@ -33,6 +33,7 @@ use super::file::settings::SolveEntry;
 use super::file::{FORMAT, ProblemFile};
 use super::part::{Part, Target};
 use super::rule::Rule;
+use crate::printable;
 use coordinates::Coordinates;
 use limit::Limit;
 use scope::Scope;
@@ -124,7 +125,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         format?;
         let (accuracy, seed) = solve?;
         Some(Problem {
-            title: title?,
+            title: printable::line(&title?).into_owned(),
             parts: parts?,
             target: target.clone()?,
             shot: shot?,

@@ -17,7 +17,7 @@ pub fn block(record: &Record) -> Option<Block> {
         ("J", Align::Right),
         ("best settings move", Align::Left),
         ("costing", Align::Right),
-        ("time", Align::Right),
+        ("rays", Align::Right),
         ("turns", Align::Left),
         ("search", Align::Left),
     ]);
@@ -31,7 +31,7 @@ pub fn block(record: &Record) -> Option<Block> {
             } else {
                 "0".into()
             },
-            format!("{} %", fixed(effect.relative_time * 100.0, 0)),
+            format!("{} %", fixed(effect.relative_rays * 100.0, 0)),
             turns(effect),
             if effect.left_out { "without" } else { "with" }.into(),
         ]);

@@ -34,7 +34,7 @@ pub use mending::Mending;
 pub use warning::MeshWarning;
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Seek};
+use std::io::{BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 
 use assembly::{Assembled, Assembly};
@@ -43,6 +43,7 @@ use super::mesh::{Mesh, Shells};
 use crate::content::{Content, HEAD, Utf16};
 use crate::problem::fault::nearest_name;
 use crate::problem::part::Region;
+use crate::problem::sha256;
 
 /// Bytes of the largest file that is read.
 pub const LARGEST_FILE: u64 = 1_000_000_000;
@@ -94,9 +95,11 @@ pub(super) struct Loaded {
     pub mesh: Mesh,
     pub warnings: Vec<MeshWarning>,
     pub shells: Shells,
+    /// SHA-256 of the very bytes that the mesh was made of, in hexadecimal digits.
+    pub sha256: String,
 }
 
-/// The same with the shells of the mesh.
+/// The same with the shells of the mesh and the checksum of the file.
 pub(super) fn load(
     path: &Path,
     metres_per_unit: f64,
@@ -104,11 +107,12 @@ pub(super) fn load(
 ) -> Result<Loaded, MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
     let found = || {
+        let (assembled, sha256) = parse(path, metres_per_unit)?;
         let Assembled {
             mut mesh,
             mendings,
             open_fault,
-        } = parse(path, metres_per_unit)?;
+        } = assembled;
         let mut warnings: Vec<_> = mendings.into_iter().map(MeshWarning::Mended).collect();
         let (odd, shells) = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
         let is_open = |warning: &MeshWarning| matches!(warning, MeshWarning::OpenEdges { .. });
@@ -122,6 +126,7 @@ pub(super) fn load(
             mesh,
             warnings,
             shells,
+            sha256,
         })
     };
     found().map_err(|fault: MeshFault| fault.in_file(path))
@@ -143,12 +148,13 @@ fn check_surfaces(names: &[String]) -> Result<(), Defect> {
     }
 }
 
-fn parse(path: &Path, metres_per_unit: f64) -> Result<Assembled, MeshFault> {
+fn parse(path: &Path, metres_per_unit: f64) -> Result<(Assembled, String), MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
-    let (file, bytes) = open(path).map_err(whole)?;
+    let mut source = open(path).map_err(whole)?;
     let format = Format::of(path).map_err(whole)?;
-    let mut source = BufReader::with_capacity(1 << 16, file);
-    let head = head(&mut source).map_err(|error| whole(error.into()))?;
+    let bytes = source.get_ref().len() as u64;
+    let sha256 = sha256(source.get_ref());
+    let head = source.get_ref()[..source.get_ref().len().min(HEAD)].to_vec();
     let mut assembly = Assembly::new(metres_per_unit);
     match Content::of(&head) {
         _ if matches!(format, Format::Stl) && stl::is_binary(&head, bytes) => {
@@ -173,19 +179,13 @@ fn parse(path: &Path, metres_per_unit: f64) -> Result<Assembled, MeshFault> {
         }
         Content::Plain => format.read_text(&mut source, &mut assembly),
     }?;
-    assembly.finish().map_err(whole)
+    let assembled = assembly.finish().map_err(whole)?;
+    Ok((assembled, sha256))
 }
 
-/// The first bytes of a file, which is then read from its beginning.
-fn head(source: &mut BufReader<File>) -> io::Result<Vec<u8>> {
-    let mut head = Vec::with_capacity(HEAD);
-    source.take(HEAD as u64).read_to_end(&mut head)?;
-    source.rewind()?;
-    Ok(head)
-}
-
-/// Opens a file of a bearable size.
-fn open(path: &Path) -> Result<(File, u64), Defect> {
+/// Reads a file of a bearable size, once: what is parsed is what the checksum is of, whoever writes to the
+/// file meanwhile.
+fn open(path: &Path) -> Result<Cursor<Vec<u8>>, Defect> {
     let about = std::fs::metadata(path)?;
     if !about.is_file() {
         return Err(Defect::Unreadable {
@@ -195,7 +195,15 @@ fn open(path: &Path) -> Result<(File, u64), Defect> {
     match about.len() {
         0 => Err(Defect::Empty),
         bytes if bytes > LARGEST_FILE => Err(Defect::TooLarge { bytes }),
-        bytes => Ok((File::open(path)?, bytes)),
+        bytes => {
+            let mut contents = Vec::with_capacity(bytes as usize);
+            let file = File::open(path)?;
+            match file.take(LARGEST_FILE + 1).read_to_end(&mut contents)? {
+                0 => Err(Defect::Empty),
+                read if read as u64 > LARGEST_FILE => Err(Defect::TooLarge { bytes: read as u64 }),
+                _ => Ok(Cursor::new(contents)),
+            }
+        }
     }
 }
 
