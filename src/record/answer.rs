@@ -162,6 +162,18 @@ pub struct VerdictRecord {
 }
 
 impl AnswerRecord {
+    /// The least distance between nozzle and part, m, with the worst errors where there is a tolerance.
+    pub fn least_clearance(&self) -> Option<f64> {
+        self.clearance_within_tolerance_m.or(self.clearance_m)
+    }
+
+    /// Whether that is less than wanted, by more than its rounding.
+    pub fn is_too_near(&self) -> bool {
+        let wanted = self.clearance_wanted_m;
+        let least = wanted - 1e-6 * wanted.max(1e-3);
+        self.least_clearance().is_some_and(|gap| gap < least)
+    }
+
     /// The record of an answer.
     pub fn new(setup: &Setup, answer: &Answer) -> Self {
         let choice = &answer.choice;

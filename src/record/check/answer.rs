@@ -28,8 +28,9 @@ pub(super) fn check(at: &Place, it: &AnswerRecord, record: &Record) -> Outcome {
     if let Some(objective) = &it.objective {
         self::objective(&at.of("objective"), objective)?;
     } else {
+        let are_of_pose = it.verdicts.iter().all(verdict::is_of_pose);
         at.of("verdicts")
-            .holds(it.verdicts.is_empty(), "are given without any shot")?;
+            .holds(are_of_pose, "are given without any shot")?;
     }
     if let Some(target) = &it.target {
         self::target(&at.of("target"), target, it.shots)?;
@@ -121,16 +122,12 @@ fn clearance(at: &Place, it: &AnswerRecord) -> Outcome {
         is_whole,
         "belongs to `clearance_m`, but only one of them is there",
     )?;
-    match it.clearance_m {
-        Some(gap) if it.feasible => {
+    at.of("feasible")
+        .holds_or(!(it.feasible && it.is_too_near()), || {
             let wanted = it.clearance_wanted_m;
-            at.of("feasible")
-                .holds_or(gap >= wanted - 1e-9 * wanted.max(1e-3), || {
-                    format!("is true, but the clearance is {gap} m of {wanted} m")
-                })
-        }
-        _ => Ok(()),
-    }
+            let gap = it.least_clearance().unwrap_or(wanted);
+            format!("is true, but the clearance is {gap} m of {wanted} m")
+        })
 }
 
 /// J is the sum of its terms.

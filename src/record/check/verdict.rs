@@ -10,10 +10,34 @@ pub(super) fn all(at: &Place, answer: &AnswerRecord) -> Outcome {
         let same = |other: &VerdictRecord| other.subject == verdict.subject;
         let is_new = !answer.verdicts[..index].iter().any(same);
         at.of("subject").holds(is_new, "has a verdict already")?;
-        alone(&at, verdict, answer.shots == 1)?;
-        beside(&at, verdict, answer)?;
+        alone(&at, verdict, answer.shots == 1 || is_of_pose(verdict))?;
+        if is_of_pose(verdict) {
+            of_pose(&at, verdict, answer)?;
+        } else {
+            beside(&at, verdict, answer)?;
+        }
     }
-    Ok(())
+    let mut of_pose = answer.verdicts.iter().filter(|it| is_of_pose(it));
+    let agrees = of_pose.clone().count() == 0 || of_pose.all(|it| it.passes) == answer.feasible;
+    at.holds(agrees, "on the nozzle contradict `feasible`")
+}
+
+/// Subjects of the verdicts on the nozzle, which count no shots.
+const OF_POSE: [&str; 2] = ["clearance", "free_space"];
+
+/// Whether a verdict is on the nozzle.
+pub(super) fn is_of_pose(it: &VerdictRecord) -> bool {
+    OF_POSE.contains(&it.subject.as_str())
+}
+
+/// A verdict on the nozzle: kept or not, and the clearance tells which.
+fn of_pose(at: &Place, it: &VerdictRecord, answer: &AnswerRecord) -> Outcome {
+    at.of("counted").holds(it.counted == 1, "is not 1")?;
+    at.of("allowed").holds(it.allowed == 0.0, "is not 0")?;
+    let is_near = answer.is_too_near();
+    let is_hidden = it.subject != "clearance" || !is_near || !it.passes;
+    at.of("passes")
+        .holds(is_hidden, "is true, but the nozzle is nearer than it may be")
 }
 
 /// A verdict by itself.
