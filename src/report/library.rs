@@ -51,26 +51,32 @@ fn contacts(sources: &mut Sources) -> Block {
         ("mu_d", Align::Right),
         ("from", Align::Left),
         ("restitution", Align::Right),
+        ("at m/s", Align::Right),
+        ("from", Align::Left),
+        ("exponent", Align::Right),
         ("from", Align::Left),
     ]);
     for contact in media::contacts() {
         let mut cells = vec![contact.name.to_owned()];
-        for number in [
-            &contact.static_friction,
-            &contact.dynamic_friction,
-            &contact.restitution,
-        ] {
-            cells.push(plain(number.value));
-            cells.push(sources.cited(number));
+        for number in [&contact.static_friction, &contact.dynamic_friction] {
+            cells.extend([plain(number.value), sources.cited(number)]);
         }
+        // The speed is part of what was measured, from the same source.
+        let restitution = &contact.restitution;
+        cells.extend([restitution, &contact.restitution_speed].map(|it| plain(it.value)));
+        cells.push(sources.cited(restitution));
+        let exponent = &contact.restitution_exponent;
+        cells.extend([plain(exponent.value), sources.cited(exponent)]);
         table.row(cells);
     }
     block.table(table);
     block.paragraph(
         "In a problem file: contacts: { use: [steel-on-steel-dry, steel-on-steel-oiled] }, or \
          contacts: { dry: { use: steel-on-steel-dry, restitution: 0.5 } }, where keys beside use go \
-         before the library's. Friction depends on surfaces and lubricants, restitution on speed \
-         and hardness: measure them if you can, and give a tolerance for them if you cannot.",
+         before the library's. Restitution was measured at a low normal speed and falls beyond it: \
+         restitution x (speed / at)^(-exponent), as a problem file would write it { value: 0.71, at: \
+         4.43 m/s, exponent: 0.25 }. Friction depends on surfaces and lubricants, restitution on \
+         speed and hardness: measure them if you can, and give a tolerance for them if you cannot.",
     );
     block
 }

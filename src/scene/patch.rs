@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Scene;
+use super::{SLACK, Scene};
 use super::ray::Hit;
 use crate::problem::fault::Fault;
 use crate::problem::part::Target;
@@ -15,6 +15,10 @@ pub struct Patch {
     pub surface: u32,
     /// Only this box of it.
     pub within: Option<(Point3<f64>, Point3<f64>)>,
+    /// How far outside its box a place may be by rounding, m.
+    slack: f64,
+    /// What paths in f64 may be off by rounding, m.
+    rounding: f64,
     /// Where the settings are measured from.
     pub frame: Frame,
     /// Area of the patch, m2.
@@ -44,7 +48,16 @@ impl Patch {
     /// Whether a place on its surface belongs to it.
     #[inline]
     pub fn covers(&self, point: &Point3<f64>) -> bool {
-        self.within.is_none_or(|limits| inside(point, &limits))
+        self.reach(1.0)
+            .is_none_or(|limits| inside(point, &limits))
+    }
+
+    /// The box in which hits count that were found this many times as coarsely as in f64. Rounding must
+    /// not lose those in its faces, where a part often ends.
+    #[inline]
+    pub fn reach(&self, coarseness: f64) -> Option<(Point3<f64>, Point3<f64>)> {
+        let slack = self.slack.max(self.rounding * coarseness);
+        self.within.map(|limits| widened(limits, slack))
     }
 
     /// The triangles of its surface, cut along the faces of its box: those that belong to it, and
@@ -56,7 +69,7 @@ impl Patch {
         };
         let (mut inside, mut outside) = (Vec::new(), Vec::new());
         for triangle in triangles {
-            let (within, beyond) = split(&triangle, limits);
+            let (within, beyond) = split(&triangle, limits, self.slack);
             if within.len() < 3 {
                 outside.push(triangle);
             } else {
@@ -89,9 +102,10 @@ impl Patch {
                 fault.expecting("a surface of a part that stands in the scene"),
             ]);
         }
+        let slack = slack(scene);
         let pieces = scene.surface_triangles(surface);
         let clipped = pieces.map(|corners| match target.within {
-            Some(limits) => split(&corners, &limits).0,
+            Some(limits) => split(&corners, &limits, slack).0,
             None => corners.to_vec(),
         });
         let (area, centre) = area_and_centre(clipped);
@@ -112,10 +126,8 @@ impl Patch {
         let reach = area.sqrt();
         let nearest = scene.nearest_on_surface(&aim, surface);
         let on_patch = |p: &Point3<f64>| {
-            target.within.is_none_or(|(low, high)| {
-                let margin = Vector3::repeat(1e-9);
-                inside(p, &(low - margin, high + margin))
-            })
+            let limits = target.within;
+            limits.is_none_or(|limits| inside(p, &widened(limits, slack.max(1e-9))))
         };
         // A mesh's facets lie a little inside the true surface that a drawing's numbers mean.
         let near_enough = 1e-5_f64.max(1e-3 * reach);
@@ -139,6 +151,8 @@ impl Patch {
         Ok(Self {
             surface,
             within: target.within,
+            slack,
+            rounding: SLACK * scene.size(),
             frame,
             area,
         })
@@ -209,21 +223,43 @@ fn extent(scene: &Scene, surface: u32) -> String {
     )
 }
 
+/// What rounding takes from coordinates, m: of files with seven digits, where there are meshes.
+fn slack(scene: &Scene) -> f64 {
+    let share = if scene.has_exact_walls() {
+        ROUNDING
+    } else {
+        f64::from(f32::EPSILON)
+    };
+    share * scene.size()
+}
+
+/// Places of exact walls count as in a face of the box within this share of the scene's size.
+const ROUNDING: f64 = 1e-9;
+
+fn widened((low, high): (Point3<f64>, Point3<f64>), by: f64) -> (Point3<f64>, Point3<f64>) {
+    let margin = Vector3::repeat(by);
+    (low - margin, high + margin)
+}
+
 fn inside(p: &Point3<f64>, (low, high): &(Point3<f64>, Point3<f64>)) -> bool {
     (0..3).all(|i| low[i] <= p[i] && p[i] <= high[i])
 }
 
 /// A triangle cut along the faces of a box: the convex polygon inside, which may be empty, and
-/// those outside.
+/// those outside. Corners within the slack of a face lie in it.
 fn split(
     corners: &[Point3<f64>; 3],
     (low, high): &(Point3<f64>, Point3<f64>),
+    slack: f64,
 ) -> (Polygon, Vec<Polygon>) {
     let mut inside = corners.to_vec();
     let mut outside = Vec::new();
     for axis in 0..3 {
         for (limit, sign) in [(low[axis], 1.0), (high[axis], -1.0)] {
-            let depth = |p: &Point3<f64>| (p[axis] - limit) * sign;
+            let depth = |p: &Point3<f64>| {
+                let depth = (p[axis] - limit) * sign;
+                if depth.abs() <= slack { 0.0 } else { depth }
+            };
             if inside.iter().any(|p| depth(p) < 0.0) {
                 outside.push(half(&inside, |p| -depth(p)));
             }

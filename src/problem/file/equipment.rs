@@ -60,6 +60,11 @@ pub(in crate::problem) struct JetEntry {
     /// absent.
     #[schemars(example = &"5 kg/min")]
     pub mass_flow: Field<MassFlow>,
+    /// Speed of the air between exit and target, 1 um/s to 10000 m/s; that of an air nozzle is 200 to 300
+    /// m/s. Changes no figure; with it the sheet says how much faster the shot gets on its way, see
+    /// [model.md](model.md#what-is-left-out); taken to be at rest where absent.
+    #[schemars(example = &"250 m/s")]
+    pub air_speed: Field<Speed>,
     /// The machine's calibration, measured with this shot and nozzle: at least two pressures, each
     /// with the mean speed of the shot at the exit, both strictly rising. With it the sheet says
     /// the pressure that belongs to the speed, linear between the two rows beside it and never

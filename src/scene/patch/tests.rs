@@ -41,7 +41,7 @@ fn a_triangle_is_cut_along_the_faces_of_a_box() {
         ([0.0, 0.0, 1.0], [2.0, 2.0, 2.0], 0.0),
         ([0.0, 0.0, -2.0], [2.0, 2.0, -1.0], 0.0),
     ] {
-        let (inside, outside) = split(&corners, &(low.into(), high.into()));
+        let (inside, outside) = split(&corners, &(low.into(), high.into()), 0.0);
         let within = area([inside.clone()]);
         assert!((within - expected).abs() < 1e-12, "{low:?}: {within}");
         let beyond = area(outside.clone());
@@ -126,6 +126,8 @@ fn hits_are_on_the_target_in_its_box_and_on_its_surface() {
     let box_of = |within| Patch {
         surface: 3,
         within,
+        slack: 1e-9,
+        rounding: 1e-12,
         frame,
         area: 1.0,
     };
