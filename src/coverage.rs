@@ -18,8 +18,8 @@ use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use crate::trace::Tracer;
-pub use dented::{Dented, Estimate};
 use dented::Question;
+pub use dented::{Dented, Estimate};
 use grid::{Cell, Cells};
 
 /// Shots behind the densities.

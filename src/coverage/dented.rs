@@ -240,7 +240,11 @@ mod tests {
     /// Shots of 1 kg with dents of 1 m2; so many of them behind the hits.
     fn question(wanted: f64, shots: usize, cells: &Cells) -> Question {
         let area: f64 = cells.cells.iter().map(|cell| cell.area).sum();
-        let hits: f64 = cells.cells.iter().map(|cell| f64::from(cell.all_hits())).sum();
+        let hits: f64 = cells
+            .cells
+            .iter()
+            .map(|cell| f64::from(cell.all_hits()))
+            .sum();
         Question {
             wanted,
             dent_diameter: (4.0 / PI).sqrt(),
@@ -261,7 +265,10 @@ mod tests {
         };
         let even_mass = -0.3_f64.ln() / 0.0625;
         let by_even_mass = dented.by_even_mass.unwrap();
-        assert!((by_even_mass.value - after(even_mass)).abs() < 1e-9, "{by_even_mass:?}");
+        assert!(
+            (by_even_mass.value - after(even_mass)).abs() < 1e-9,
+            "{by_even_mass:?}"
+        );
         assert!(by_even_mass.value < 0.59 && by_even_mass.standard_error < 1e-12);
         let mass = dented.mass.unwrap();
         assert!((after(mass.value) - 0.7).abs() < 1e-9 && mass.value > 1.5 * even_mass);
@@ -284,7 +291,9 @@ mod tests {
     fn few_hits_in_a_cell_put_nothing_off() {
         let mut state = 7_u64;
         let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         let (count, per_cell) = (400, 12);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::coverage::{Coverage, Dented, Density, Estimate};
+use crate::coverage::{Coverage, Density, Dented, Estimate};
 
 /// How densely first hits fall on the target, and how much it takes until it is dented; the nozzle
 /// stands still.
@@ -96,7 +96,9 @@ impl CoverageRecord {
             cell_side_m: coverage.side,
             mean: DensityRecord {
                 mass_kg,
-                time_s: mass_kg.zip(coverage.mass_flow).map(|(mass, flow)| mass / flow),
+                time_s: mass_kg
+                    .zip(coverage.mass_flow)
+                    .map(|(mass, flow)| mass / flow),
                 ..density(coverage.mean)
             },
             lowest_5: density(coverage.lowest),

@@ -53,9 +53,8 @@ fn contacts(sources: &mut Sources) -> Block {
         ("restitution", Align::Right),
         ("at m/s", Align::Right),
         ("from", Align::Left),
-        ("exponent", Align::Right),
-        ("from", Align::Left),
     ]);
+    let mut exponents: Vec<String> = Vec::new();
     for contact in media::contacts() {
         let mut cells = vec![contact.name.to_owned()];
         for number in [&contact.static_friction, &contact.dynamic_friction] {
@@ -65,18 +64,24 @@ fn contacts(sources: &mut Sources) -> Block {
         let restitution = &contact.restitution;
         cells.extend([restitution, &contact.restitution_speed].map(|it| plain(it.value)));
         cells.push(sources.cited(restitution));
-        let exponent = &contact.restitution_exponent;
-        cells.extend([plain(exponent.value), sources.cited(exponent)]);
         table.row(cells);
+        let exponent = &contact.restitution_exponent;
+        let cited = format!("{} {}", plain(exponent.value), sources.cited(exponent));
+        if !exponents.contains(&cited) {
+            exponents.push(cited);
+        }
     }
     block.table(table);
+    block.paragraph(&format!(
+        "Restitution was measured at a low normal speed, `at`, and falls beyond it: restitution x (speed / \
+         at)^(-p), p being {}. A problem file writes it as {{ value: 0.71, at: 4.43 m/s, exponent: 0.25 }}.",
+        exponents.join(" or ")
+    ));
     block.paragraph(
         "In a problem file: contacts: { use: [steel-on-steel-dry, steel-on-steel-oiled] }, or \
          contacts: { dry: { use: steel-on-steel-dry, restitution: 0.5 } }, where keys beside use go \
-         before the library's. Restitution was measured at a low normal speed and falls beyond it: \
-         restitution x (speed / at)^(-exponent), as a problem file would write it { value: 0.71, at: \
-         4.43 m/s, exponent: 0.25 }. Friction depends on surfaces and lubricants, restitution on \
-         speed and hardness: measure them if you can, and give a tolerance for them if you cannot.",
+         before the library's. Friction depends on surfaces and lubricants, restitution on speed \
+         and hardness: measure them if you can, and give a tolerance for them if you cannot.",
     );
     block
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{SLACK, Scene};
 use super::ray::Hit;
+use super::{SLACK, Scene};
 use crate::problem::fault::Fault;
 use crate::problem::part::Target;
 use crate::problem::rule::Rule;
@@ -48,8 +48,7 @@ impl Patch {
     /// Whether a place on its surface belongs to it.
     #[inline]
     pub fn covers(&self, point: &Point3<f64>) -> bool {
-        self.reach(1.0)
-            .is_none_or(|limits| inside(point, &limits))
+        self.reach(1.0).is_none_or(|limits| inside(point, &limits))
     }
 
     /// The box in which hits count that were found this many times as coarsely as in f64. Rounding must

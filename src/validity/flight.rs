@@ -29,7 +29,12 @@ pub(super) fn gravity(choice: &Choice) -> Note {
 /// Share of the speed lost or gained on the way to the target.
 pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
     let shot = setup.problem.shot;
-    let end = speed_at_end(2.0 * shot.radius, shot.density, choice, setup.problem.jet.air_speed);
+    let end = speed_at_end(
+        2.0 * shot.radius,
+        shot.density,
+        choice,
+        setup.problem.jet.air_speed,
+    );
     let gain = end / choice.speed - 1.0;
     let follows = |how: &str| {
         if gain.abs() > MATTERS {

@@ -104,7 +104,11 @@ impl Count {
             return if self.broken == 0 { 0.5 } else { 0.0 };
         }
         if share >= 1.0 {
-            return if self.broken >= self.counted { 0.5 } else { 1.0 };
+            return if self.broken >= self.counted {
+                0.5
+            } else {
+                1.0
+            };
         }
         let odds = share / (1.0 - share);
         let (hits, misses) = (self.broken, self.counted - self.broken);
@@ -175,7 +179,10 @@ mod tests {
             (16_384, 1e-3, 0.9539),
         ] {
             let found = coverage(counted, share);
-            assert!((found - expected).abs() < 1e-4, "{counted}, {share}: {found}");
+            assert!(
+                (found - expected).abs() < 1e-4,
+                "{counted}, {share}: {found}"
+            );
         }
         // Whatever the share; so few shots have few counts, so that steps of one show.
         for counted in [50, 2000] {
@@ -183,25 +190,43 @@ mod tests {
             let all: Vec<f64> = shares.map(|share| coverage(counted, share)).collect();
             let least = all.iter().copied().fold(1.0, f64::min);
             let mean = all.iter().sum::<f64>() / all.len() as f64;
-            assert!(least > 0.91 && (0.945..0.965).contains(&mean), "{least}, {mean}");
+            assert!(
+                least > 0.91 && (0.945..0.965).contains(&mean),
+                "{least}, {mean}"
+            );
         }
     }
 
     /// Sums of the distribution itself.
     #[test]
     fn tails_are_those_of_the_binomial_distribution() {
-        for (counted, share) in [(1, 0.3), (7, 0.5), (40, 0.02), (2000, 1e-3), (900, 0.9)] {
+        for (counted, share) in [(1, 0.3), (7, 0.5), (40, 0.02), (2000, 1e-3), (60, 0.9)] {
             let all = probabilities(counted, share);
             for broken in (0..all.len()).step_by(1 + all.len() / 40) {
                 let above: f64 = all[broken + 1..].iter().sum();
                 let tail = Count { broken, counted }.tail(share);
-                assert!((tail - above - 0.5 * all[broken]).abs() < 1e-9, "{broken} of {counted}");
+                assert!(
+                    (tail - above - 0.5 * all[broken]).abs() < 1e-9,
+                    "{broken} of {counted}"
+                );
             }
         }
-        let count = Count { broken: 3, counted: 1_000_000 };
-        assert_eq!([0.0, 0.9, 1.0].map(|share| count.tail(share)), [0.0, 1.0, 1.0]);
-        let count = Count { broken: 999_997, counted: 1_000_000 };
-        assert_eq!([0.0, 0.1, 1.0].map(|share| count.tail(share)), [0.0, 0.0, 1.0]);
+        let count = Count {
+            broken: 3,
+            counted: 1_000_000,
+        };
+        assert_eq!(
+            [0.0, 0.9, 1.0].map(|share| count.tail(share)),
+            [0.0, 1.0, 1.0]
+        );
+        let count = Count {
+            broken: 999_997,
+            counted: 1_000_000,
+        };
+        assert_eq!(
+            [0.0, 0.1, 1.0].map(|share| count.tail(share)),
+            [0.0, 0.0, 1.0]
+        );
     }
 
     #[test]
@@ -210,14 +235,28 @@ mod tests {
             let count = Count { broken, counted };
             let [low, high] = count.interval_95();
             assert!(low < count.share() && count.share() < high);
-            assert!((count.tail(low) - 0.025).abs() < 1e-9, "{broken} of {counted}");
-            assert!((count.tail(high) - 0.975).abs() < 1e-9, "{broken} of {counted}");
+            assert!(
+                (count.tail(low) - 0.025).abs() < 1e-9,
+                "{broken} of {counted}"
+            );
+            assert!(
+                (count.tail(high) - 0.975).abs() < 1e-9,
+                "{broken} of {counted}"
+            );
             // What is broken and what is kept are two names for the same.
-            let kept = Count { broken: counted - broken, counted }.interval_95();
+            let kept = Count {
+                broken: counted - broken,
+                counted,
+            }
+            .interval_95();
             assert!((low + kept[1] - 1.0).abs() < 1e-12 && (high + kept[0] - 1.0).abs() < 1e-12);
         }
         // One seen among 2000: 7e-5 is no longer out of the question.
-        let [low, high] = Count { broken: 1, counted: 2000 }.interval_95();
+        let [low, high] = Count {
+            broken: 1,
+            counted: 2000,
+        }
+        .interval_95();
         assert!((low - 2.50e-5).abs() < 1e-7 && (high - 2.463e-3).abs() < 1e-6);
     }
 
@@ -230,7 +269,10 @@ mod tests {
         assert_eq!(interval(65_536, 65_536), [1.0 - 3.0 / 65_536.0, 1.0]);
         assert_eq!(interval(3, 3), [0.0, 1.0]);
         // The rule of three is the same to a thousandth.
-        let none = Count { broken: 0, counted: 2000 };
+        let none = Count {
+            broken: 0,
+            counted: 2000,
+        };
         let [_, high] = none.interval_95();
         assert!((none.share_with_tail(0.975, [0.0, 1.0]) / high - 1.0).abs() < 3e-3);
     }
@@ -247,7 +289,10 @@ mod tests {
                 count.share_with_tail(1.0 - TAIL, [count.share(), 1.0]),
             ];
             for (normal, exact) in count.interval_95().into_iter().zip(exact) {
-                assert!((normal - exact).abs() < 4e-3 * width, "{broken}: {normal}, {exact}");
+                assert!(
+                    (normal - exact).abs() < 4e-3 * width,
+                    "{broken}: {normal}, {exact}"
+                );
             }
         }
     }

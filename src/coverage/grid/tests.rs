@@ -13,7 +13,12 @@ fn grid(side: f64) -> Grid {
 fn areas_of_cells_are_exact() {
     // 3 by 2 in two triangles, off the lines of the grid.
     let corner = |x: f64, y: f64| Point3::new(x, y, 0.0);
-    let (a, b, c, d) = (corner(0.25, 0.5), corner(3.25, 0.5), corner(3.25, 2.5), corner(0.25, 2.5));
+    let (a, b, c, d) = (
+        corner(0.25, 0.5),
+        corner(3.25, 0.5),
+        corner(3.25, 2.5),
+        corner(0.25, 2.5),
+    );
     let areas = grid(1.0).areas(&[[a, b, c], [a, c, d]]);
     assert_eq!(areas.len(), 4 * 3);
     for (&[x, y, z], &area) in &areas {
@@ -21,7 +26,10 @@ fn areas_of_cells_are_exact() {
             (high.min(cell as f64 + 1.0) - low.max(cell as f64)).max(0.0)
         };
         let expected = part(x, 0.25, 3.25) * part(y, 0.5, 2.5);
-        assert!((area - expected).abs() < 1e-12 && z == 0, "{x}, {y}: {area}");
+        assert!(
+            (area - expected).abs() < 1e-12 && z == 0,
+            "{x}, {y}: {area}"
+        );
     }
     // Leaning by the pitch 3:4 it is longer by 5/4, and climbs through the layers of the grid.
     let lean = |p: &Point3<f64>| Point3::new(p.x, p.y, 0.75 * p.x);
@@ -38,7 +46,12 @@ fn areas_of_cells_are_exact() {
 #[test]
 fn a_target_that_fits_its_cells_is_cut_into_just_those() {
     let corner = |x: f64, y: f64| Point3::new(0.1 * x, 0.1 * y, 1e-18);
-    let (a, b, c, d) = (corner(-3.0, -2.0), corner(3.0, -2.0), corner(3.0, 2.0), corner(-3.0, 2.0));
+    let (a, b, c, d) = (
+        corner(-3.0, -2.0),
+        corner(3.0, -2.0),
+        corner(3.0, 2.0),
+        corner(-3.0, 2.0),
+    );
     let areas = grid(0.1).areas(&[[a, b, c], [a, c, d]]);
     assert_eq!(areas.len(), 24);
     for area in areas.values() {
@@ -49,7 +62,12 @@ fn a_target_that_fits_its_cells_is_cut_into_just_those() {
 #[test]
 fn slivers_count_with_their_largest_neighbour() {
     let grid = grid(1.0);
-    let areas = BTreeMap::from([([0, 0, 0], 1.0), ([1, 0, 0], 0.9), ([1, 1, 0], 0.1), ([9, 9, 9], 0.1)]);
+    let areas = BTreeMap::from([
+        ([0, 0, 0], 1.0),
+        ([1, 0, 0], 0.9),
+        ([1, 1, 0], 0.1),
+        ([9, 9, 9], 0.1),
+    ]);
     let (cell_at, cells) = grid.cells(&areas);
     let found: Vec<f64> = cells.iter().map(|cell| cell.area).collect();
     assert_eq!(found, [1.1, 0.9, 0.1]);

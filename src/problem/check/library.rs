@@ -2,9 +2,7 @@
 
 use super::scope::Scope;
 use crate::problem::field::Field;
-use crate::problem::file::contact::{
-    ContactEntry, ContactsItem, FallingEntry, RestitutionEntry,
-};
+use crate::problem::file::contact::{ContactEntry, ContactsItem, FallingEntry, RestitutionEntry};
 use crate::problem::file::settings::OneOrRange;
 use crate::problem::media::{self, LibraryContact};
 use crate::problem::rule::Rule;

@@ -211,7 +211,8 @@ pub(in crate::problem) enum RoleEntry {
 /// and time it takes until the share `wanted` of it is dented, on the mean and where hits are few.
 ///
 /// Dents are taken to fall at random with the density of the place: coverage is then
-/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). The nozzle is taken to stand still, and only
+/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). That of the whole target is the mean over it; where
+/// nothing hits a part of it, the wanted share may never be reached. The nozzle is taken to stand still, and only
 /// first hits count. Times need `jet.mass_flow`. No other figure depends on it.
 ///
 /// ```yaml

@@ -176,7 +176,9 @@ impl Head {
         Self {
             passes: best.passes && best.feasible,
             verdict: sheet::headline::verdict(record),
-            beware: sheet::headline::beware(record).unwrap_or_default().to_owned(),
+            beware: sheet::headline::beware(record)
+                .unwrap_or_default()
+                .to_owned(),
             limited_by: sheet::cause::headline(record),
             search: sheet::headline::status(record),
             settings_are: match record.status {

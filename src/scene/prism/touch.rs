@@ -149,7 +149,9 @@ impl Prism {
         let left = left.filter(|&wall| (wall as usize) < self.walls.len());
         // At the corner of two walls it leaves the rims of both.
         let leaves_it = |centre: &Point3<f64>, least: f64| {
-            left.is_some_and(|left| self.distance_to_wall(left, centre) <= least + self.extent.slack)
+            left.is_some_and(|left| {
+                self.distance_to_wall(left, centre) <= least + self.extent.slack
+            })
         };
         let settled = 1e-3 * self.extent.slack;
         let last = last.min(nearest.best.rank);

@@ -1,0 +1,87 @@
+//! The 95 % intervals of rare shares, tried from seed to seed on a share that is known.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use peenpose::evaluate::evaluate;
+use peenpose::jet::{Replicates, purpose};
+use peenpose::problem;
+use peenpose::scene::Walls;
+use peenpose::setup::Setup;
+use peenpose::verdict::{Subject, Verdict};
+
+const SEEDS: u64 = 200;
+
+/// A parallel jet of 4 mm straight down; the target ends this far from its axis, m.
+fn cut_off_at(distance: f64) -> Setup {
+    let text = format!(
+        "
+format: 1
+lengths_in: mm
+scene: {{ plate: {{ box: {{ min: [-20, -20, -5], max: [20, 20, 0] }} }} }}
+target: {{ surface: plate.z_max, within: {{ min: [-20, -20, -1], max: [{}, 20, 1] }}, aim: [0, 0, 0] }}
+shot: {{ radius: 0.5 mm, density: 7000 kg/m3 }}
+jet: {{ exit_diameter: 4 mm, divergence: 0 deg }}
+contacts: {{ dry: {{ mu_s: 0.3, mu_d: 0.27, restitution: 0.25 }} }}
+settings: {{ incidence: 90 deg, azimuth: 0 deg, standoff: 20 mm, speed: 10 m/s }}
+goals: {{ normal_impulse: {{ target: 40 uN.s }} }}
+paths: {{ impacts: 1 }}
+",
+        distance * 1e3
+    );
+    let reading = problem::read_text(&text, Path::new("plate.yaml")).unwrap();
+    let faults = problem::render(&reading.source, &reading.faults, false);
+    let problem = reading.problem.unwrap_or_else(|| panic!("{faults}"));
+    Setup::new(problem, Walls::Exact).unwrap()
+}
+
+/// Where a chord cuts this share off a disc of radius 2 mm.
+fn chord(share: f64) -> f64 {
+    let cut_off = |angle: f64| (angle - angle.sin()) / TAU;
+    let (mut low, mut high) = (0.0, PI);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if cut_off(middle) < share {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    2e-3 * (0.5 * high).cos()
+}
+
+#[test]
+fn intervals_hold_rare_shares_as_often_as_they_say() {
+    for share in [1e-4, 1e-3] {
+        let mut setup = cut_off_at(chord(share));
+        let choice = setup.problem.settings.middle();
+        for shots in [2000, 16_384] {
+            let mut held = 0;
+            let mut missed = 0;
+            let mut fired = 0;
+            for seed in 1..=SEEDS {
+                setup.problem.seed = seed;
+                let fresh = Replicates::without_rim(&setup.problem, purpose::ANSWERS, shots);
+                let evaluation = evaluate(&setup, &choice, &fresh);
+                let verdicts = Verdict::all(&setup, &evaluation);
+                let miss = verdicts.iter().find(|it| it.subject == Subject::Miss);
+                let miss = miss.expect("misses are judged");
+                let [low, high] = miss.interval();
+                held += u64::from(low <= share && share <= high);
+                missed += miss.broken;
+                fired += miss.counted;
+            }
+            // The share is what it is said to be: all seeds together are off by three standard errors at most.
+            let expected = share * fired as f64;
+            assert!(
+                (missed as f64 - expected).abs() < 3.0 * expected.sqrt(),
+                "{missed} of {fired}"
+            );
+            let coverage = held as f64 / SEEDS as f64;
+            assert!(
+                (0.93..=0.99).contains(&coverage),
+                "{share}, {shots}: {coverage}"
+            );
+        }
+    }
+}
