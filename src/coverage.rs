@@ -29,7 +29,7 @@ const CELLS: f64 = 64.0;
 /// Into how many cells it is cut at most for the mean of what is dented, whose error falls with their size.
 const MOST_CELLS: f64 = 16_384.0;
 /// But each has so many hits on the mean.
-const HITS_IN_A_CELL: f64 = 16.0;
+const HITS_IN_A_CELL: f64 = 32.0;
 /// Share of the area that may be hit less than what counts as the lowest density.
 const LOWEST: f64 = 0.05;
 

@@ -81,7 +81,7 @@ fn an_even_jet_covers_as_worked_out_by_hand() {
     assert!((by_even_mass.value - 0.9).abs() < 4e-3, "{dented:?}");
     assert!(by_even_mass.standard_error < 2e-3);
     assert_close(dented.mass.unwrap().value, mass, 0.02);
-    assert!((4000..6000).contains(&dented.cells), "{dented:?}");
+    assert!((2000..3000).contains(&dented.cells), "{dented:?}");
     let slowest = even.time_until_wanted(even.lowest).unwrap();
     assert_close(slowest, mass / 0.01 * density / even.lowest.value, 1e-9);
 }
@@ -155,7 +155,8 @@ fn curved_targets_are_cut_into_cells_of_their_own_area() {
     // As many hits as fall on the square seen from the jet.
     let seen = 36e-6 / (PI * 81e-6 / 4.0);
     assert_close(bore.mean.value, seen / bore.area, 0.003);
-    assert_eq!(bore.share_not_hit, 0.0);
+    // A piece of a cell at the border may be without a hit by chance.
+    assert!(bore.share_not_hit < 1e-4, "{bore:?}");
     // At the borders the wall leans by asin(0.3): cos is 0.954, on the mean 0.985.
     assert!(
         (0.93..0.985).contains(&(bore.lowest.value * PI * 81e-6 / 4.0)),

@@ -181,7 +181,8 @@ fn restitution_of_the_library_falls_with_speed() {
         Restitution::Constant(0.5)
     );
 
-    // S110 at 50 m/s and 45 deg: 4.40 uN s and 28.4 deg, where constant restitution gives 5.42 and 44.8.
+    // S110 at 50 m/s and 45 deg arrives at 35.4 m/s along the normal, with 0.422 instead of 0.71. It grips, and keeps
+    // 5/7 of its speed along the surface.
     let s110 = media::medium("S110").unwrap();
     let sphere = Sphere {
         radius: s110.diameter.value / 2.0,
@@ -192,7 +193,7 @@ fn restitution_of_the_library_falls_with_speed() {
         restitution: Restitution::Constant(0.71),
         ..contact
     };
-    for (contact, impulse, angle) in [(contact, 4.40, 28.4), (held, 5.42, 44.8)] {
+    for (contact, impulse, angle) in [(contact, 4.480, 30.60), (held, 5.386, 44.83)] {
         let s = 50.0 * 0.5_f64.sqrt();
         let motion = Motion {
             velocity: Vector3::new(s, 0.0, -s),
@@ -291,7 +292,8 @@ mod sheets {
             "\n  assumed    diameter of Z300; mu_d, restitution, exponent of restitution of\n             glass-on-metal-dry",
             "restitution 0.71 at 4.43 m/s, falling with exponent 0.25",
         ] {
-            assert!(sheet.contains(line), "{line}\n{sheet}");
+            let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(words(&sheet).contains(&words(line)), "{line}\n{sheet}");
         }
     }
 

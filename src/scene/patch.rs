@@ -55,8 +55,11 @@ impl Patch {
     /// not lose those in its faces, where a part often ends.
     #[inline]
     pub fn reach(&self, coarseness: f64) -> Option<(Point3<f64>, Point3<f64>)> {
-        let slack = self.slack.max(self.rounding * coarseness);
-        self.within.map(|limits| widened(limits, slack))
+        self.within.map(|limits| {
+            let coarse = self.rounding * coarseness;
+            let least = SMALL * shortest_side(&limits);
+            widened(limits, self.slack.max(coarse.min(least)))
+        })
     }
 
     /// The triangles of its surface, cut along the faces of its box: those that belong to it, and
@@ -101,7 +104,7 @@ impl Patch {
                 fault.expecting("a surface of a part that stands in the scene"),
             ]);
         }
-        let slack = slack(scene);
+        let slack = slack(scene, target.within);
         let pieces = scene.surface_triangles(surface);
         let clipped = pieces.map(|corners| match target.within {
             Some(limits) => split(&corners, &limits, slack).0,
@@ -222,18 +225,26 @@ fn extent(scene: &Scene, surface: u32) -> String {
     )
 }
 
-/// What rounding takes from coordinates, m: of files with seven digits, where there are meshes.
-fn slack(scene: &Scene) -> f64 {
+/// What rounding takes from coordinates, m: of files with seven digits, where there are meshes; never much of
+/// the box itself.
+fn slack(scene: &Scene, within: Option<(Point3<f64>, Point3<f64>)>) -> f64 {
     let share = if scene.has_exact_walls() {
         ROUNDING
     } else {
         f64::from(f32::EPSILON)
     };
-    share * scene.size()
+    let most = within.map_or(f64::INFINITY, |limits| SMALL * shortest_side(&limits));
+    most.min(share * scene.size())
 }
 
 /// Places of exact walls count as in a face of the box within this share of the scene's size.
 const ROUNDING: f64 = 1e-9;
+/// What is small against a box.
+const SMALL: f64 = 1e-4;
+
+fn shortest_side((low, high): &(Point3<f64>, Point3<f64>)) -> f64 {
+    (high - low).min()
+}
 
 fn widened((low, high): (Point3<f64>, Point3<f64>), by: f64) -> (Point3<f64>, Point3<f64>) {
     let margin = Vector3::repeat(by);

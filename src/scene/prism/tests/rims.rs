@@ -218,7 +218,7 @@ fn a_lip_belongs_to_the_wall_whose_normal_is_nearer() {
         let outwards = |surface: u32| {
             let index = (surface - 7) as usize;
             let (a, b) = (turned[index], turned[(index + 1) % 4]);
-            [(a[1] - b[1]) / -10.0, (b[0] - a[0]) / -10.0]
+            [(a[1] - b[1]) / 10.0, (b[0] - a[0]) / 10.0]
         };
         let angles =
             [0.02, 0.1, 0.2, 0.24, 0.26, 0.3, 0.4, 0.48].map(|turns| turns * std::f64::consts::PI);
