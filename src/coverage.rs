@@ -28,7 +28,7 @@ const SHOTS: usize = 1 << 18;
 const CELLS: f64 = 64.0;
 /// Into how many cells it is cut at most for the mean of what is dented, whose error falls with their size.
 const MOST_CELLS: f64 = 16_384.0;
-/// But each has so many hits on the mean.
+/// But those that are hit have so many hits on the mean.
 const HITS_IN_A_CELL: f64 = 32.0;
 /// Share of the area that may be hit less than what counts as the lowest density.
 const LOWEST: f64 = 0.05;
@@ -109,9 +109,15 @@ impl Coverage {
             shots_per_kilogram,
             even_mass: mass_until(&wish, mean, shots_per_kilogram),
         };
+        let hit: f64 = cells
+            .iter()
+            .filter(|it| it.all_hits() > 0)
+            .map(|it| it.area)
+            .sum();
+        let hit_share = (hit / area).max(1.0 / CELLS);
         let count = match samples {
             1 => MOST_CELLS,
-            _ => (f64::from(whole.all_hits()) / HITS_IN_A_CELL).clamp(1.0, MOST_CELLS),
+            _ => (f64::from(whole.all_hits()) / HITS_IN_A_CELL / hit_share).clamp(1.0, MOST_CELLS),
         };
         let [fine, coarse] =
             [count, count / 4.0].map(|count| Cells::new(setup, &target, count, &hits));

@@ -100,9 +100,9 @@ fn shots_beside_the_jet_leave_it_bare() {
     assert_eq!(small.cells, 64);
     // Small cells see the disc itself.
     let outside = 1.0 - PI / 16.0;
-    assert_close(small.share_not_hit, outside, 0.01);
+    assert_close(small.share_not_hit, outside, 0.02);
     let resolution = small.dented.not_reached_resolution;
-    assert!((small.share_not_hit - outside).abs() < resolution && resolution < 0.02);
+    assert!((small.share_not_hit - outside).abs() < resolution && resolution < 0.05);
     assert_eq!(small.lowest.value, 0.0);
     assert_eq!(small.mass_until_wanted(small.lowest), None);
     assert_eq!(small.time_until_wanted(small.lowest), None);
@@ -209,7 +209,7 @@ fn what_is_dented_is_not_what_the_mean_density_dents() {
     let by_even_mass = never.by_even_mass.unwrap();
     let error = by_even_mass.resolution + 4.0 * by_even_mass.standard_error;
     assert!(
-        (by_even_mass.value - disc * there).abs() < error && error < 0.01,
+        (by_even_mass.value - disc * there).abs() < error && error < 0.02,
         "{never:?}"
     );
     assert!(by_even_mass.standard_error > 0.0);

@@ -6,7 +6,7 @@ mod kept;
 
 use peenpose::record::{
     AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, DentedRecord, EstimateRecord,
-    Record, StatusRecord,
+    NoteRecord, Record, StatusRecord,
 };
 use peenpose::report::sheet;
 
@@ -329,8 +329,8 @@ fn coverage_has_a_block_of_its_own() {
     assert!(
         words(block).contains(
             "98 % of the target is dented never: 40.0 % of it is not reached (none of 262 144 shots falls \
-             there; with cells of twice the side 0.50 % less). After 4.56 s (45.6 g), which were enough if hits \
-             fell evenly, 55.1 % of it is dented (std. error 0.020 %, cell size 0.10 %)."
+             there; cell size at most 0.50 % more). After 4.56 s (45.6 g), which were enough if hits \
+             fell evenly, 55.1 % of it is dented (std. error 0.020 %, cell size at most 0.10 %)."
         ),
         "{block}"
     );
@@ -363,7 +363,34 @@ fn coverage_has_a_block_of_its_own() {
         "{text}"
     );
     assert!(!text.contains("is not reached"), "{text}");
-    let dented =
-        "98 % of the target is dented after 45.6 g (std. error 0.100 g, cell size 0.200 g).";
+    let dented = "98 % of the target is dented after 45.6 g (std. error 0.100 g, cell size at most 0.200 g).";
     assert!(words(&text).contains(dented), "{text}");
+}
+
+/// Shots that meet in flight take the ground from under every figure: that stands in the head.
+#[test]
+fn strong_interference_stands_in_the_head() {
+    let mut record = record("keyway");
+    assert!(!sheet(&record).contains("beware"));
+    let note = |name: &str| NoteRecord {
+        name: name.into(),
+        value: 0.4,
+        text: "at 5 kg/min a rebounding shot meets 0.4 incoming ones".into(),
+    };
+    record.notes.push(note("interference_strong"));
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    let said = "beware at 5 kg/min a rebounding shot meets 0.4 incoming ones";
+    assert!(words(&text).contains(said), "{text}");
+    let place = |needle: &str| text.find(needle).unwrap();
+    assert!(place("verdict  ") < place("beware  ") && place("beware  ") < place("limited by"));
+    assert_eq!(text.matches("a rebounding shot meets").count(), 1, "{text}");
+    // Some interference is a note among others.
+    record.notes.pop();
+    record.notes.push(note("interference"));
+    let text = sheet(&record);
+    assert!(
+        !text.contains("beware  ") && text.contains("  - at 5 kg/min"),
+        "{text}"
+    );
 }

@@ -217,7 +217,7 @@ fn the_air_of_a_nozzle_speeds_its_shot_up() {
     );
     assert!(gain < 0.0 && find(&notes(&slow), "air").unwrap().text.contains("loses"));
     let (almost, still) = (
-        in_air(", air_speed: 1 um/s", "0.025 mm", "60 m/s", "50 mm"),
+        in_air(", air_speed: 0.001 mm/s", "0.025 mm", "60 m/s", "50 mm"),
         in_air("", "0.025 mm", "60 m/s", "50 mm"),
     );
     assert_close(-value(&almost, "air"), value(&still, "drag"), 1e-4);

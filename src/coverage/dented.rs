@@ -21,7 +21,7 @@ pub struct Dented {
     pub mass: Option<Estimate>,
     /// Share of the area that lies in cells without a hit: it stays as it is.
     pub share_not_reached: f64,
-    /// What twice the side of a cell changes of that.
+    /// Bound of how much more it may be with cells as small as can be: twice what twice the side changes.
     pub not_reached_resolution: f64,
 }
 
@@ -32,7 +32,7 @@ pub struct Estimate {
     pub value: f64,
     /// Standard error, from leaving out one of the independent samples at a time.
     pub standard_error: f64,
-    /// What twice the side of a cell changes: smaller cells change less.
+    /// Bound of the error by the size of cells: twice what twice their side changes.
     pub resolution: f64,
 }
 
@@ -56,6 +56,9 @@ const HALVINGS: usize = 60;
 const DOUBLINGS: usize = 60;
 /// How often a mass is mended for what few hits in a cell make of it.
 const MENDINGS: usize = 3;
+/// The error of cells falls with their side or faster, so that it is about what twice the side changes; this many
+/// times that is a bound.
+const OFF_BY_CELLS: f64 = 2.0;
 /// Half the step in the logarithm of a mass over which coverage is differentiated.
 const STEP: f64 = 0.01;
 
@@ -72,7 +75,7 @@ impl Dented {
                 .even_mass
                 .and_then(|mass| small.mass(question.wanted, mass, &large)),
             share_not_reached: small.not_reached,
-            not_reached_resolution: (large.not_reached - small.not_reached).abs(),
+            not_reached_resolution: OFF_BY_CELLS * (large.not_reached - small.not_reached).abs(),
         }
     }
 }
@@ -169,7 +172,7 @@ impl Sums {
     }
 
     fn off_by_cells(&self, mass: f64, coarse: &Self) -> f64 {
-        (coarse.plain(mass) - self.plain(mass)).abs()
+        OFF_BY_CELLS * (coarse.plain(mass) - self.plain(mass)).abs()
     }
 
     /// What it takes until a share is dented, kg, from a guess of it; `None` where more is not reached.

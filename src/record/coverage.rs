@@ -50,7 +50,7 @@ pub struct DentedRecord {
     pub by_even_mass: Option<EstimateRecord>,
     /// Mass of shot until the wanted share is dented, kg; absent where it never is.
     pub mass_kg: Option<EstimateRecord>,
-    /// What twice the side of a cell changes of the share that is not hit.
+    /// Bound of how much larger the share that is not hit may be with smaller cells.
     pub not_hit_resolution: f64,
 }
 
@@ -61,7 +61,7 @@ pub struct EstimateRecord {
     pub value: f64,
     /// Standard error.
     pub standard_error: f64,
-    /// What twice the side of a cell changes.
+    /// Bound of the error by the size of cells.
     pub resolution: f64,
 }
 

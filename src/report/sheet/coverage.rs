@@ -43,14 +43,14 @@ fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord) -> String {
         None => mass(kilograms),
     };
     let bare = format!(
-        "{} of it is not reached (none of {} shots falls there; with cells of twice the side {} less)",
+        "{} of it is not reached (none of {} shots falls there; cell size at most {} more)",
         share(coverage.share_not_hit),
         count(coverage.shots),
         share(dented.not_hit_resolution),
     );
     let reached = match dented.mass_kg {
         Some(needed) => format!(
-            "{wanted} % of the target is dented after {} (std. error {}, cell size {})",
+            "{wanted} % of the target is dented after {} (std. error {}, cell size at most {})",
             takes(needed.value),
             mass(needed.standard_error),
             mass(needed.resolution),
@@ -63,7 +63,7 @@ fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord) -> String {
     }
     if let (Some(even), Some(by_even)) = (dented.even_mass_kg, dented.by_even_mass) {
         sentences.push(format!(
-            "After {}, which were enough if hits fell evenly, {} of it is dented (std. error {}, cell size {})",
+            "After {}, which were enough if hits fell evenly, {} of it is dented (std. error {}, cell size at most {})",
             takes(even),
             share(by_even.value),
             share(by_even.standard_error),
