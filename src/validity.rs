@@ -8,6 +8,8 @@ mod interference;
 mod restitution;
 mod size;
 
+pub use interference::STRONG as STRONG_INTERFERENCE;
+
 use crate::evaluate::Evaluation;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;

@@ -77,6 +77,7 @@ fn the_keyway_is_read_in_si() {
             spread: Spread::Uniform,
             speed_spread: 0.05,
             mass_flow: None,
+            air_speed: None,
         }
     );
     assert_eq!(
@@ -212,7 +213,7 @@ scene:
   cover: { mesh: ./cover.stl, place: { on: nozzle, at: [0, 0, 4] } }
 target: { surface: mask.rim, facing: [0, 0, -2] }
 shot: { radius: 250 um, density: 7.8 g/cm3, size_spread: 4 % }
-jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min,
+jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min, air_speed: 250 m/s,
   pressure: [ { pressure: 2 bar, speed: 22 m/s }, { pressure: 0.4 MPa, speed: 36 m/s } ] }
 coverage: { dent_diameter: 0.2 mm }
 nozzle:
@@ -332,6 +333,7 @@ fn every_other_key_is_read() {
     );
     assert_eq!(problem.jet.spread, Spread::Gaussian);
     assert_eq!(problem.jet.mass_flow, Some(0.1));
+    assert_eq!(problem.jet.air_speed, Some(250.0));
     let calibration = problem.calibration.unwrap();
     assert_eq!(calibration.rows, [(2e5, 22.0), (4e5, 36.0)]);
     // Linear between the rows, and nothing beyond them.

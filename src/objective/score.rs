@@ -44,7 +44,7 @@ impl<R: Real> Target<R> {
     fn of(patch: &Patch) -> Self {
         let everywhere = [-f64::INFINITY, f64::INFINITY].map(|bound| [bound; 3]);
         let [low, high] = patch
-            .within
+            .reach(R::COARSENESS)
             .map_or(everywhere, |(low, high)| [low.into(), high.into()]);
         Self {
             surface: patch.surface,

@@ -20,7 +20,7 @@ mod window;
 pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, SettingsRecord, VerdictRecord,
 };
-pub use coverage::{CoverageRecord, DensityRecord};
+pub use coverage::{CoverageRecord, DensityRecord, DentedRecord, EstimateRecord};
 pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,

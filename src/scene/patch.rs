@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Scene;
 use super::ray::Hit;
+use super::{SLACK, Scene};
 use crate::problem::fault::Fault;
 use crate::problem::part::Target;
 use crate::problem::rule::Rule;
@@ -19,6 +19,10 @@ pub struct Patch {
     pub front: bool,
     /// Whether it faces the inside of a solid part: then no nozzle is in free space.
     pub in_material: bool,
+    /// How far outside its box a place may be by rounding, m.
+    slack: f64,
+    /// What paths in f64 may be off by rounding, m.
+    rounding: f64,
     /// Where the settings are measured from.
     pub frame: Frame,
     /// Area of the patch, m2.
@@ -48,7 +52,18 @@ impl Patch {
     /// Whether a place on its surface belongs to it.
     #[inline]
     pub fn covers(&self, point: &Point3<f64>) -> bool {
-        self.within.is_none_or(|limits| inside(point, &limits))
+        self.reach(1.0).is_none_or(|limits| inside(point, &limits))
+    }
+
+    /// The box in which hits count that were found this many times as coarsely as in f64. Rounding must
+    /// not lose those in its faces, where a part often ends.
+    #[inline]
+    pub fn reach(&self, coarseness: f64) -> Option<(Point3<f64>, Point3<f64>)> {
+        self.within.map(|limits| {
+            let coarse = self.rounding * coarseness;
+            let least = SMALL * shortest_side(&limits);
+            widened(limits, self.slack.max(coarse.min(least)))
+        })
     }
 
     /// The triangles of its surface, cut along the faces of its box: those that belong to it, and
@@ -60,7 +75,7 @@ impl Patch {
         };
         let (mut inside, mut outside) = (Vec::new(), Vec::new());
         for triangle in triangles {
-            let (within, beyond) = split(&triangle, limits);
+            let (within, beyond) = split(&triangle, limits, self.slack);
             if within.len() < 3 {
                 outside.push(triangle);
             } else {
@@ -93,9 +108,10 @@ impl Patch {
                 fault.expecting("a surface of a part that stands in the scene"),
             ]);
         }
+        let slack = slack(scene, target.within);
         let pieces = scene.surface_triangles(surface);
         let clipped = pieces.map(|corners| match target.within {
-            Some(limits) => split(&corners, &limits).0,
+            Some(limits) => split(&corners, &limits, slack).0,
             None => corners.to_vec(),
         });
         let (area, centre) = area_and_centre(clipped);
@@ -116,10 +132,8 @@ impl Patch {
         let reach = area.sqrt();
         let nearest = scene.foot(&aim, surface);
         let on_patch = |p: &Point3<f64>| {
-            target.within.is_none_or(|(low, high)| {
-                let margin = Vector3::repeat(1e-9);
-                inside(p, &(low - margin, high + margin))
-            })
+            let limits = target.within;
+            limits.is_none_or(|limits| inside(p, &widened(limits, slack.max(1e-9))))
         };
         // A mesh's facets lie a little inside the true surface that a drawing's numbers mean.
         let near_enough = 1e-5_f64.max(1e-3 * reach);
@@ -148,6 +162,8 @@ impl Patch {
             within: target.within,
             front,
             in_material: !front && scene.is_solid(&foot),
+            slack,
+            rounding: SLACK * scene.size(),
             frame,
             area,
         })
@@ -218,21 +234,51 @@ fn extent(scene: &Scene, surface: u32) -> String {
     )
 }
 
+/// What rounding takes from coordinates, m: of files with seven digits, where there are meshes; never much of
+/// the box itself.
+fn slack(scene: &Scene, within: Option<(Point3<f64>, Point3<f64>)>) -> f64 {
+    let share = if scene.has_exact_walls() {
+        ROUNDING
+    } else {
+        f64::from(f32::EPSILON)
+    };
+    let most = within.map_or(f64::INFINITY, |limits| SMALL * shortest_side(&limits));
+    most.min(share * scene.size())
+}
+
+/// Places of exact walls count as in a face of the box within this share of the scene's size.
+const ROUNDING: f64 = 1e-9;
+/// What is small against a box.
+const SMALL: f64 = 1e-4;
+
+fn shortest_side((low, high): &(Point3<f64>, Point3<f64>)) -> f64 {
+    (high - low).min()
+}
+
+fn widened((low, high): (Point3<f64>, Point3<f64>), by: f64) -> (Point3<f64>, Point3<f64>) {
+    let margin = Vector3::repeat(by);
+    (low - margin, high + margin)
+}
+
 fn inside(p: &Point3<f64>, (low, high): &(Point3<f64>, Point3<f64>)) -> bool {
     (0..3).all(|i| low[i] <= p[i] && p[i] <= high[i])
 }
 
 /// A triangle cut along the faces of a box: the convex polygon inside, which may be empty, and
-/// those outside.
+/// those outside. Corners within the slack of a face lie in it.
 fn split(
     corners: &[Point3<f64>; 3],
     (low, high): &(Point3<f64>, Point3<f64>),
+    slack: f64,
 ) -> (Polygon, Vec<Polygon>) {
     let mut inside = corners.to_vec();
     let mut outside = Vec::new();
     for axis in 0..3 {
         for (limit, sign) in [(low[axis], 1.0), (high[axis], -1.0)] {
-            let depth = |p: &Point3<f64>| (p[axis] - limit) * sign;
+            let depth = |p: &Point3<f64>| {
+                let depth = (p[axis] - limit) * sign;
+                if depth.abs() <= slack { 0.0 } else { depth }
+            };
             if inside.iter().any(|p| depth(p) < 0.0) {
                 outside.push(half(&inside, |p| -depth(p)));
             }

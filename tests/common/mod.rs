@@ -56,6 +56,7 @@ pub fn keyway(length: f64) -> Problem {
             spread: Spread::Uniform,
             speed_spread: 0.05,
             mass_flow: None,
+            air_speed: None,
         },
         calibration: None,
         nozzle: Nozzle {

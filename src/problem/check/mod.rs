@@ -159,6 +159,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
     let divergence = scope.needed("divergence", &entry.divergence, Limit::DIVERGENCE);
     let speed_spread = scope.optional("speed_spread", &entry.speed_spread, Limit::SPREAD, 0.0);
     let mass_flow = scope.maybe("mass_flow", &entry.mass_flow, Limit::MASS_FLOW);
+    let air_speed = scope.maybe("air_speed", &entry.air_speed, Limit::SPEED);
     let spread = entry
         .spread
         .or(SpreadEntry::Uniform)
@@ -172,6 +173,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
         spread: spread?,
         speed_spread: speed_spread?,
         mass_flow: mass_flow?,
+        air_speed: air_speed?,
     })
 }
 

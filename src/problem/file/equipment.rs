@@ -60,6 +60,11 @@ pub(in crate::problem) struct JetEntry {
     /// absent.
     #[schemars(example = &"5 kg/min")]
     pub mass_flow: Field<MassFlow>,
+    /// Speed of the air between exit and target, 1 um/s to 10000 m/s; that of an air nozzle is 200 to 300
+    /// m/s. Changes no figure; with it the sheet says how much faster the shot gets on its way, see
+    /// [model.md](model.md#what-is-left-out); taken to be at rest where absent.
+    #[schemars(example = &"250 m/s")]
+    pub air_speed: Field<Speed>,
     /// The machine's calibration, measured with this shot and nozzle: at least two pressures, each
     /// with the mean speed of the shot at the exit, both strictly rising. With it the sheet says
     /// the pressure that belongs to the speed, linear between the two rows beside it and never
@@ -206,7 +211,8 @@ pub(in crate::problem) enum RoleEntry {
 /// and time it takes until the share `wanted` of it is dented, on the mean and where hits are few.
 ///
 /// Dents are taken to fall at random with the density of the place: coverage is then
-/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). The nozzle is taken to stand still, and only
+/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). That of the whole target is the mean over it; where
+/// nothing hits a part of it, the wanted share may never be reached. The nozzle is taken to stand still, and only
 /// first hits count. Times need `jet.mass_flow`. No other figure depends on it.
 ///
 /// ```yaml

@@ -64,9 +64,9 @@ impl PartEntry {
     pub const SHAPES: [&str; 5] = ["keyway", "bore", "box", "extrude", "mesh"];
 }
 
-/// A bore along z from 0 to `length`, open at both ends, with a groove of rectangular section towards
+/// A bore along z from 0 to `length` with a groove of rectangular section towards
 /// +y. The floor lies at y = bore/2 + depth. Surfaces: `floor`, `wall_neg` (x < 0), `wall_pos`,
-/// `bore`, and with a root radius `root_neg` and `root_pos`.
+/// `bore`, and with a root radius `root_neg` and `root_pos`. Both [ends](#ends) are open, without end faces.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct KeywayEntry {
@@ -89,7 +89,7 @@ pub(in crate::problem) struct KeywayEntry {
 }
 
 /// A round hole along z from 0 to `length`; a pin when it is seen from outside. Surfaces: `wall`, and
-/// `near` (z = 0) and `far` where closed.
+/// `near` (z = 0) and `far` where its [ends](#ends) are closed.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BoreEntry {
@@ -118,7 +118,8 @@ pub(in crate::problem) struct BoxEntry {
 }
 
 /// A cross-section of lines and arcs, along z from 0 to `length`. Free space lies to the left of its
-/// direction. Surfaces: those that its segments name, and `near` (z = 0) and `far` where closed.
+/// direction. Surfaces: those that its segments name, and `near` (z = 0) and `far` where its
+/// [ends](#ends) are closed.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ExtrudeEntry {
@@ -173,6 +174,13 @@ pub(in crate::problem) enum EndsEntry {
 }
 
 /// The ends of a part along z, each on its own.
+///
+/// A closed end carries a flat face across the cross-section that the outline encloses: the bottom of a blind hole. It looks into the
+/// part. An open end has no face, neither across the hole nor round it on the metal: shots that pass it leave the part, or come in by
+/// it, and only its rim stands there. Of shots of finite size those that touch the rim hit the wall that ends there; where two walls
+/// meet, the one whose normal is nearer to the direction of the contact. Where the end face of the metal matters, place a `box` or a
+/// `mesh` there. A `keyway` has open ends, a `bore` and an `extrude` have what `ends` says, a `box` has all six faces, and a
+/// `mesh` those in its file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct EachEnd {

@@ -188,7 +188,8 @@ pub(in crate::problem) struct ToleranceEntry {
     /// Of the aim point away from the target, 0 mm to 1000 m.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_above: Field<Length>,
-    /// Of the coefficient of restitution, absolute, 0 to 1; the result is kept within 0 to 1.
+    /// Of the coefficient of restitution, absolute, 0 to 1; the result is kept within 0 to 1. Of one that
+    /// falls with speed it shifts `value`, which is E at the speed `at`: E at other speeds shifts in proportion.
     #[schemars(example = 0.1, extend("default" = 0))]
     pub restitution: Field<f64>,
     /// Of both friction coefficients at once, relative, 0 to below 100 %.

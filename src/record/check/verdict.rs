@@ -36,8 +36,10 @@ fn of_pose(at: &Place, it: &VerdictRecord, answer: &AnswerRecord) -> Outcome {
     at.of("allowed").holds(it.allowed == 0.0, "is not 0")?;
     let is_near = answer.is_too_near();
     let is_hidden = it.subject != "clearance" || !is_near || !it.passes;
-    at.of("passes")
-        .holds(is_hidden, "is true, but the nozzle is nearer than it may be")
+    at.of("passes").holds(
+        is_hidden,
+        "is true, but the nozzle is nearer than it may be",
+    )
 }
 
 /// A verdict by itself.

@@ -135,6 +135,8 @@ struct Page<'a> {
 struct Head {
     passes: bool,
     verdict: Vec<String>,
+    /// What takes the ground from under all figures; empty where nothing does.
+    beware: String,
     limited_by: String,
     search: String,
     /// What the settings are: to be set, given, or the best that failed.
@@ -174,6 +176,9 @@ impl Head {
         Self {
             passes: best.passes && best.feasible,
             verdict: sheet::headline::verdict(record),
+            beware: sheet::headline::beware(record)
+                .unwrap_or_default()
+                .to_owned(),
             limited_by: sheet::cause::headline(record),
             search: sheet::headline::status(record),
             settings_are: match record.status {

@@ -1,9 +1,11 @@
-//! The head of the sheet: what it is about, the overall verdict, what limits it.
+//! The head of the sheet: what it is about, the overall verdict, what takes the ground from under it, what
+//! limits it.
 
 use super::{blocked, cause, subject};
 use crate::record::{AnswerRecord, Record, StatusRecord};
 use crate::report::layout::Block;
 use crate::report::number::{plural, share_asked, significant};
+use crate::validity::STRONG_INTERFERENCE;
 
 /// Failing verdicts that the headline spells out.
 const SPELT_OUT: usize = 3;
@@ -21,6 +23,9 @@ pub fn block(record: &Record) -> Block {
             "             "
         };
         block.hanging(label, line);
+    }
+    if let Some(reason) = beware(record) {
+        block.hanging("beware       ", reason);
     }
     block.hanging("limited by   ", &cause::headline(record));
     block.hanging("search       ", &status(record));
@@ -65,6 +70,13 @@ pub fn verdict(record: &Record) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// What takes the ground from under all figures: shots that meet each other in flight.
+pub fn beware(record: &Record) -> Option<&str> {
+    let mut notes = record.notes.iter();
+    let note = notes.find(|note| note.name == STRONG_INTERFERENCE)?;
+    Some(&note.text)
 }
 
 fn pass(best: &AnswerRecord) -> String {
