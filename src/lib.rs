@@ -87,6 +87,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`digits`] | numbers in texts: five significant digits at most |
 //! | [`precision`] | the two precisions that paths can be traced in |
 //! | [`units`] | `0.5 mm` to SI: the only conversions |
 //! | [`impact`] | one impact of a sphere on a surface: the contact laws |
@@ -118,6 +119,7 @@
 
 // In reading order: a module builds on those above it.
 
+pub mod digits;
 pub mod precision;
 pub mod units;
 

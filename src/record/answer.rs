@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::receipt::{ReceiptRecord, TargetRecord, receipts};
+use super::room::radius_left;
 use crate::evaluate::Evaluation;
 use crate::impact::{Contact, Restitution};
 use crate::jet::Pose;
@@ -43,6 +44,11 @@ pub struct AnswerRecord {
     pub clearance_surface: Option<String>,
     /// Least distance asked for, m.
     pub clearance_wanted_m: f64,
+    /// What would be left of the radius of the body, m, once it is made small enough to fit there:
+    /// the least of its pieces; below 0 where not even a line would fit. Absent where the nozzle
+    /// fits, and in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body_radius_left_m: Option<f64>,
     /// Fresh shots behind the figures.
     pub shots: usize,
     /// Fresh shots from where harm may come that stand behind the objective as well.
@@ -174,6 +180,9 @@ impl AnswerRecord {
             clearance_m: clearance.map(|(gap, _)| gap),
             clearance_surface: clearance.map(|(_, surface)| surface_name(surface)),
             clearance_wanted_m: nozzle.clearance,
+            body_radius_left_m: (answer.violation > 0.0)
+                .then(|| radius_left(setup, &pose))
+                .flatten(),
             shots: evaluation.map_or(0, |evaluation| evaluation.shots),
             rim_shots: evaluation.map_or(0, |evaluation| evaluation.rim_shots),
             objective: evaluation.map(ObjectiveRecord::new),

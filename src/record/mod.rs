@@ -12,6 +12,7 @@ mod map;
 mod model;
 mod question;
 mod receipt;
+mod room;
 mod unknowns;
 mod window;
 

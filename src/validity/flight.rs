@@ -1,6 +1,7 @@
 //! What acts on a shot between exit and target: gravity and the drag of the air.
 
 use super::Note;
+use crate::digits::fixed;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
@@ -20,8 +21,8 @@ pub(super) fn gravity(choice: &Choice) -> Note {
         name: "gravity",
         value: drop,
         text: format!(
-            "gravity is left out: a shot falls {:.2} um on its way to the target",
-            drop * 1e6
+            "gravity is left out: a shot falls {} um on its way to the target",
+            fixed(drop * 1e6, 2)
         ),
     }
 }
@@ -40,8 +41,8 @@ pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
         name: "drag",
         value: loss,
         text: format!(
-            "drag is left out: in air at rest a shot loses {:.2} % of its speed before the target{advice}",
-            loss * 100.0
+            "drag is left out: in air at rest a shot loses {} % of its speed before the target{advice}",
+            fixed(loss * 100.0, 2)
         ),
     }
 }

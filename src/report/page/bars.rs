@@ -94,7 +94,7 @@ impl WindowBar {
         };
         Some(Self {
             name: setting.name,
-            unit: setting.unit,
+            unit: setting.unit_of(record),
             value: shown.value,
             tolerance: setting.tolerance(record).unwrap_or_default(),
             range: [ends.0, ends.1].map(plain),

@@ -18,7 +18,7 @@ use self::still::Still;
 use super::figure::{Figure, FigureFault};
 use super::number::{count, fixed};
 use super::sheet;
-use super::sheet::setting::SETTINGS;
+use super::sheet::setting::{SETTINGS, Setting};
 use crate::record::{EvidenceRecord, PlaceRecord, Record, StatusRecord};
 
 const STYLE: &str = include_str!("page.css");
@@ -159,10 +159,8 @@ impl Head {
             .map(|setting| Card {
                 name: setting.name,
                 value: setting.shown(record).value,
-                unit: setting.unit,
-                remark: setting
-                    .tolerance(record)
-                    .map_or_else(String::new, |tolerance| format!("set within {tolerance}")),
+                unit: setting.unit_of(record),
+                remark: remark(record, setting),
             })
             .collect();
         cards.push(Card {
@@ -185,6 +183,15 @@ impl Head {
             cards,
         }
     }
+}
+
+/// What stands below a setting.
+fn remark(record: &Record, setting: &Setting) -> String {
+    if setting.is_any(record) {
+        return "makes no difference at 90 deg".into();
+    }
+    let tolerance = setting.tolerance(record);
+    tolerance.map_or_else(String::new, |tolerance| format!("set within {tolerance}"))
 }
 
 /// The blocks of the sheet.
