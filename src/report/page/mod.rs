@@ -19,6 +19,7 @@ use super::figure::{Figure, FigureFault};
 use super::number::{count, fixed};
 use super::sheet;
 use super::sheet::setting::{SETTINGS, Setting};
+use super::typeset::{typeset, unit_behind};
 use crate::record::{EvidenceRecord, PlaceRecord, Record, StatusRecord};
 
 const STYLE: &str = include_str!("page.css");
@@ -146,7 +147,7 @@ struct Head {
 struct Card {
     name: &'static str,
     value: String,
-    unit: &'static str,
+    unit: String,
     remark: String,
 }
 
@@ -159,21 +160,21 @@ impl Head {
             .map(|setting| Card {
                 name: setting.name,
                 value: setting.shown(record).value,
-                unit: setting.unit_of(record),
-                remark: remark(record, setting),
+                unit: unit_behind(setting.unit_of(record)),
+                remark: typeset(&remark(record, setting)),
             })
             .collect();
         cards.push(Card {
             name: "contact",
             value: best.contact.clone(),
-            unit: "",
+            unit: String::new(),
             remark: sheet::settings::coefficients(&best.contact_values),
         });
         Self {
             passes: best.passes && best.feasible,
-            verdict: sheet::headline::verdict(record),
-            limited_by: sheet::cause::headline(record),
-            search: sheet::headline::status(record),
+            verdict: typeset_all(sheet::headline::verdict(record)),
+            limited_by: typeset(&sheet::cause::headline(record)),
+            search: typeset(&sheet::headline::status(record)),
             settings_are: match record.status {
                 StatusRecord::Evaluated => "Settings given",
                 StatusRecord::NoFeasiblePose => "Nearest miss",
@@ -183,6 +184,10 @@ impl Head {
             cards,
         }
     }
+}
+
+fn typeset_all(lines: Vec<String>) -> Vec<String> {
+    lines.iter().map(|line| typeset(line)).collect()
 }
 
 /// What stands below a setting.
@@ -313,7 +318,7 @@ impl Strip {
     fn new((index, place): (usize, &PlaceRecord)) -> Self {
         Self {
             number: index + 1,
-            what: place.text.clone(),
+            what: typeset(&place.text),
             surface: place.surface.clone(),
             place: place.point_m.map(|metres| fixed(metres * 1e3, 2)),
             normal: place.normal.map(|part| fixed(part, 3)),
