@@ -87,6 +87,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`digits`] | numbers in texts: five significant digits at most |
 //! | [`precision`] | the two precisions that paths can be traced in |
 //! | [`printable`] | text from elsewhere, made safe to show |
 //! | [`units`] | `0.5 mm` to SI: the only conversions |
@@ -121,6 +122,7 @@
 // In reading order: a module builds on those above it.
 
 mod content;
+pub mod digits;
 pub mod precision;
 pub mod printable;
 pub mod units;

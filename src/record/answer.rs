@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::receipt::{ReceiptRecord, TargetRecord, receipts};
+use super::room::radius_left;
 use crate::evaluate::Evaluation;
 use crate::feasibility::{Gap, gap, gap_within_tolerance};
 use crate::impact::{Contact, Restitution};
@@ -54,6 +55,11 @@ pub struct AnswerRecord {
     pub clearance_within_tolerance_surface: Option<String>,
     /// Least distance asked for, m.
     pub clearance_wanted_m: f64,
+    /// What would be left of the radius of the body, m, once it is made small enough to fit there:
+    /// the least of its pieces; below 0 where not even a line would fit. Absent where the nozzle
+    /// fits, and in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body_radius_left_m: Option<f64>,
     /// Fresh shots behind the figures.
     pub shots: usize,
     /// Fresh shots from where harm may come that stand behind the objective as well.
@@ -204,6 +210,9 @@ impl AnswerRecord {
             clearance_within_tolerance_m: worst.map(|gap| gap.distance),
             clearance_within_tolerance_surface: worst.map(surface_name),
             clearance_wanted_m: nozzle.clearance,
+            body_radius_left_m: (answer.violation > 0.0)
+                .then(|| radius_left(setup, &pose))
+                .flatten(),
             shots: evaluation.map_or(0, |evaluation| evaluation.shots),
             rim_shots: evaluation.map_or(0, |evaluation| evaluation.rim_shots),
             objective: evaluation.map(ObjectiveRecord::new),

@@ -14,6 +14,7 @@ mod map;
 mod model;
 mod question;
 mod receipt;
+mod room;
 mod unknowns;
 mod window;
 

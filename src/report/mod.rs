@@ -13,6 +13,7 @@ mod page;
 mod series;
 mod sheet;
 pub mod table;
+mod typeset;
 
 pub use chart::chart;
 pub use files::{files, names};

@@ -8,7 +8,9 @@ use super::control::Control;
 use super::judge::Effort;
 use super::polish::Candidate;
 use super::search::Search;
+use super::tie::recommended;
 use crate::jet::{Fresh, purpose};
+use crate::problem::Problem;
 use crate::setup::Setup;
 use crate::verdict::Verdict;
 
@@ -66,7 +68,7 @@ impl<'a> Figures<'a> {
         let has_all = problem.has_one_ray() || self.fresh.shots() >= self.most_shots;
         if has_all
             || self.stop.load(Ordering::Relaxed)
-            || !(is_vague(&answers, problem) || is_open(&answers))
+            || !(is_vague(&answers, problem) || is_open(&answers, problem))
         {
             return answers;
         }
@@ -80,10 +82,8 @@ impl<'a> Figures<'a> {
     }
 }
 
-/// Whether it is uncertain if the best answer passes.
-fn is_open(answers: &[Answer]) -> bool {
-    let best = answers
-        .iter()
-        .min_by(|a, b| a.order().total_cmp(&b.order()));
+/// Whether it is uncertain if the answer that would be recommended passes.
+fn is_open(answers: &[Answer], problem: &Problem) -> bool {
+    let best = recommended(answers, problem);
     best.is_some_and(|best| !best.verdicts.iter().all(Verdict::is_certain))
 }

@@ -20,6 +20,7 @@ mod polish;
 mod risks;
 mod search;
 mod space;
+mod tie;
 mod window;
 
 pub use answer::Answer;
@@ -28,6 +29,7 @@ pub use front::{Front, front};
 pub use judge::{Effort, Standing};
 pub use ladder::{Ladder, Rung};
 pub use risks::{Risks, risks};
+pub use tie::is_tie;
 pub use window::{Drift, Turn, Window, passing_windows, passing_windows_until, windows};
 
 use rayon::prelude::*;
@@ -40,13 +42,15 @@ use judge::Judge;
 use models::Models;
 use search::{STAGES, STAGES_SET_EXACTLY, Search, Stage};
 use space::Space;
+use tie::ranked;
 
 /// What a search found.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// How it ended.
     pub status: Status,
-    /// The best settings for each contact, best first.
+    /// The best settings for each contact, best first: by J, and contacts that tie with the best in
+    /// the order of the file.
     pub answers: Vec<Answer>,
     /// Which effects were searched with, and what each of them does.
     pub ladder: Ladder,
@@ -56,6 +60,14 @@ pub struct Solution {
     pub shots_per_pose: usize,
     /// Rays cast.
     pub rays: usize,
+}
+
+impl Solution {
+    /// The answer with the least J; contacts that tie with it may be recommended before it.
+    pub fn least(&self) -> Option<&Answer> {
+        let answers = self.answers.iter();
+        answers.min_by(|a, b| a.order().total_cmp(&b.order()))
+    }
 }
 
 const SCREENING_SHOTS: usize = 64;
@@ -100,7 +112,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     if !control.is_stopped() {
         models.measure_unasked(&searches, &effort, control);
     }
-    answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
+    let answers = ranked(answers, problem);
     let status = match answers.first() {
         _ if control.is_stopped() => Status::Interrupted,
         Some(best) if best.evaluation.is_none() => Status::NoFeasiblePose,

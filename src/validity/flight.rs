@@ -1,6 +1,7 @@
 //! What acts on a shot between exit and target: gravity and the drag of the air.
 
 use super::Note;
+use crate::digits::{fixed, plain};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
@@ -20,8 +21,8 @@ pub(super) fn gravity(choice: &Choice) -> Note {
         name: "gravity",
         value: drop,
         text: format!(
-            "gravity is left out: a shot falls {:.2} um on its way to the target",
-            drop * 1e6
+            "gravity is left out: a shot falls {} um on its way to the target",
+            fixed(drop * 1e6, 2)
         ),
     }
 }
@@ -64,10 +65,10 @@ pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
         name: "air",
         value: gain,
         text: format!(
-            "the air is left out: in air of {} m/s up to the target a shot {what} {:.2} % of its speed{}; slower \
+            "the air is left out: in air of {} m/s up to the target a shot {what} {} % of its speed{}; slower \
              air beside and beyond the jet's core changes less",
-            air,
-            gain.abs() * 100.0,
+            plain(air),
+            fixed(gain.abs() * 100.0, 2),
             follows(how),
         ),
     }

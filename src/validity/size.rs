@@ -3,6 +3,7 @@
 use nalgebra::{Point2, Vector2};
 
 use super::Note;
+use crate::digits::{fixed, significant};
 use crate::jet::Pose;
 use crate::problem::curve::Curve;
 use crate::problem::part::{Part, Shape};
@@ -26,9 +27,9 @@ pub(super) fn point_shots(setup: &Setup) -> Option<Note> {
         name: "point_shots",
         value: radius,
         text: format!(
-            "shots fly as points, as the file asks: a real one touches a wall {:.3} mm before its centre \
+            "shots fly as points, as the file asks: a real one touches a wall {} mm before its centre \
              would, which matters where that is not small against the groove",
-            radius * 1e3
+            significant(radius * 1e3, 3)
         ),
     })
 }
@@ -41,11 +42,11 @@ pub(super) fn fillet(setup: &Setup) -> Option<Note> {
         name: "fillet",
         value: diameter / radius,
         text: format!(
-            "shots of {:.3} mm are {:.2} times the smallest fillet radius of the part, {:.3} mm: {}; ASTM B851 \
+            "shots of {} mm are {} times the smallest fillet radius of the part, {} mm: {}; ASTM B851 \
              has shot of at most half the radius, which keeps three quarters",
-            diameter * 1e3,
-            diameter / radius,
-            radius * 1e3,
+            significant(diameter * 1e3, 3),
+            fixed(diameter / radius, 2),
+            significant(radius * 1e3, 3),
             against_a_fillet(diameter / (2.0 * radius)),
         ),
     })
@@ -72,11 +73,11 @@ pub(super) fn opening(setup: &Setup, choice: &Choice) -> Option<Note> {
         name: "opening",
         value: diameter / width,
         text: format!(
-            "shots of {:.3} mm are {:.2} times the narrowest gap of the part, {:.3} mm; ASTM B851 has shot of at most \
+            "shots of {} mm are {} times the narrowest gap of the part, {} mm; ASTM B851 has shot of at most \
              a quarter of it: wider ones have no room to pass each other on their way in and out",
-            diameter * 1e3,
-            diameter / width,
-            width * 1e3,
+            significant(diameter * 1e3, 3),
+            fixed(diameter / width, 2),
+            significant(width * 1e3, 3),
         ),
     })
 }

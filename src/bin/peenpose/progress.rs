@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use peenpose::chart::Step;
+use peenpose::digits::significant;
 use peenpose::solve::Progress;
 
 use crate::output;
@@ -92,7 +93,11 @@ impl Watcher {
     /// Takes a step of the search to the bar.
     pub fn show(&self, progress: Progress) {
         self.bar.set_message(match progress.best {
-            Some(best) => format!("{} poses, best J so far {best:.6}", progress.poses),
+            Some(best) => format!(
+                "{} poses, best J so far {}",
+                progress.poses,
+                significant(best, 4)
+            ),
             None => format!(
                 "{} poses, the nozzle has fitted nowhere yet",
                 progress.poses

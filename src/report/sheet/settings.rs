@@ -4,7 +4,7 @@ use super::origins::origins;
 use super::setting::{SETTINGS, Setting};
 use crate::record::{AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord};
 use crate::report::layout::{Align, Block, Table};
-use crate::report::number::{fixed, plain, share_asked, significant};
+use crate::report::number::{coordinate, fixed, plain, share_asked, significant};
 
 /// Settings with their windows, then what is loaded.
 pub fn settings(record: &Record) -> Block {
@@ -43,6 +43,7 @@ pub fn settings(record: &Record) -> Block {
 fn row(record: &Record, setting: &Setting) -> [String; 6] {
     let shown = setting.shown(record);
     let (window, until) = match setting.window(record) {
+        _ if setting.is_any(record) => (String::new(), "(makes no difference at 90 deg)".into()),
         Some(window) => {
             let until = match (&window.down.turns, &window.up.turns) {
                 (None, None) => "(whole range)".into(),
@@ -51,8 +52,7 @@ fn row(record: &Record, setting: &Setting) -> [String; 6] {
                 (Some(down), None) => format!("{down} below"),
                 (None, Some(up)) => format!("{up} above"),
             };
-            let window = format!("{} to {} {}", shown.low, shown.high, setting.unit);
-            (window, until)
+            (shown.window(setting.unit), until)
         }
         None if setting
             .range(record)
@@ -66,7 +66,7 @@ fn row(record: &Record, setting: &Setting) -> [String; 6] {
     [
         setting.name.into(),
         shown.value,
-        setting.unit.into(),
+        setting.unit_of(record).into(),
         tolerance,
         window,
         until,
@@ -202,7 +202,7 @@ pub fn pose(best: &AnswerRecord) -> Option<Block> {
     let vector = |values: &[f64], scale: f64, decimals: usize| {
         let texts: Vec<String> = values
             .iter()
-            .map(|value| format!("{:>9}", fixed(value * scale, decimals)))
+            .map(|value| format!("{:>9}", coordinate(value * scale, decimals)))
             .collect();
         texts.join(" ")
     };

@@ -15,7 +15,7 @@ pub fn block(record: &Record) -> Option<Block> {
     let unknowns = record.unknowns.as_ref()?;
     let mut table = Table::new(&[
         ("UNKNOWNS, one at a time", Align::Left),
-        ("rebound deg", Align::Right),
+        ("rebound, deg", Align::Right),
         ("mean N*, uN.s", Align::Right),
         ("J", Align::Right),
         ("breaks most", Align::Left),

@@ -63,7 +63,7 @@ impl View {
             middle,
             scale: PICTURE / (2.0 * ROOM * reach.max(1e-6)),
             seen_against: if is_along {
-                "azimuth 90 deg"
+                "azimuth 90°"
             } else {
                 "azimuth 0"
             },
