@@ -314,6 +314,7 @@ fn every_other_key_is_read() {
     assert_eq!(
         problem.target,
         Target {
+            lengths_in: Default::default(),
             // A group of the mesh file, which nobody has read yet.
             surface: "mask.rim".to_owned(),
             within: None,

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use super::ray::Hit;
 use super::{SLACK, Scene};
 use crate::problem::fault::Fault;
-use crate::problem::part::Target;
+use crate::problem::part::{FileUnit, Target};
 use crate::problem::rule::Rule;
 
 /// The target of the scene.
@@ -124,9 +124,10 @@ impl Patch {
                     target.surface
                 ),
             );
-            return Err(vec![
-                fault.expecting(format!("a box that meets {}", extent(scene, surface))),
-            ]);
+            return Err(vec![fault.expecting(format!(
+                "a box that meets {}",
+                extent(scene, surface, target.lengths_in)
+            ))]);
         }
         let aim = target.aim.unwrap_or(centre);
         let reach = area.sqrt();
@@ -197,11 +198,9 @@ impl Frame {
 }
 
 fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
-    let millimetres = aim.coords * 1e3;
-    let place = format!(
-        "[{:.3}, {:.3}, {:.3}] mm",
-        millimetres.x, millimetres.y, millimetres.z
-    );
+    let unit = target.lengths_in;
+    let [x, y, z] = [aim.x, aim.y, aim.z].map(|it| unit.text(it));
+    let place = format!("[{x}, {y}, {z}] {}", unit.name);
     match target.aim {
         Some(_) => Fault::at_key(
             Rule::AimOffTarget,
@@ -222,15 +221,20 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
 }
 
 /// The box round a surface, in words.
-fn extent(scene: &Scene, surface: u32) -> String {
+fn extent(scene: &Scene, surface: u32, unit: FileUnit) -> String {
     let corners = || scene.surface_triangles(surface).flatten();
-    let low = corners().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(&p.coords)) * 1e3;
+    let low = corners().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(&p.coords));
     let high = corners().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| {
         high.sup(&p.coords)
-    }) * 1e3;
+    });
+    let axis =
+        |name: &str, at: usize| format!("{name} {} to {}", unit.text(low[at]), unit.text(high[at]));
     format!(
-        "x {:.3} to {:.3}, y {:.3} to {:.3}, z {:.3} to {:.3} mm",
-        low.x, high.x, low.y, high.y, low.z, high.z
+        "{}, {}, {} {}",
+        axis("x", 0),
+        axis("y", 1),
+        axis("z", 2),
+        unit.name
     )
 }
 

@@ -11,6 +11,7 @@ pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
         ("shot_density_kg_m3", it.shot_density_kg_m3),
         ("shot_mass_kg", it.shot_mass_kg),
         ("goals.normal_impulse_N_s", it.goals.normal_impulse),
+        ("lengths_in.metres", it.lengths_in.metres),
     ] {
         at.of(key).at_least(value, f64::MIN_POSITIVE)?;
     }

@@ -2,7 +2,10 @@
 
 use super::origins::origins;
 use super::setting::{SETTINGS, Setting};
-use crate::record::{AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord};
+use crate::problem::part::decimals_of;
+use crate::record::{
+    AnswerRecord, CalibrationRecord, ContactRecord, LengthsIn, Record, StatusRecord,
+};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{coordinate, fixed, plain, share_asked, significant};
 
@@ -197,7 +200,7 @@ fn remarks(record: &Record) -> Vec<String> {
 }
 
 /// The pose for a robot, and the clearance.
-pub fn pose(best: &AnswerRecord) -> Option<Block> {
+pub fn pose(best: &AnswerRecord, unit: &LengthsIn) -> Option<Block> {
     let mut block = Block::titled("POSE IN THE COORDINATES OF THE FILE");
     let vector = |values: &[f64], scale: f64, decimals: usize| {
         let texts: Vec<String> = values
@@ -207,7 +210,11 @@ pub fn pose(best: &AnswerRecord) -> Option<Block> {
         texts.join(" ")
     };
     let pose = &best.pose;
-    block.verbatim(&format!("exit point   {} mm", vector(&pose.exit_m, 1e3, 3)));
+    block.verbatim(&format!(
+        "exit point   {} {}",
+        vector(&pose.exit_m, 1.0 / unit.metres, decimals_of(unit.metres)),
+        unit.name
+    ));
     block.verbatim(&format!("jet axis     {}", vector(&pose.direction, 1.0, 5)));
     block.verbatim(&format!(
         "quaternion   {}   (x y z w; takes z to the jet axis)",

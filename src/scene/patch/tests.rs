@@ -19,6 +19,7 @@ fn plate(min: Point3<f64>, max: Point3<f64>) -> Scene {
 /// The upper side of the plate.
 fn upper_side() -> Target {
     Target {
+        lengths_in: Default::default(),
         surface: "plate.z_max".to_owned(),
         within: None,
         aim: None,
