@@ -69,12 +69,11 @@ pub fn infeasibility(setup: &Setup, choice: &Choice) -> Option<Infeasible> {
             });
         }
         if room > 0.0
-            && let Some(worst) = gap_swept(setup, choice, clearance).filter(is_near)
+            && let Some(swept) = gap_swept(setup, choice, clearance)
+            && let Some(worst) = Some(worst_of(gap, swept, room)).filter(is_near)
         {
-            // Where errors take the body into a wall, how near it is as set still tells poses apart.
-            let violation = clearance - worst.distance.max(gap.distance - room);
             return Some(Infeasible {
-                violation,
+                violation: clearance - worst.distance,
                 obstacle: obstacle(&worst),
             });
         }
@@ -90,10 +89,23 @@ pub fn gap(setup: &Setup, choice: &Choice) -> Option<Gap> {
 /// How near it comes with the worst errors within the setup tolerance: a bound from below that is closer
 /// than the bulge of an arc over the angles' tolerance, 10 micrometres at 2 deg and 12 mm.
 pub fn gap_within_tolerance(setup: &Setup, choice: &Choice) -> Option<Gap> {
-    if setup.problem.tolerance.moves_nozzle() {
-        gap_swept(setup, choice, f64::INFINITY)
-    } else {
-        gap(setup, choice)
+    let gap = gap(setup, choice)?;
+    if !setup.problem.tolerance.moves_nozzle() {
+        return Some(gap);
+    }
+    let swept = gap_swept(setup, choice, f64::INFINITY)?;
+    Some(worst_of(gap, swept, room_for_errors(setup, choice)))
+}
+
+/// The gap with the worst errors: the body as set is one of all that is swept, and no point of it goes
+/// farther than there is room for, which still tells poses apart where what is swept reaches into a wall.
+fn worst_of(as_set: Gap, swept: Gap, room: f64) -> Gap {
+    if as_set.distance <= swept.distance {
+        return as_set;
+    }
+    Gap {
+        distance: swept.distance.max(as_set.distance - room),
+        ..swept
     }
 }
 

@@ -5,7 +5,8 @@ mod interval;
 use serde::{Deserialize, Serialize};
 
 use crate::evaluate::{Counts, Evaluation};
-use crate::feasibility::{Infeasible, Obstacle};
+use crate::feasibility::{Infeasible, Obstacle, gap_within_tolerance};
+use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use interval::Count;
 
@@ -90,10 +91,15 @@ impl Verdict {
         verdicts
     }
 
-    /// The verdicts on the nozzle: it is where it may be, or not.
-    pub fn of_pose(infeasible: Option<&Infeasible>) -> [Self; 2] {
-        let is_near = |it: &&Infeasible| matches!(it.obstacle, Obstacle::Surface(_));
-        let too_near = infeasible.filter(is_near).is_some();
+    /// The verdicts on the nozzle, from why its settings are infeasible, if they are: one that is inside the
+    /// material may be too near to its walls as well.
+    pub fn of_pose(setup: &Setup, choice: &Choice, infeasible: Option<&Infeasible>) -> [Self; 2] {
+        let is_near = |it: &Infeasible| matches!(it.obstacle, Obstacle::Surface(_));
+        let clearance = setup.problem.nozzle.clearance;
+        let is_nearer =
+            || gap_within_tolerance(setup, choice).is_some_and(|gap| gap.distance < clearance);
+        let too_near = infeasible.is_some_and(|it| is_near(it) || is_nearer());
+        let is_hidden = infeasible.is_some_and(|it| !is_near(it));
         let verdict = |subject, is_broken| Self {
             subject,
             broken: usize::from(is_broken),
@@ -103,7 +109,7 @@ impl Verdict {
         };
         [
             verdict(Subject::Clearance, too_near),
-            verdict(Subject::FreeSpace, infeasible.is_some() && !too_near),
+            verdict(Subject::FreeSpace, is_hidden),
         ]
     }
 

@@ -12,7 +12,7 @@ use peenpose::impact::{Contact, Law, Restitution};
 use peenpose::problem::equipment::{Body, Jet, Nozzle, PathLimits, Role, Shot, Spread};
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
 use peenpose::problem::model::{Effect, Model};
-use peenpose::problem::part::{Ends, Keyway, Part, Place, Shape, Target};
+use peenpose::problem::part::{Ends, FileUnit, Keyway, Part, Place, Shape, Target};
 use peenpose::problem::rule::Rule;
 use peenpose::problem::setting::{Range, Tolerance};
 use peenpose::problem::{self, Problem, Reading};
@@ -314,7 +314,10 @@ fn every_other_key_is_read() {
     assert_eq!(
         problem.target,
         Target {
-            lengths_in: Default::default(),
+            lengths_in: FileUnit {
+                name: "cm",
+                metres: 0.01,
+            },
             // A group of the mesh file, which nobody has read yet.
             surface: "mask.rim".to_owned(),
             within: None,

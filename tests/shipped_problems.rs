@@ -120,7 +120,11 @@ fn every_file_is_solved_in_the_right_valley() {
         assert_eq!(solution.status, Status::Converged, "{file}");
         assert_eq!(solution.answers.len(), expected.len(), "{file}");
         let totals: Vec<f64> = solution.answers.iter().map(objective).collect();
-        assert!(totals.is_sorted(), "{file}: {totals:?}");
+        // Contacts that tie within the accuracy asked for come in the order of the file.
+        assert!(
+            totals.is_sorted_by(|a, b| *a <= b * 1.02),
+            "{file}: {totals:?}"
+        );
         for (rank, expected) in expected.iter().enumerate() {
             let name = |answer: &&Answer| {
                 setup.problem.contacts[answer.choice.contact].name == expected.contact

@@ -147,7 +147,7 @@ mod tests {
             (
                 Setting::Standoff,
                 "0mm",
-                "must be more than 0; expected a length from 1 nm to 1 km",
+                "must be more than 0; expected a length from 0.001 um to 1000 m",
             ),
             (Setting::Standoff, "1e-12mm", "is too small"),
             (
@@ -159,7 +159,7 @@ mod tests {
             (
                 Setting::AimAlong,
                 "-2e6 mm",
-                "is too small; expected a length from -1 km to 1 km",
+                "is too small; expected a length from -1000 m to 1000 m",
             ),
             (
                 Setting::StaticFriction,

@@ -10,7 +10,7 @@ use super::Scene;
 use super::nearest::Foot;
 use super::part::{BuiltPart, FreeSide};
 use super::patch::Patch;
-use super::ray::Ray;
+use super::ray::{Ray, Spot};
 use crate::problem::fault::Fault;
 use crate::problem::rule::Rule;
 
@@ -133,11 +133,17 @@ impl Scene {
                 } else {
                     FreeSide::Back
                 };
+                part.facets.fronts_are_free = part.free == FreeSide::Front;
             } else if part.free == FreeSide::Round {
                 // A hole if the target is inside, a pin if it is beside, and if it is beyond an end either.
                 part.free = part.side_of_axis(&anchor);
             }
         }
+    }
+
+    /// Whether a spot is on the side of its part that is free: the back of a hollow.
+    pub fn is_free_side(&self, spot: &Spot) -> bool {
+        spot.front == (self.parts[spot.part as usize].free != FreeSide::Back)
     }
 
     /// Distance of a point from the surfaces of a part, m.

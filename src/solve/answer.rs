@@ -99,7 +99,7 @@ impl Answer {
         let mut verdicts = evaluation
             .as_ref()
             .map_or_else(Vec::new, |evaluation| Verdict::all(setup, evaluation));
-        verdicts.extend(Verdict::of_pose(infeasible.as_ref()));
+        verdicts.extend(Verdict::of_pose(setup, choice, infeasible.as_ref()));
         Self {
             choice: *choice,
             evaluation,

@@ -116,7 +116,7 @@ pub(in crate::problem) enum SpreadEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct NozzleEntry {
-    /// Its pieces. Where absent, the disc of the exit, grown by the radius of a shot, takes the room.
+    /// Its pieces; the disc of the exit grown by the radius of a shot where absent.
     pub body: Field<Vec<Field<BodyEntry>>>,
     /// Least distance to every surface, up to 1000 m, for every pose within the [tolerance](#tolerance).
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
