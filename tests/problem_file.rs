@@ -484,6 +484,18 @@ fn a_range_may_be_a_single_value() {
     assert_eq!(sound(&text).settings.speed, Range::held(10.0));
 }
 
+/// Such a file has nothing that is in that unit; what is said of places is then in mm.
+#[test]
+fn a_file_without_coordinates_needs_no_unit_for_them() {
+    let without = ["lengths_in: ", "  within: ", "  aim: "];
+    let is_kept = |line: &&str| !without.iter().any(|start| line.starts_with(start));
+    let kept: Vec<&str> = KEYWAY.lines().filter(is_kept).collect();
+    assert_eq!(kept.len() + without.len(), KEYWAY.lines().count());
+    let bare = kept.join("\n");
+    let lengths_in = sound(&bare).target.lengths_in;
+    assert_eq!((lengths_in.name, lengths_in.metres), ("mm", 1e-3));
+}
+
 #[test]
 fn the_path_of_a_mesh_may_lead_up_within_the_folder() {
     sound(&EVERYTHING_ELSE.replace("parts/mask.obj", "parts/../parts/mask.obj"));

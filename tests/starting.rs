@@ -174,6 +174,15 @@ fn the_readme_shows_the_keyway_as_it_is() {
         file
     );
     let reading = problem::read_text(file, Path::new("keyway.yaml")).unwrap();
-    let sheet = between("<!-- sheet -->", "<!-- /sheet -->");
+    let sheet = between("<!-- sheet -->\n```text\n", "```\n<!-- /sheet -->");
     assert!(sheet.contains(&reading.source.sha256));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let output = peenpose(root, &["solve", "problems/keyway.yaml", "--quiet"]);
+    let timeless = |text: &str| {
+        let lines = text.lines().map(str::to_owned);
+        lines
+            .filter(|line| !line.contains("wall time"))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(timeless(sheet), timeless(text(&output.stdout)));
 }

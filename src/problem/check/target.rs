@@ -39,12 +39,14 @@ pub(super) fn check(
     let facing = optional(&entry.facing, |facing| {
         coordinates::direction(&scope.of("facing"), facing)
     });
-    let unit = coordinates.unit()?;
-    Some(Target {
-        lengths_in: FileUnit {
+    let lengths_in = coordinates
+        .given_unit()
+        .map_or_else(FileUnit::default, |unit| FileUnit {
             name: unit.name(),
             metres: coordinates::metres(1.0, unit),
-        },
+        });
+    Some(Target {
+        lengths_in,
         surface: surface?.clone(),
         within: within?,
         aim: aim?,

@@ -244,12 +244,12 @@ fn clearance(best: &AnswerRecord) -> String {
         .clearance_within_tolerance_m
         .zip(best.clearance_within_tolerance_surface.as_deref());
     match (set, worst) {
-        (Some((set, surface)), Some((worst, nearest))) => format!(
+        (Some((set, surface)), Some((worst, nearest))) if set >= 0.0 => format!(
             "{} as set, {} with the worst errors, {wanted}",
             gap(set, surface),
             gap(worst, nearest)
         ),
-        (Some((set, surface)), None) => format!("{}, {wanted}", gap(set, surface)),
+        (Some((set, surface)), _) => format!("{}, {wanted}", gap(set, surface)),
         _ => "unlimited: nothing is near".into(),
     }
 }

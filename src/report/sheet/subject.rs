@@ -19,11 +19,12 @@ pub fn is_of_pose(subject: &str) -> bool {
 pub fn broken_when(subject: &str, goals: &GoalsRecord, answer: &AnswerRecord) -> String {
     match subject {
         "miss" => "first hit off target".into(),
+        CLEARANCE if answer.clearance_wanted_m == 0.0 => "nozzle meets a wall".into(),
         CLEARANCE => format!(
-            "nozzle within {} mm of a surface",
+            "nozzle within {} mm of a wall",
             plain(answer.clearance_wanted_m * 1e3)
         ),
-        FREE_SPACE => "nozzle or line of fire in material".into(),
+        FREE_SPACE => "nozzle in material".into(),
         "normal_impulse" => format!(
             "N* off {} +- {}",
             impulse_asked(goals.normal_impulse),
