@@ -57,7 +57,7 @@ impl Count {
             return other < low || high <= other;
         }
         let tail = self.tail(other);
-        tail < THREE_STANDARD_ERRORS || tail >= 1.0 - THREE_STANDARD_ERRORS
+        !(THREE_STANDARD_ERRORS..1.0 - THREE_STANDARD_ERRORS).contains(&tail)
     }
 
     fn share(&self) -> f64 {

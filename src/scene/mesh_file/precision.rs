@@ -125,8 +125,8 @@ mod tests {
         // The same with a coordinate that is no f32.
         let diagonal = 4.2_f64.hypot(4.0).hypot(12.0);
         let corners = [
-            [1999.123_456_789_012, 1517.5, 0.25],
-            [1999.123_456_789_012 + 4.2, 1521.5, 12.25],
+            [1_999.123_456_789_012, 1517.5, 0.25],
+            [1_999.123_456_789_012 + 4.2, 1521.5, 12.25],
         ];
         assert_is(of(&corners, 1e-3), MESHING * diagonal);
     }

@@ -53,7 +53,7 @@ pub fn run(args: &InitArgs) -> Result<ExitCode, Failure> {
                     MESH.0
                 ));
             }
-            text(template.text().to_owned())
+            text(template.text())
         }
     }
 }
