@@ -251,7 +251,7 @@ fn slack(scene: &Scene, within: Option<(Point3<f64>, Point3<f64>)>) -> f64 {
 }
 
 /// Places of exact walls count as in a face of the box within this share of the scene's size.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-9;
 /// What is small against a box.
 const SMALL: f64 = 1e-4;
 
