@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
+use crate::elementary::{ln_1p, square};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Choice;
@@ -138,8 +139,8 @@ impl Coverage {
     /// Mass of shot, kg, until the wanted share of a place with some density is dented; `None`
     /// where nothing hits.
     pub fn mass_until_wanted(&self, density: Density) -> Option<f64> {
-        let dent = std::f64::consts::PI * self.wish.dent_diameter.powi(2) / 4.0;
-        let hits_per_area = -(-self.wish.wanted).ln_1p() / dent;
+        let dent = std::f64::consts::PI * square(self.wish.dent_diameter) / 4.0;
+        let hits_per_area = -ln_1p(-self.wish.wanted) / dent;
         let per_kilogram = density.value * self.shots_per_kilogram;
         (per_kilogram > 0.0).then(|| hits_per_area / per_kilogram)
     }
@@ -154,7 +155,7 @@ impl Cell {
     fn density(&self, shots: usize) -> Density {
         let samples = self.hits.len() as f64;
         let mean = self.hits.iter().sum::<usize>() as f64 / samples;
-        let squares: f64 = self.hits.iter().map(|&n| (n as f64 - mean).powi(2)).sum();
+        let squares: f64 = self.hits.iter().map(|&n| square(n as f64 - mean)).sum();
         // Of the sum over all samples; one sample of the only shot there is has no error.
         let error = (squares * samples / (samples - 1.0).max(1.0)).sqrt();
         let per_hit = 1.0 / (shots as f64 * self.area);

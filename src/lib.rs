@@ -87,6 +87,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`elementary`] | sines, logarithms, powers with the same bits on every machine |
 //! | [`precision`] | the two precisions that paths can be traced in |
 //! | [`units`] | `0.5 mm` to SI: the only conversions |
 //! | [`impact`] | one impact of a sphere on a surface: the contact laws |
@@ -115,9 +116,12 @@
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+// Results have the same bits on every machine.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 // In reading order: a module builds on those above it.
 
+pub mod elementary;
 pub mod precision;
 pub mod units;
 

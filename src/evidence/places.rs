@@ -6,6 +6,7 @@ mod near;
 use nalgebra::{Point3, Vector3};
 
 use super::Flight;
+use crate::elementary::log10;
 use crate::jet::Pose;
 use crate::setup::Setup;
 use crate::trace::PathImpact;
@@ -185,7 +186,7 @@ fn length(metres: f64) -> String {
 /// A number that is not negative with three significant digits.
 fn three_digits(value: f64) -> String {
     let magnitude = if value > 0.0 {
-        value.log10().floor() as i32
+        log10(value).floor() as i32
     } else {
         0
     };

@@ -1,5 +1,7 @@
 //! Numbers for people: convenient units, and no more digits than a figure deserves.
 
+use crate::elementary::whole_power;
+
 /// What is shown instead of a number that is not finite.
 const NO_NUMBER: &str = "-";
 
@@ -162,7 +164,7 @@ impl Scale {
         match self {
             _ if value == 0.0 => "0".into(),
             Self::Decimals(decimals) => {
-                let least = 0.1_f64.powi(decimals as i32);
+                let least = whole_power(0.1, decimals as i32);
                 if value.abs() < 0.5 * least {
                     format!("<{}", fixed(least, decimals))
                 } else {

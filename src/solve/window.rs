@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::Solution;
 use super::judge::clearance_violation;
+use crate::elementary::whole_power;
 use crate::evaluate::{Counts, Survey};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::setting::{Choice, Range, Setting};
@@ -181,7 +182,7 @@ fn drift(
     let mut good = 0.0;
     let mut bad = None;
     for step in (0..=DOUBLINGS).rev() {
-        let fraction = 0.5_f64.powi(step);
+        let fraction = whole_power(0.5, step);
         match turn(fraction) {
             Some(turn) => {
                 bad = Some((fraction, turn));

@@ -1,6 +1,7 @@
 //! What acts on a shot between exit and target: gravity and the drag of the air.
 
 use super::Note;
+use crate::elementary::{exp, power};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
@@ -49,7 +50,7 @@ pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
 /// Speed at the end of the flight, m/s: dv/dx = -decay(v) v, each step with the decay of its middle.
 fn speed_left(diameter: f64, density: f64, choice: &Choice) -> f64 {
     let step = choice.standoff / STEPS as f64;
-    let after = |speed: f64, at: f64, way: f64| speed * (-decay(diameter, density, at) * way).exp();
+    let after = |speed: f64, at: f64, way: f64| speed * exp(-decay(diameter, density, at) * way);
     let mut speed = choice.speed;
     for _ in 0..STEPS {
         let middle = after(speed, speed, 0.5 * step);
@@ -68,5 +69,6 @@ fn decay(diameter: f64, density: f64, speed: f64) -> f64 {
     }
     // C_d goes with 1/Re, so the density of the air drops out of the first factor. A shot that has
     // come to rest has an infinite decay, and stays.
-    18.0 * viscosity / (density * diameter * diameter * speed) * (1.0 + 0.15 * reynolds.powf(0.687))
+    18.0 * viscosity / (density * diameter * diameter * speed)
+        * (1.0 + 0.15 * power(reynolds, 0.687))
 }

@@ -1,5 +1,6 @@
 //! Where the scatter of N* comes from, to first order.
 
+use crate::elementary::tan;
 use crate::record::{Record, TargetRecord};
 use crate::report::number::{fixed, plain, share_asked};
 
@@ -73,7 +74,7 @@ fn sources(record: &Record) -> Vec<Source> {
     // A jet along the target meets it over a deflector, at an angle that the settings do not tell.
     let cotangent = match best.settings.incidence_deg {
         0.0 => 0.0,
-        angle => angle.to_radians().tan().recip(),
+        angle => tan(angle.to_radians()).recip(),
     };
     let restitution = best.contact_values.restitution;
     let mut sources = vec![

@@ -1,5 +1,6 @@
 //! One setting: what it is called, its unit, and how it is rounded.
 
+use crate::elementary::whole_power;
 use crate::record::{DriftRecord, RangeRecord, Record, SettingsRecord, WindowRecord};
 use crate::report::number::{fixed, plain};
 
@@ -177,7 +178,7 @@ impl Setting {
         };
         let mut decimals = self.decimals;
         loop {
-            let step = 0.1_f64.powi(decimals as i32);
+            let step = whole_power(0.1, decimals as i32);
             let [shown, down, up] = [
                 (value / step).round(),
                 (low / step - 1e-6).ceil(),

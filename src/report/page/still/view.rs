@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{Area, Label, PICTURE, Piece, WIDTH};
+use crate::elementary::whole_power;
 use crate::record::{BodyRecord, EvidenceRecord, Record, RoleRecord, SurfaceShapeRecord};
 use crate::report::page::look::{Colour, LOOK};
 
@@ -257,7 +258,8 @@ impl View {
     /// A round length in the drawing, and in mm.
     pub fn scale_bar(&self) -> (f64, f64) {
         let per_millimetre = self.scale * 1e-3;
-        let lengths = (-3..5).flat_map(|power| [1.0, 2.0, 5.0].map(|m| m * 10_f64.powi(power)));
+        let lengths =
+            (-3..5).flat_map(|power| [1.0, 2.0, 5.0].map(|m| m * whole_power(10.0, power)));
         let fits = |length: &f64| length * per_millimetre <= WIDTH / 6.0;
         let length = lengths.filter(fits).fold(1e-3, f64::max);
         (length * per_millimetre, length)
