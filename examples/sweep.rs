@@ -6,9 +6,10 @@ use std::error::Error;
 use std::path::Path;
 
 use peenpose::evaluate::evaluate;
+use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Replicates, purpose};
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, clearance_violation, solve};
+use peenpose::solve::{Control, solve};
 use peenpose::verdict::Verdict;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -24,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut choice = best;
         choice.incidence = f64::from(incidence_deg).to_radians();
         let found = evaluate(&setup, &choice, &shots);
-        let fits = clearance_violation(&setup, &choice).is_none();
+        let fits = infeasibility(&setup, &choice).is_none();
         println!(
             "{incidence_deg},{fits},{:.6},{:.6},{:.4e},{}",
             found.terms.total(),

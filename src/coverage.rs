@@ -4,29 +4,33 @@
 //! axes are those of the target's frame; a cell's density is the number of first hits in it over
 //! the area of the target in it. What the target's border leaves of a cell counts with the cell beside
 //! it when it is less than a quarter. Dents fall at random with the density of their cell (Avrami): n
-//! hits per area, each with a dent of diameter d, cover the share 1 - exp(-n pi d^2 / 4).
+//! hits per area, each with a dent of diameter d, cover the share 1 - exp(-n pi d^2 / 4). What is dented of
+//! the target is the mean of that over its cells.
 
-use std::collections::BTreeMap;
+mod dented;
+mod grid;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use rayon::prelude::*;
 
 use crate::elementary::{ln_1p, square};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Choice;
-use crate::scene::patch::{Frame, Triangle};
 use crate::setup::Setup;
 use crate::trace::Tracer;
+use dented::Question;
+pub use dented::{Dented, Estimate};
+use grid::{Cell, Cells};
 
 /// Shots behind the densities.
 const SHOTS: usize = 1 << 18;
 /// Cells into which a flat square target is cut.
 const CELLS: f64 = 64.0;
-/// Less than this share of a cell is too little to count hits on.
-const WHOLE_ENOUGH: f64 = 0.25;
-/// Triangles are cut until their sides are this share of a cell's, so that each lies in one.
-const FINE: f64 = 0.25;
+/// Into how many cells it is cut at most for the mean of what is dented, whose error falls with their size.
+const MOST_CELLS: f64 = 16_384.0;
+/// But those that are hit have so many hits on the mean.
+const HITS_IN_A_CELL: f64 = 32.0;
 /// Share of the area that may be hit less than what counts as the lowest density.
 const LOWEST: f64 = 0.05;
 
@@ -49,8 +53,10 @@ pub struct Coverage {
     pub lowest: Density,
     /// Standard deviation of the density over the area relative to its mean; 0 where nothing hits.
     pub variation: f64,
-    /// Share of the area that lies in cells without a hit.
+    /// Share of the area that is not reached: that of the small cells without a hit.
     pub share_not_hit: f64,
+    /// What is dented on the mean over small cells.
+    pub dented: Dented,
     /// Number of shots in a kilogram.
     pub shots_per_kilogram: f64,
     /// Mass of shot per time, kg/s, where it is known.
@@ -66,15 +72,6 @@ pub struct Density {
     pub standard_error: f64,
 }
 
-/// A piece of the target.
-#[derive(Clone)]
-struct Cell {
-    /// m2.
-    area: f64,
-    /// First hits of each sample.
-    hits: Vec<usize>,
-}
-
 impl Coverage {
     /// What a choice of settings does; `None` when the problem does not ask for it.
     pub fn of(setup: &Setup, choice: &Choice) -> Option<Self> {
@@ -82,22 +79,12 @@ impl Coverage {
         let fresh = Replicates::without_rim(&setup.problem, purpose::COVERAGE, SHOTS);
         let samples = fresh.sets.len();
         let (target, _) = setup.target.cut_out(&setup.scene);
-        let grid = Grid::of(setup, &target);
-        let areas = grid.areas(&target);
-        let area: f64 = areas.values().sum();
-        let (cell_at, mut cells) = grid.cells(&areas, samples);
         let hits = hits(setup, choice, &fresh.sets);
-        for (sample, points) in hits.iter().enumerate() {
-            for point in points {
-                // A hit on an arc may lie in a cell beside that of the chord, where there is none.
-                if let Some(&cell) = cell_at.get(&grid.place(point)) {
-                    cells[cell].hits[sample] += 1;
-                }
-            }
-        }
+        let Cells { side, cells } = Cells::new(setup, &target, CELLS, &hits);
+        let area: f64 = cells.iter().map(|cell| cell.area).sum();
         let whole = Cell {
             area,
-            hits: hits.iter().map(Vec::len).collect(),
+            hits: hits.iter().map(|hits| hits.len() as u32).collect(),
         };
         let shots = fresh.shots();
         let mean = whole.density(shots);
@@ -113,16 +100,35 @@ impl Coverage {
             off * off * cell.area / area
         });
         let spread = squares.sum::<f64>().sqrt();
-        let is_bare = |cell: &&&Cell| cell.hits.iter().all(|&hits| hits == 0);
-        let bare: f64 = by_density.iter().filter(is_bare).map(|c| c.area).sum();
         let deviates = fresh.sets.iter().flat_map(|set| &set.jet.deviates);
         let relative_mass = deviates.map(|deviate| deviate.mass()).sum::<f64>() / shots as f64;
+        let shots_per_kilogram = 1.0 / (setup.problem.shot.mass() * relative_mass);
+        let question = Question {
+            wanted: wish.wanted,
+            dent_diameter: wish.dent_diameter,
+            shots,
+            shots_per_kilogram,
+            even_mass: mass_until(&wish, mean, shots_per_kilogram),
+        };
+        let hit: f64 = cells
+            .iter()
+            .filter(|it| it.all_hits() > 0)
+            .map(|it| it.area)
+            .sum();
+        let hit_share = (hit / area).max(1.0 / CELLS);
+        let count = match samples {
+            1 => MOST_CELLS,
+            _ => (f64::from(whole.all_hits()) / HITS_IN_A_CELL / hit_share).clamp(1.0, MOST_CELLS),
+        };
+        let [fine, coarse] =
+            [count, count / 4.0].map(|count| Cells::new(setup, &target, count, &hits));
+        let dented = Dented::of(&question, &fine, &coarse);
         Some(Self {
             wish,
             shots,
             area,
             cells: cells.len(),
-            side: grid.side,
+            side,
             mean,
             lowest: lowest.map_or(mean, |cell| cell.density(shots)),
             variation: if mean.value > 0.0 {
@@ -130,8 +136,9 @@ impl Coverage {
             } else {
                 0.0
             },
-            share_not_hit: bare / area,
-            shots_per_kilogram: 1.0 / (setup.problem.shot.mass() * relative_mass),
+            share_not_hit: dented.share_not_reached,
+            dented,
+            shots_per_kilogram,
             mass_flow: setup.problem.jet.mass_flow,
         })
     }
@@ -139,10 +146,7 @@ impl Coverage {
     /// Mass of shot, kg, until the wanted share of a place with some density is dented; `None`
     /// where nothing hits.
     pub fn mass_until_wanted(&self, density: Density) -> Option<f64> {
-        let dent = std::f64::consts::PI * square(self.wish.dent_diameter) / 4.0;
-        let hits_per_area = -ln_1p(-self.wish.wanted) / dent;
-        let per_kilogram = density.value * self.shots_per_kilogram;
-        (per_kilogram > 0.0).then(|| hits_per_area / per_kilogram)
+        mass_until(&self.wish, density, self.shots_per_kilogram)
     }
 
     /// The time that takes, s; `None` also where the mass flow is not known.
@@ -151,19 +155,11 @@ impl Coverage {
     }
 }
 
-impl Cell {
-    fn density(&self, shots: usize) -> Density {
-        let samples = self.hits.len() as f64;
-        let mean = self.hits.iter().sum::<usize>() as f64 / samples;
-        let squares: f64 = self.hits.iter().map(|&n| square(n as f64 - mean)).sum();
-        // Of the sum over all samples; one sample of the only shot there is has no error.
-        let error = (squares * samples / (samples - 1.0).max(1.0)).sqrt();
-        let per_hit = 1.0 / (shots as f64 * self.area);
-        Density {
-            value: mean * samples * per_hit,
-            standard_error: error * per_hit,
-        }
-    }
+fn mass_until(wish: &CoverageWish, density: Density, shots_per_kilogram: f64) -> Option<f64> {
+    let dent = std::f64::consts::PI * square(wish.dent_diameter) / 4.0;
+    let hits_per_area = -ln_1p(-wish.wanted) / dent;
+    let per_kilogram = density.value * shots_per_kilogram;
+    (per_kilogram > 0.0).then(|| hits_per_area / per_kilogram)
 }
 
 /// Where the first hits of each sample are on the target.
@@ -183,104 +179,4 @@ fn hits(setup: &Setup, choice: &Choice, samples: &[Replicate]) -> Vec<Vec<Point3
         points
     };
     samples.par_iter().map(points).collect()
-}
-
-/// A cubic grid.
-struct Grid {
-    middle: Point3<f64>,
-    axes: [Vector3<f64>; 3],
-    side: f64,
-}
-
-type Place = [i64; 3];
-
-impl Grid {
-    fn of(setup: &Setup, target: &[Triangle]) -> Self {
-        let Frame {
-            aim,
-            normal,
-            along,
-            across,
-        } = setup.target.frame;
-        let corners = target.iter().flatten();
-        let farthest = corners.map(|corner| (corner - aim).norm());
-        // However narrow the target is, there are not many more cells than in a square one.
-        let least_side = farthest.fold(0.0, f64::max) / CELLS;
-        Self {
-            middle: aim,
-            axes: [along, across, normal],
-            side: (setup.target.area / CELLS).sqrt().max(least_side),
-        }
-    }
-
-    /// The cell of a point. The target's plane runs through the middle of cells, so that no
-    /// rounding error takes a point of it into the next one.
-    fn place(&self, point: &Point3<f64>) -> Place {
-        let from_middle = point - self.middle;
-        let [along, across, above] = self.axes.map(|axis| from_middle.dot(&axis) / self.side);
-        [along, across, above + 0.5].map(|steps| steps.floor() as i64)
-    }
-
-    /// The area of the target in each cell, m2.
-    fn areas(&self, target: &[Triangle]) -> BTreeMap<Place, f64> {
-        let mut areas = BTreeMap::new();
-        let mut pieces: Vec<Triangle> = target.to_vec();
-        while let Some([a, b, c]) = pieces.pop() {
-            let sides = [(a, b, c), (b, c, a), (c, a, b)];
-            let longest = sides.map(|(p, q, opposite)| ((q - p).norm(), p, q, opposite));
-            let longer = |x: &(f64, _, _, _), y: &(f64, _, _, _)| x.0.total_cmp(&y.0);
-            let Some((length, p, q, opposite)) = longest.into_iter().max_by(longer) else {
-                continue;
-            };
-            if length > FINE * self.side {
-                let middle = nalgebra::center(&p, &q);
-                pieces.extend([[p, middle, opposite], [middle, q, opposite]]);
-                continue;
-            }
-            let centre = Point3::from((a.coords + b.coords + c.coords) / 3.0);
-            let area = (b - a).cross(&(c - a)).norm() / 2.0;
-            *areas.entry(self.place(&centre)).or_insert(0.0) += area;
-        }
-        areas
-    }
-
-    /// The cells, without hits, and which of them counts at each place.
-    fn cells(
-        &self,
-        areas: &BTreeMap<Place, f64>,
-        samples: usize,
-    ) -> (BTreeMap<Place, usize>, Vec<Cell>) {
-        let enough = WHOLE_ENOUGH * self.side * self.side;
-        let whole = |place: &Place| areas.get(place).is_some_and(|&area| area >= enough);
-        let mut cells: Vec<Cell> = Vec::new();
-        let mut cell_at = BTreeMap::new();
-        let hits = || vec![0; samples];
-        // First the whole ones, and what has no whole one beside it.
-        for (&place, &area) in areas {
-            if whole(&place) || !beside(&place).any(|place| whole(&place)) {
-                cell_at.insert(place, cells.len());
-                cells.push(Cell { area, hits: hits() });
-            }
-        }
-        for (&place, &area) in areas {
-            let neighbour = beside(&place)
-                .filter(&whole)
-                .max_by(|a, b| areas[a].total_cmp(&areas[b]));
-            if !cell_at.contains_key(&place)
-                && let Some(neighbour) = neighbour
-            {
-                let cell = cell_at[&neighbour];
-                cells[cell].area += area;
-                cell_at.insert(place, cell);
-            }
-        }
-        (cell_at, cells)
-    }
-}
-
-/// The places round a place.
-fn beside(place: &Place) -> impl Iterator<Item = Place> {
-    let [x, y, z] = *place;
-    let steps = (0..27).filter(|&step| step != 13);
-    steps.map(move |step| [x + step / 9 - 1, y + step / 3 % 3 - 1, z + step % 3 - 1])
 }

@@ -56,6 +56,12 @@ pub fn exp(exponent: f64) -> f64 {
     libm::exp(exponent)
 }
 
+/// e to the power of a number, minus 1, without the rounding of the difference.
+#[inline]
+pub fn exp_m1(exponent: f64) -> f64 {
+    libm::expm1(exponent)
+}
+
 /// Natural logarithm.
 #[inline]
 pub fn ln(number: f64) -> f64 {

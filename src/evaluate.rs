@@ -3,6 +3,7 @@
 mod counts;
 mod focused;
 mod harm;
+mod impulses;
 mod ledger;
 mod survey;
 
@@ -22,6 +23,7 @@ use crate::problem::goal::Goals;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 use crate::trace::End;
+use impulses::Impulses;
 use ledger::{Ledger, SurfaceSums};
 
 /// What a choice of settings does, with its statistical errors.
@@ -215,15 +217,15 @@ fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {
 
 fn receipt<'a>(parts: impl Iterator<Item = &'a SurfaceSums>) -> SurfaceReceipt {
     let mut receipt = SurfaceReceipt::default();
-    let mut values = Vec::new();
+    let mut values = Impulses::default();
     for part in parts {
         receipt.shots += part.shots;
         receipt.over += part.over;
         add_counts(&mut receipt.impacts_by_number, &part.impacts_by_number);
         add_counts(&mut receipt.over_by_number, &part.over_by_number);
-        values.extend_from_slice(&part.normal_impulses);
+        values.append(&part.normal_impulses);
     }
-    receipt.normal_impulse = Spread::of(values);
+    receipt.normal_impulse = values.spread();
     receipt
 }
 

@@ -88,13 +88,16 @@
 //! | module | what it holds |
 //! |---|---|
 //! | [`elementary`] | sines, logarithms, powers with the same bits on every machine |
+//! | [`digits`] | numbers in texts: five significant digits at most |
 //! | [`precision`] | the two precisions that paths can be traced in |
+//! | [`printable`] | text from elsewhere, made safe to show |
 //! | [`units`] | `0.5 mm` to SI: the only conversions |
 //! | [`impact`] | one impact of a sphere on a surface: the contact laws |
 //! | [`problem`] | what was asked: problem files, their schema, the library, and the faults of a check |
 //! | [`scene`] | what is there: walls, meshes, the target patch; rays and clearances |
 //! | [`setup`] | a problem together with its scene |
 //! | [`jet`] | what comes out of the nozzle: its pose, and the shots |
+//! | [`feasibility`] | whether the nozzle can be where settings put it |
 //! | [`trace`] | shots through the scene, impact by impact |
 //! | [`objective`] | impacts to terms to J, and the best speed |
 //! | [`evaluate`] | what settings do, on shots that nothing was tuned on |
@@ -121,8 +124,11 @@
 
 // In reading order: a module builds on those above it.
 
+mod content;
+pub mod digits;
 pub mod elementary;
 pub mod precision;
+pub mod printable;
 pub mod units;
 
 pub mod impact;
@@ -130,6 +136,7 @@ pub mod problem;
 pub mod scene;
 pub mod setup;
 
+pub mod feasibility;
 pub mod jet;
 pub mod trace;
 

@@ -2,7 +2,7 @@
 
 mod standard;
 
-pub use standard::standard_maps;
+pub use standard::{standard_maps, standard_maps_until};
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::checkpoint::Checkpoint;
 use crate::evaluate::{Counts, Survey};
+use crate::feasibility::infeasibility;
 use crate::jet::{Deviate, Replicates, Samples, purpose};
 use crate::objective::Terms;
 use crate::problem::Problem;
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
-use crate::solve::clearance_violation;
 use crate::verdict::{Subject, Verdict};
 
 /// What two settings do while all others are held.
@@ -191,7 +191,7 @@ fn cells_on_one_path(
         return Vec::new();
     };
     let choice = place(first);
-    if clearance_violation(setup, &choice).is_some() {
+    if infeasibility(setup, &choice).is_some() {
         return vec![None; group.len()];
     }
     let survey = Survey::of(setup, &choice, shots);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::elementary::sin;
 use crate::impact::Contact;
+use crate::printable;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
 use crate::problem::model::{Effect, Model};
@@ -150,8 +151,9 @@ impl Setup {
             .unwrap_or_else(|| self.problem.contacts[choice.contact].at(choice.static_friction))
     }
 
-    fn assemble(problem: Problem, scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
+    fn assemble(problem: Problem, mut scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
         let surfaces = surface_limits(&problem, &scene, target.surface)?;
+        scene.settle(&target);
         Ok(Self {
             problem,
             scene: Arc::new(scene),
@@ -202,7 +204,7 @@ impl Rejection {
             None => self
                 .faults
                 .iter()
-                .map(|fault| format!("error: {fault}\n"))
+                .map(|fault| format!("error: {}\n", printable::line(&fault.to_string())))
                 .collect(),
         }
     }

@@ -14,8 +14,11 @@ mod fault;
 mod pattern;
 #[cfg(test)]
 mod tests;
+mod tidy;
 
 pub use fault::UnitFault;
+
+use tidy::tidy;
 
 /// What kind of quantity a value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,24 +54,34 @@ use Scale::{Factor, Shift};
 
 type Unit = (&'static str, Scale);
 
+/// A pound in kg, a foot and an inch in m, all exact.
+const POUND: f64 = 0.453_592_37;
+const FOOT: f64 = 0.3048;
+const INCH: f64 = 0.0254;
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
 // Each list is in the order of messages.
 const LENGTHS: &[Unit] = &[
     ("um", Shift(-6)),
     ("mm", Shift(-3)),
     ("cm", Shift(-2)),
     ("m", Shift(0)),
-    ("in", Factor(0.0254)),
-    ("inch", Factor(0.0254)),
+    ("in", Factor(INCH)),
+    ("inch", Factor(INCH)),
+    ("mil", Factor(INCH / 1000.0)),
+    ("thou", Factor(INCH / 1000.0)),
+    ("ft", Factor(FOOT)),
 ];
-const ANGLES: &[Unit] = &[
-    ("deg", Factor(std::f64::consts::PI / 180.0)),
-    ("rad", Shift(0)),
-];
+const ANGLES: &[Unit] = &[("deg", Factor(DEGREE)), ("rad", Shift(0))];
 const SPEEDS: &[Unit] = &[
     ("m/s", Shift(0)),
     ("mm/s", Shift(-3)),
+    ("m/min", Factor(1.0 / 60.0)),
     ("km/h", Factor(1.0 / 3.6)),
-    ("ft/s", Factor(0.3048)),
+    ("ft/s", Factor(FOOT)),
+    ("fps", Factor(FOOT)),
+    ("ft/min", Factor(FOOT / 60.0)),
+    ("in/s", Factor(INCH)),
 ];
 const IMPULSES: &[Unit] = &[
     ("N.s", Shift(0)),
@@ -76,13 +89,22 @@ const IMPULSES: &[Unit] = &[
     ("uN.s", Shift(-6)),
     ("nN.s", Shift(-9)),
 ];
-const DENSITIES: &[Unit] = &[("kg/m3", Shift(0)), ("g/cm3", Shift(3))];
+const DENSITIES: &[Unit] = &[
+    ("kg/m3", Shift(0)),
+    ("g/cm3", Shift(3)),
+    ("g/cc", Shift(3)),
+    ("kg/dm3", Shift(3)),
+    ("lb/ft3", Factor(POUND / (FOOT * FOOT * FOOT))),
+    ("lb/in3", Factor(POUND / (INCH * INCH * INCH))),
+];
 const MASS_FLOWS: &[Unit] = &[
     ("kg/min", Factor(1.0 / 60.0)),
     ("kg/s", Shift(0)),
+    ("kg/h", Factor(1.0 / 3600.0)),
     ("g/s", Shift(-3)),
     ("g/min", Factor(1e-3 / 60.0)),
-    ("lb/min", Factor(0.453_592_37 / 60.0)),
+    ("lb/min", Factor(POUND / 60.0)),
+    ("lb/h", Factor(POUND / 3600.0)),
 ];
 const PRESSURES: &[Unit] = &[
     ("bar", Shift(5)),
@@ -90,9 +112,26 @@ const PRESSURES: &[Unit] = &[
     ("MPa", Shift(6)),
     ("Pa", Shift(0)),
     // A pound-force on a square inch.
-    ("psi", Factor(0.453_592_37 * 9.806_65 / (0.0254 * 0.0254))),
+    ("psi", Factor(POUND * 9.806_65 / (INCH * INCH))),
 ];
 const FRACTIONS: &[Unit] = &[("%", Shift(-2))];
+
+// Signs in the place of units, which messages do not list.
+const LENGTH_SIGNS: &[Unit] = &[
+    ("\"", Factor(INCH)),
+    ("″", Factor(INCH)),
+    ("”", Factor(INCH)),
+    ("'", Factor(FOOT)),
+    ("′", Factor(FOOT)),
+    ("’", Factor(FOOT)),
+];
+const ANGLE_SIGNS: &[Unit] = &[
+    ("°", Factor(DEGREE)),
+    ("º", Factor(DEGREE)),
+    ("'", Factor(DEGREE / 60.0)),
+    ("′", Factor(DEGREE / 60.0)),
+    ("’", Factor(DEGREE / 60.0)),
+];
 
 impl Dimension {
     /// Every dimension.
@@ -153,6 +192,15 @@ impl Dimension {
         }
     }
 
+    /// Signs that it may be written with in the place of a unit.
+    const fn signs(self) -> &'static [Unit] {
+        match self {
+            Self::Length => LENGTH_SIGNS,
+            Self::Angle => ANGLE_SIGNS,
+            _ => &[],
+        }
+    }
+
     const fn article(self) -> &'static str {
         match self {
             Self::Angle | Self::Impulse => "an",
@@ -160,10 +208,11 @@ impl Dimension {
         }
     }
 
+    /// What a unit is worth; `unit` is tidy.
     fn scale(self, unit: &str) -> Option<Scale> {
         let unit = plain_spelling(unit);
-        self.units()
-            .iter()
+        let mut known = self.units().iter().chain(self.signs());
+        known
             .find(|(name, _)| *name == unit)
             .map(|(_, scale)| *scale)
     }
@@ -195,10 +244,11 @@ impl Dimension {
 /// # Errors
 /// A [`UnitFault`] when there is no number, no unit, or a unit of something else.
 pub fn parse(dimension: Dimension, text: &str) -> Result<f64, UnitFault> {
-    let text = text.trim();
+    let written = text.trim();
+    let text = &*tidy(text);
     let Some((number, unit)) = split_number(text) else {
         return Err(UnitFault::NotANumber {
-            text: shortened(text),
+            text: shortened(written),
             dimension,
         });
     };
@@ -247,7 +297,7 @@ pub fn degrees(radians: f64) -> f64 {
 
 /// Reads a bare number in decimal notation; neither `1_000` nor `0x10` nor `inf` is one.
 pub fn parse_number(text: &str) -> Option<f64> {
-    match split_number(text.trim())? {
+    match split_number(&tidy(text))? {
         (number, "") => Some(shifted(number, 0)),
         _ => None,
     }
@@ -284,7 +334,9 @@ fn split_number(text: &str) -> Option<(&str, &str)> {
     }
     let (number, unit) = text.split_at(end);
     // `1_000`, `0x10`, `1,5`, `1.2.3`, `4-5` and `1 000` are mistakes in the number, not in the unit.
-    let broken = unit.starts_with(['_', ',', '.', '\'', 'x']);
+    // An apostrophe alone is a unit.
+    let thousands = unit.starts_with('\'') && unit.len() > 1;
+    let broken = thousands || unit.starts_with(['_', ',', '.', 'x']);
     let unit = unit.trim_start();
     let goes_on = unit.starts_with(|c: char| c.is_ascii_digit() || "+-±".contains(c));
     (!broken && !goes_on).then_some((number, unit))
@@ -305,22 +357,29 @@ fn shifted(number: &str, places: i32) -> f64 {
     format!("{mantissa}e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// The unit as the tables have it: `µN s`, `uN·s` and `uNs` are `uN.s`, `kg/m^3` is `kg/m3`.
+/// The unit as the tables have it: `µN s`, `uN·s` and `uNs` are `uN.s`, `kg / m^3` is `kg/m3`.
 fn plain_spelling(unit: &str) -> String {
-    let plain: String = unit
-        .trim()
+    let signs: String = tidy(unit)
         .replace("^3", "3")
         .chars()
         .map(|c| match c {
-            '\u{b5}' | '\u{3bc}' => 'u',
-            '·' | '⋅' | '*' | ' ' => '.',
+            'µ' | 'μ' => 'u',
             '³' => '3',
+            _ if tidy::POINTS.contains(c) => '.',
+            _ if tidy::SLASHES.contains(c) => '/',
             other => other,
         })
         .collect();
+    let mut plain = String::new();
+    for word in signs.split(' ').filter(|word| !word.is_empty()) {
+        // A blank stands for a point, unless a sign is beside it.
+        let is_beside =
+            plain.is_empty() || plain.ends_with(['/', '.']) || word.starts_with(['/', '.']);
+        plain.push_str(if is_beside { "" } else { "." });
+        plain.push_str(word);
+    }
     match plain.strip_suffix("Ns") {
         Some(prefix) => format!("{prefix}N.s"),
-        None if plain == "°" => "deg".to_owned(),
         None => plain,
     }
 }

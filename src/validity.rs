@@ -2,12 +2,13 @@
 //!
 //! `docs/model.md` derives the numbers behind the notes.
 
-mod clearance;
 mod facets;
 mod flight;
 mod interference;
 mod restitution;
 mod size;
+
+pub use interference::STRONG as STRONG_INTERFERENCE;
 
 use crate::evaluate::Evaluation;
 use crate::problem::setting::Choice;
@@ -40,7 +41,6 @@ pub fn notes(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluation>) ->
                 .into(),
         });
     }
-    notes.extend(clearance::within_tolerance(setup, choice));
     notes.extend(interference::note(setup, choice, evaluation));
     notes.extend(size::fillet(setup));
     notes.extend(size::opening(setup, choice));

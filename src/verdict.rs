@@ -1,9 +1,14 @@
 //! Whether a choice of settings passes: one verdict for each goal and each secondary surface.
 
+mod interval;
+
 use serde::{Deserialize, Serialize};
 
 use crate::evaluate::{Counts, Evaluation};
+use crate::feasibility::{Infeasible, Obstacle, gap_within_tolerance};
+use crate::problem::setting::Choice;
 use crate::setup::Setup;
+use interval::Count;
 
 /// What a verdict is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -16,6 +21,10 @@ pub enum Subject {
     Miss,
     /// Impacts on one surface of the scene.
     Surface(u32),
+    /// The distance of the nozzle from every surface, at the worst pose within the tolerance.
+    Clearance,
+    /// The side of every surface on which the nozzle and its line of fire are.
+    FreeSpace,
 }
 
 /// The share of shots that break a goal, against what is allowed.
@@ -82,6 +91,28 @@ impl Verdict {
         verdicts
     }
 
+    /// The verdicts on the nozzle, from why its settings are infeasible, if they are: one that is inside the
+    /// material may be too near to its walls as well.
+    pub fn of_pose(setup: &Setup, choice: &Choice, infeasible: Option<&Infeasible>) -> [Self; 2] {
+        let is_near = |it: &Infeasible| matches!(it.obstacle, Obstacle::Surface(_));
+        let clearance = setup.problem.nozzle.clearance;
+        let is_nearer =
+            || gap_within_tolerance(setup, choice).is_some_and(|gap| gap.distance < clearance);
+        let too_near = infeasible.is_some_and(|it| is_near(it) || is_nearer());
+        let is_hidden = infeasible.is_some_and(|it| !is_near(it));
+        let verdict = |subject, is_broken| Self {
+            subject,
+            broken: usize::from(is_broken),
+            counted: 1,
+            allowed: 0.0,
+            is_exact: true,
+        };
+        [
+            verdict(Subject::Clearance, too_near),
+            verdict(Subject::FreeSpace, is_hidden),
+        ]
+    }
+
     /// Share of the counted shots that break the goal; 0 when none was counted.
     pub fn share(&self) -> f64 {
         self.broken as f64 / self.counted.max(1) as f64
@@ -97,31 +128,20 @@ impl Verdict {
         self.allowed - self.share()
     }
 
-    /// 95 % interval of the share: Wilson's, or 0 to 3/n where no shot broke the goal.
+    /// 95 % interval of the share: of the binomial distribution (mid-P); 0 to 3/n where no shot broke
+    /// the goal.
     pub fn interval(&self) -> [f64; 2] {
-        if self.broken == 0 && self.counted > 0 && !self.is_exact {
-            return [0.0, (3.0 / self.counted as f64).min(1.0)];
-        }
-        const NORMAL_QUANTILE: f64 = 1.959_963_985;
-        self.wilson(NORMAL_QUANTILE)
-    }
-
-    /// Wilson's interval of the share, so many standard errors to both sides.
-    fn wilson(&self, standard_errors: f64) -> [f64; 2] {
         if self.is_exact {
             return [self.share(); 2];
         }
-        if self.counted == 0 {
-            return [0.0, 1.0];
+        self.count().interval_95()
+    }
+
+    fn count(&self) -> Count {
+        Count {
+            broken: self.broken,
+            counted: self.counted,
         }
-        let z2 = standard_errors * standard_errors / self.counted as f64;
-        let share = self.share();
-        let centre = share + z2 / 2.0;
-        let half = (z2 * (share * (1.0 - share) + z2 / 4.0)).sqrt();
-        [
-            ((centre - half) / (1.0 + z2)).max(0.0),
-            ((centre + half) / (1.0 + z2)).min(1.0),
-        ]
     }
 
     /// Whether the interval lies on one side of what is allowed.
@@ -132,8 +152,7 @@ impl Verdict {
 
     /// Whether more shots of the same kind would not turn it: they had to be three standard errors off.
     pub fn is_beyond_doubt(&self) -> bool {
-        let [low, high] = self.wilson(3.0);
-        high <= self.allowed || low > self.allowed
+        self.is_exact || self.count().is_far_from(self.allowed)
     }
 
     /// How much of the allowed share is used up: 1 is the limit.

@@ -74,12 +74,30 @@ fn no_mistake_is_reported_twice() {
     assert!(mistakes.len() >= 400, "{}", mistakes.len());
 }
 
+/// A binary STL of two triangles with bytes between them that no attribute counts.
+fn with_loose_bytes() -> Vec<u8> {
+    let mut bytes = [vec![b' '; 80], 2_u32.to_le_bytes().to_vec()].concat();
+    for height in [1.0_f32, 2.0] {
+        let normal = [0.0, 0.0, 1.0];
+        let corners = [0.0, 0.0, height, 1.0, 0.0, height, 0.0, 1.0, height];
+        bytes.extend(
+            normal
+                .iter()
+                .chain(&corners)
+                .flat_map(|it| it.to_le_bytes()),
+        );
+        bytes.extend([0, 0]);
+        bytes.extend(*b"loose by");
+    }
+    bytes
+}
+
 /// The rules that are broken by files too large to keep, or by none.
 fn broken_by_made_files() -> Vec<Rule> {
     let folder = tempfile::tempdir().unwrap();
     let problem = fs::read_to_string("tests/bad_geometry/sound/plate.yaml").unwrap();
     let path = folder.path().join("problem.yaml");
-    fs::write(&path, problem).unwrap();
+    fs::write(&path, &problem).unwrap();
     let mesh = folder.path().join("plate.obj");
     let mut broken = Vec::new();
     let mut load = |path: &Path| broken.extend(rejection(path).faults.iter().map(|it| it.rule));
@@ -95,12 +113,19 @@ fn broken_by_made_files() -> Vec<Rule> {
     fs::write(&mesh, format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{face}\n")).unwrap();
     load(&path);
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    let group = |number: usize| format!("v 0 {number} 1\ng g{number}\nf 1 2 -1\n");
+    let group = |number: usize| {
+        let (row, column) = (number / 100, number % 100);
+        format!("v {row} {column} 1\ng g{number}\nf 1 2 -1\n")
+    };
     let groups: String = (0..=MOST_SURFACES).map(group).collect();
     fs::write(&mesh, format!("{points}{groups}")).unwrap();
     load(&path);
     let name = "g".repeat(LONGEST_NAME + 1);
     fs::write(&mesh, format!("{points}g {name}\nf 1 2 3\n")).unwrap();
+    load(&path);
+    let stl = folder.path().join("plate.stl");
+    fs::write(&stl, with_loose_bytes()).unwrap();
+    fs::write(&path, problem.replace("plate.obj", "plate.stl")).unwrap();
     load(&path);
     let too_long = [
         "#".repeat(1_000_001),

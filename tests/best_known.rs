@@ -9,8 +9,9 @@ use common::fresh;
 use common::known::Known;
 use common::statistics::Mean;
 use common::variant::{Shots, Variant, variants};
+use peenpose::feasibility::infeasibility;
 use peenpose::problem::setting::Choice;
-use peenpose::solve::{Control, clearance_violation, solve};
+use peenpose::solve::{Control, solve};
 
 const SHOTS: usize = 1 << 16;
 /// Sets of shots from here on found no best settings.
@@ -33,7 +34,7 @@ fn the_best_settings_known_do_what_the_table_says() {
             .collect();
         let objectives = fresh::objectives(&setup, &choices, FIRST_SET, SHOTS);
         for (index, known) in known.iter().enumerate() {
-            assert_eq!(clearance_violation(&setup, &choices[index]), None);
+            assert_eq!(infeasibility(&setup, &choices[index]), None);
             let Mean {
                 value,
                 standard_error,

@@ -284,7 +284,7 @@ fn figures_are_well_formed_and_name_axes_and_units() {
             .descendants()
             .filter_map(|node| node.text())
             .collect();
-        assert!(texts.contains("Floor of a keyway  & its walls"), "{texts}");
+        assert!(texts.contains("Floor of a keyway ␇& its walls"), "{texts}");
         for word in words {
             assert!(texts.contains(word), "no {word:?} in {name}.svg");
         }

@@ -389,7 +389,10 @@ fn maps_that_make_no_sense_are_refused() {
     refused(&x("incidence=40deg"), &["expected NAME=FROM:TO"]);
     refused(&x("incidence=40:80"), &["has no unit"]);
     refused(&x("incidence=80deg:40deg"), &["is not below"]);
-    refused(&x("incidence=40deg:100deg"), &["at most 90 deg"]);
+    refused(
+        &x("incidence=40deg:100deg"),
+        &["is too large", "from 0 deg to 90 deg"],
+    );
     let contact = |name: &'static str| ["--x", "incidence", "--y", "azimuth", "--contact", name];
     refused(
         &contact("oild"),

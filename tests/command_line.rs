@@ -101,7 +101,9 @@ fn a_solution_as_json_has_every_key() {
         .iter()
         .map(|c| number(c, "/objective/total"))
         .collect();
-    assert!(totals.is_sorted(), "{totals:?}");
+    // Contacts that tie within the accuracy asked for come in the order of the file.
+    let tie = 1.02;
+    assert!(totals.is_sorted_by(|a, b| *a <= b * tie), "{totals:?}");
     for answer in choices {
         complete_answer(answer);
     }
@@ -195,7 +197,10 @@ fn a_nozzle_in_the_wall_does_not_pass() {
     assert!(number(best, "/clearance_m") < 0.0);
     assert_eq!(best["feasible"], false);
     let verdicts = best["verdicts"].as_array().unwrap();
-    assert!(verdicts.iter().all(|verdict| verdict["passes"] == true));
+    let fails = |verdict: &&Value| verdict["passes"] == false;
+    let failing: Vec<&Value> = verdicts.iter().filter(fails).collect();
+    assert_eq!(failing.len(), 1);
+    assert_eq!(failing[0]["subject"], "clearance");
     assert_eq!(best["passes"], false);
     assert_eq!(run.status, 1);
 }
@@ -633,17 +638,20 @@ fn settings_that_make_no_sense_are_refused() {
     with("incidence=60", &["has no unit", "did you mean `60 deg`"]);
     with("incidence=60mm", &["is a length", "expected an angle"]);
     with("incidence=0deg", &["above 0 deg"]);
-    with("incidence=90.1deg", &["at most 90 deg"]);
-    with("speed=-3m/s", &["above 0"]);
-    with("speed=1e300m/s", &["at most 10000 m/s"]);
-    with("standoff=0mm", &["above 0"]);
-    with("aim_along=1e300m", &["at most 1 km"]);
+    with(
+        "incidence=90.1deg",
+        &["is too large", "from 0 deg to 90 deg"],
+    );
+    with("speed=-3m/s", &["must be more than 0"]);
+    with("speed=1e300m/s", &["is too large", "10000 m/s"]);
+    with("standoff=0mm", &["must be more than 0"]);
+    with("aim_along=1e300m", &["is too large", "to 1000 m"]);
     with(
         "contact=oild",
         &["no contact `oild`", "did you mean `oiled`"],
     );
     with("contact=", &["no contact"]);
-    with("mu_s=-1", &["not a friction coefficient"]);
+    with("mu_s=-1", &["must not be negative"]);
     with("mu_s=0.2", &["contact `oiled` is fixed"]);
     refused(
         &["evaluate", KEYWAY, "--set", "incidence=60deg"],
@@ -778,11 +786,11 @@ fn arguments_that_make_no_sense_are_refused() {
     );
     refused(
         &["solve", KEYWAY, "--accuracy", "0 %"],
-        &["between 0 and 100 %"],
+        &["must be more than 0", "up to 100 %"],
     );
     refused(
-        &["solve", KEYWAY, "--accuracy", "100 %"],
-        &["between 0 and 100 %"],
+        &["solve", KEYWAY, "--accuracy", "101 %"],
+        &["is too large", "up to 100 %"],
     );
     refused(&["evaluate", KEYWAY, "--shots", "0"], &["--shots"]);
     refused(&["solve", KEYWAY, "--jsn"], &["--json"]);

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use nalgebra::{Rotation3, Unit, Vector3};
+use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Deviate, Pose, Samples, Stream};
 use peenpose::problem;
 use peenpose::problem::equipment::{Body, Nozzle};
 use peenpose::problem::setting::{Choice, Tolerance};
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, clearance_violation, solve};
+use peenpose::solve::{Control, solve};
 use peenpose::trace::{PathImpact, Tracer};
 
 /// A wall at z = 0, and a mirror at 45 deg on the nozzle, 10 mm in front of the exit, which turns
@@ -230,7 +231,7 @@ fn without_the_pin_no_pose_reaches_the_wall_steeply() {
         // Round the bore is solid metal, of which the scene has the wall only.
         let exit = Pose::new(&setup.target.frame, &choice).exit;
         let in_bore = exit.x.hypot(exit.y) < 6e-3;
-        if in_bore && clearance_violation(&setup, &choice).is_none() {
+        if in_bore && infeasibility(&setup, &choice).is_none() {
             fitting += 1;
             let share = useful_share(&setup, &choice, &samples.deviates);
             if share > best {

@@ -16,10 +16,6 @@ fn record(file: &str, arguments: &[&str]) -> Value {
     let mut record = run.json();
     let seconds = record["work"]["seconds"].take();
     assert!(seconds.as_f64().unwrap() > 0.0);
-    for effect in record["model"]["effects"].as_array_mut().unwrap() {
-        let measured = effect["relative_time"].take();
-        assert!(measured.as_f64().unwrap() > 0.0);
-    }
     record
 }
 

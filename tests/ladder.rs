@@ -47,7 +47,7 @@ fn same_answer(setup: &Setup) -> Vec<Effect> {
     for rung in &auto.ladder.rungs {
         assert!(rung.change.abs() <= rung.largest_change, "{rung:?}");
         assert!(
-            rung.regret.is_finite() && rung.relative_time > 0.0,
+            rung.regret.is_finite() && rung.relative_rays > 0.0,
             "{rung:?}"
         );
     }

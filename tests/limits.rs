@@ -187,7 +187,10 @@ fn mesh_files() {
         mesh_file::MOST_SURFACES,
         |groups| {
             let groups: String = (0..groups)
-                .map(|group| format!("v 0 {group} 1\ng g{group}\nf 1 2 -1\n"))
+                .map(|group| {
+                    let (row, column) = (group / 100, group % 100);
+                    format!("v {row} {column} 1\ng g{group}\nf 1 2 -1\n")
+                })
                 .collect();
             format!("{points}{groups}")
         },

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use peenpose::checkpoint::Checkpoint;
 use peenpose::evaluate::evaluate;
+use peenpose::feasibility::infeasibility;
 use peenpose::impact::Restitution;
 use peenpose::jet::{Replicate, Replicates, Samples, Stream};
 use peenpose::map::{Axis, Control, Map, Place, standard_maps};
@@ -16,7 +17,6 @@ use peenpose::problem::setting::{Choice, Range, Setting};
 use peenpose::record::{MapRecord, MapTerm};
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
-use peenpose::solve::clearance_violation;
 use peenpose::verdict::Verdict;
 use tempfile::TempDir;
 
@@ -66,11 +66,11 @@ fn agrees_with_evaluations(setup: &Setup, map: &Map) {
         let choice = map.y.setting.with(&across, map.y.values[index / columns]);
         let Place::Open(cell) = place else {
             assert_eq!(*place, Place::Blocked);
-            assert!(clearance_violation(setup, &choice).is_some());
+            assert!(infeasibility(setup, &choice).is_some());
             blocked += 1;
             continue;
         };
-        assert!(clearance_violation(setup, &choice).is_none());
+        assert!(infeasibility(setup, &choice).is_none());
         let there = evaluate(setup, &choice, &shots);
         let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-9 * b.abs() + 1e-15, "{a} {b}");
         close(cell.terms.normal_impulse, there.terms.normal_impulse);

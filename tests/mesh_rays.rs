@@ -111,7 +111,7 @@ fn all_meet_fronts(name: &str, rays: &[Leaving]) {
         let leaving = Spot {
             part: 0,
             piece,
-            front: true,
+            front: !room.is_hollow,
         };
         let hit = room
             .scene

@@ -1,10 +1,11 @@
-//! A keyway given as an open mesh, as exporters and scripts write it: the winding of an open mesh
-//! tells nothing, so the target faces the enclosed side whichever way its triangles run.
+//! A keyway given as an open mesh, as exporters and scripts write it: where its triangles look to the
+//! enclosed side, that is free; where they do not, the file must say which side is.
 
 use std::fmt::Write as _;
 
 use peenpose::evaluate::evaluate;
 use peenpose::jet::Replicates;
+use peenpose::problem::rule::Rule;
 use peenpose::problem::setting::Choice;
 use peenpose::setup::Setup;
 
@@ -39,21 +40,29 @@ fn mesh(flipped: bool) -> String {
     text
 }
 
-fn setup(flipped: bool) -> Setup {
+fn setup(flipped: bool, facing: &str) -> Result<Setup, Vec<Rule>> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("hub.obj"), mesh(flipped)).unwrap();
-    let problem = include_str!("../problems/keyway.yaml").replace(
-        "keyway: { bore: 30 mm, width: 8 mm, depth: 3.3 mm, length: 40 mm }",
-        "mesh: hub.obj",
-    );
+    let problem = include_str!("../problems/keyway.yaml")
+        .replace(
+            "keyway: { bore: 30 mm, width: 8 mm, depth: 3.3 mm, length: 40 mm }",
+            "mesh: hub.obj",
+        )
+        .replace(
+            "  along: [0, 0, 1]",
+            &format!("  along: [0, 0, 1]\n{facing}"),
+        );
     assert!(problem.contains("hub.obj"));
     let file = folder.path().join("keyway.yaml");
     std::fs::write(&file, problem).unwrap();
-    Setup::load(&file).unwrap().0
+    match Setup::load(&file) {
+        Ok((setup, _)) => Ok(setup),
+        Err(rejection) => Err(rejection.faults.iter().map(|fault| fault.rule).collect()),
+    }
 }
 
 #[test]
-fn the_target_of_an_open_mesh_faces_the_enclosed_side() {
+fn the_target_of_an_open_mesh_faces_the_enclosed_side_if_its_triangles_do() {
     let exact = Setup::load("problems/keyway.yaml".as_ref()).unwrap().0;
     let choice = Choice {
         incidence: 60_f64.to_radians(),
@@ -71,8 +80,11 @@ fn the_target_of_an_open_mesh_faces_the_enclosed_side() {
         evaluate(setup, &choice, &fresh).terms.total()
     };
     let expected = total(&exact);
-    for flipped in [false, true] {
-        let setup = setup(flipped);
+    let refused = setup(true, "").err();
+    assert_eq!(refused, Some(vec![Rule::FreeSideUnclear]));
+    let facing = "  facing: [0, -1, 0]";
+    for (flipped, facing) in [(false, ""), (false, facing), (true, facing)] {
+        let setup = setup(flipped, facing).unwrap();
         let away = setup.target.frame.normal - exact.target.frame.normal;
         assert!(away.norm() < 1e-12);
         let found = total(&setup);

@@ -4,12 +4,13 @@ mod common;
 
 use std::path::Path;
 
+use peenpose::feasibility::infeasibility;
 use peenpose::problem::Problem;
 use peenpose::problem::goal::TangentialImpulse;
 use peenpose::record::FrontRecord;
 use peenpose::scene::Walls;
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, Front, Risks, clearance_violation, front, risks, solve};
+use peenpose::solve::{Control, Front, Risks, front, risks, solve};
 
 fn control() -> Control<'static> {
     Control {
@@ -100,7 +101,7 @@ fn a_front_is_feasible_not_dominated_and_has_the_best_ends() {
     assert!(points.len() >= 4);
     assert!(points.is_sorted_by(|a, b| a.0[0] <= b.0[0]));
     for answer in &front.answers {
-        assert!(clearance_violation(&setup, &answer.choice).is_none());
+        assert!(infeasibility(&setup, &answer.choice).is_none());
     }
     for (index, (risks, errors)) in points.iter().enumerate() {
         for (other_index, (other, other_errors)) in points.iter().enumerate() {

@@ -12,7 +12,7 @@ use peenpose::impact::{Contact, Law, Restitution};
 use peenpose::problem::equipment::{Body, Jet, Nozzle, PathLimits, Role, Shot, Spread};
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
 use peenpose::problem::model::{Effect, Model};
-use peenpose::problem::part::{Ends, Keyway, Part, Place, Shape, Target};
+use peenpose::problem::part::{Ends, FileUnit, Keyway, Part, Place, Shape, Target};
 use peenpose::problem::rule::Rule;
 use peenpose::problem::setting::{Range, Tolerance};
 use peenpose::problem::{self, Problem, Reading};
@@ -77,6 +77,7 @@ fn the_keyway_is_read_in_si() {
             spread: Spread::Uniform,
             speed_spread: 0.05,
             mass_flow: None,
+            air_speed: None,
         }
     );
     assert_eq!(
@@ -212,7 +213,7 @@ scene:
   cover: { mesh: ./cover.stl, place: { on: nozzle, at: [0, 0, 4] } }
 target: { surface: mask.rim, facing: [0, 0, -2] }
 shot: { radius: 250 um, density: 7.8 g/cm3, size_spread: 4 % }
-jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min,
+jet: { exit_diameter: 0 mm, divergence: 0 deg, spread: gaussian, mass_flow: 6 kg/min, air_speed: 250 m/s,
   pressure: [ { pressure: 2 bar, speed: 22 m/s }, { pressure: 0.4 MPa, speed: 36 m/s } ] }
 coverage: { dent_diameter: 0.2 mm }
 nozzle:
@@ -313,6 +314,10 @@ fn every_other_key_is_read() {
     assert_eq!(
         problem.target,
         Target {
+            lengths_in: FileUnit {
+                name: "cm",
+                metres: 0.01,
+            },
             // A group of the mesh file, which nobody has read yet.
             surface: "mask.rim".to_owned(),
             within: None,
@@ -332,6 +337,7 @@ fn every_other_key_is_read() {
     );
     assert_eq!(problem.jet.spread, Spread::Gaussian);
     assert_eq!(problem.jet.mass_flow, Some(0.1));
+    assert_eq!(problem.jet.air_speed, Some(250.0));
     let calibration = problem.calibration.unwrap();
     assert_eq!(calibration.rows, [(2e5, 22.0), (4e5, 36.0)]);
     // Linear between the rows, and nothing beyond them.
@@ -476,6 +482,18 @@ fn a_root_may_be_half_as_wide_as_the_groove() {
 fn a_range_may_be_a_single_value() {
     let text = KEYWAY.replace("speed: [5 m/s, 40 m/s]", "speed: [10 m/s, 10 m/s]");
     assert_eq!(sound(&text).settings.speed, Range::held(10.0));
+}
+
+/// Such a file has nothing that is in that unit; what is said of places is then in mm.
+#[test]
+fn a_file_without_coordinates_needs_no_unit_for_them() {
+    let without = ["lengths_in: ", "  within: ", "  aim: "];
+    let is_kept = |line: &&str| !without.iter().any(|start| line.starts_with(start));
+    let kept: Vec<&str> = KEYWAY.lines().filter(is_kept).collect();
+    assert_eq!(kept.len() + without.len(), KEYWAY.lines().count());
+    let bare = kept.join("\n");
+    let lengths_in = sound(&bare).target.lengths_in;
+    assert_eq!((lengths_in.name, lengths_in.metres), ("mm", 1e-3));
 }
 
 #[test]

@@ -221,6 +221,7 @@ fn surfaces_are_two_sided() {
         on_nozzle: false,
     }];
     problem.target = Target {
+        lengths_in: Default::default(),
         surface: "pin.wall".into(),
         within: None,
         aim: Some(Point3::new(0.0, 6e-3, 24e-3)),

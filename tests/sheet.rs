@@ -5,11 +5,17 @@
 mod kept;
 
 use peenpose::record::{
-    AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, Record, StatusRecord,
+    AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, DentedRecord, EstimateRecord,
+    NoteRecord, Record, StatusRecord,
 };
 use peenpose::report::sheet;
 
 use kept::{NAMES, file, record};
+
+/// A text without its line breaks.
+fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
 
 /// What holds for every sheet.
 fn assert_well_formed(text: &str) {
@@ -281,10 +287,22 @@ fn coverage_has_a_block_of_its_own() {
         area_m2: 60e-6,
         cells: 64,
         cell_side_m: 0.97e-3,
-        mean: density(1e5, Some(0.0456)),
+        mean: density(1e5, None),
         lowest_5: density(0.0, None),
         variation: 0.8,
         share_not_hit: 0.4,
+        dented: Some(DentedRecord {
+            cells: 16_384,
+            cell_side_m: 0.06e-3,
+            even_mass_kg: Some(0.0456),
+            by_even_mass: Some(EstimateRecord {
+                value: 0.551,
+                standard_error: 2e-4,
+                resolution: 1e-3,
+            }),
+            mass_kg: None,
+            not_hit_resolution: 0.005,
+        }),
         shots_per_kg: 272_837.0,
         mass_flow_kg_s: Some(0.01),
     };
@@ -306,10 +324,14 @@ fn coverage_has_a_block_of_its_own() {
             .split(' ')
             .collect::<Vec<_>>()
     );
-    assert_eq!(row(1)[4..], ["273", "2.73", "4.56", "s", "45.6", "g"]);
+    assert_eq!(row(1)[4..], ["273", "2.73", "never", "no", "end"]);
     assert_eq!(row(2)[7..], ["0", "0", "never", "no", "end"]);
     assert!(
-        block.contains("40.0 % of the target's area is not hit"),
+        words(block).contains(
+            "98 % of the target is dented never: 40.0 % of it is not reached (none of 262 144 shots falls \
+             there; cell size at most 0.50 % more). After 4.56 s (45.6 g), which were enough if hits \
+             fell evenly, 55.1 % of it is dented (std. error 0.020 %, cell size at most 0.10 %)."
+        ),
         "{block}"
     );
     // Without a mass flow there is no time, and shares that are hit are no news.
@@ -318,7 +340,16 @@ fn coverage_has_a_block_of_its_own() {
         ..density
     };
     record.coverage = Some(CoverageRecord {
-        mean: unknown(coverage.mean),
+        mean: unknown(density(1e5, Some(0.0456))),
+        dented: coverage.dented.map(|dented| DentedRecord {
+            mass_kg: Some(EstimateRecord {
+                value: 0.0456,
+                standard_error: 1e-4,
+                resolution: 2e-4,
+            }),
+            by_even_mass: None,
+            ..dented
+        }),
         lowest_5: unknown(density(0.9e5, Some(2.5))),
         share_not_hit: 0.0,
         mass_flow_kg_s: None,
@@ -331,5 +362,35 @@ fn coverage_has_a_block_of_its_own() {
         !text.contains("98 % after") && text.contains("2.50 kg"),
         "{text}"
     );
-    assert!(!text.contains("is not hit"), "{text}");
+    assert!(!text.contains("is not reached"), "{text}");
+    let dented = "98 % of the target is dented after 45.6 g (std. error 0.100 g, cell size at most 0.200 g).";
+    assert!(words(&text).contains(dented), "{text}");
+}
+
+/// Shots that meet in flight take the ground from under every figure: that stands in the head.
+#[test]
+fn strong_interference_stands_in_the_head() {
+    let mut record = record("keyway");
+    assert!(!sheet(&record).contains("beware"));
+    let note = |name: &str| NoteRecord {
+        name: name.into(),
+        value: 0.4,
+        text: "at 5 kg/min a rebounding shot meets 0.4 incoming ones".into(),
+    };
+    record.notes.push(note("interference_strong"));
+    let text = sheet(&record);
+    assert_well_formed(&text);
+    let said = "beware at 5 kg/min a rebounding shot meets 0.4 incoming ones";
+    assert!(words(&text).contains(said), "{text}");
+    let place = |needle: &str| text.find(needle).unwrap();
+    assert!(place("verdict  ") < place("beware  ") && place("beware  ") < place("limited by"));
+    assert_eq!(text.matches("a rebounding shot meets").count(), 1, "{text}");
+    // Some interference is a note among others.
+    record.notes.pop();
+    record.notes.push(note("interference"));
+    let text = sheet(&record);
+    assert!(
+        !text.contains("beware  ") && text.contains("  - at 5 kg/min"),
+        "{text}"
+    );
 }

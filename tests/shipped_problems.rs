@@ -59,8 +59,8 @@ fn expectations(file: &str) -> Vec<Expectation> {
         ],
         // The pin turns the jet nearly square to the wall, and J is mostly what then crosses the bore.
         "deflector.yaml" => vec![
-            expect("oiled", 0.0..=0.0, 0.0284..=0.0297, true),
-            expect("dry", 0.0..=0.0, 0.0477..=0.0498, true),
+            expect("oiled", 0.0..=0.0, 0.0275..=0.0287, true),
+            expect("dry", 0.0..=0.0, 0.0461..=0.0480, true),
         ],
         // Nothing to search, and the target is what the paper gives.
         "plate.yaml" => ["mu_030", "mu_024", "mu_018", "mu_012", "mu_006"]
@@ -120,7 +120,11 @@ fn every_file_is_solved_in_the_right_valley() {
         assert_eq!(solution.status, Status::Converged, "{file}");
         assert_eq!(solution.answers.len(), expected.len(), "{file}");
         let totals: Vec<f64> = solution.answers.iter().map(objective).collect();
-        assert!(totals.is_sorted(), "{file}: {totals:?}");
+        // Contacts that tie within the accuracy asked for come in the order of the file.
+        assert!(
+            totals.is_sorted_by(|a, b| *a <= b * 1.02),
+            "{file}: {totals:?}"
+        );
         for (rank, expected) in expected.iter().enumerate() {
             let name = |answer: &&Answer| {
                 setup.problem.contacts[answer.choice.contact].name == expected.contact

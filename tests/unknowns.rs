@@ -12,7 +12,7 @@ use peenpose::scene::Walls;
 use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Ladder};
 use peenpose::unknowns::{Quantity, Unknowns};
-use peenpose::verdict::{Subject, Verdict};
+use peenpose::verdict::Subject;
 
 /// A parallel jet on a plate: every shot does the same.
 const PLATE: &str = "
@@ -187,12 +187,7 @@ fn what_is_known_is_not_asked() {
 fn record(case: &Case) -> Record {
     let fresh = Replicates::new(&case.setup.problem, 0, 4096);
     let evaluation = evaluate(&case.setup, &case.choice, &fresh);
-    let answer = Answer {
-        choice: case.choice,
-        verdicts: Verdict::all(&case.setup, &evaluation),
-        evaluation: Some(evaluation),
-        violation: 0.0,
-    };
+    let answer = Answer::judged(&case.setup, &case.choice, Some(evaluation));
     let circumstances = Circumstances {
         source: &case.source,
         status: StatusRecord::Evaluated,

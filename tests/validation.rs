@@ -299,6 +299,7 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
     let mut problem = common::keyway(40e-3);
     problem.parts = vec![plate("bottom", -5e-3, 0.0), plate("top", GAP, GAP + 5e-3)];
     problem.target = Target {
+        lengths_in: Default::default(),
         surface: "bottom.z_max".into(),
         within: None,
         aim: None,

@@ -5,11 +5,11 @@ use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::time::Instant;
 
+use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Deviate, Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::setup::Setup;
-use peenpose::solve::clearance_violation;
 
 use crate::common::cube::{ALL_BUT_SPEED, Cube};
 
@@ -135,8 +135,8 @@ impl<'a> Objective<'a> {
 
     fn judge(&self, point: &[f64]) -> (Choice, f64) {
         let mut choice = self.cube.choice(point);
-        if let Some(violation) = clearance_violation(self.setup, &choice) {
-            return (choice, BLOCKED + violation * 1e3);
+        if let Some(infeasible) = infeasibility(self.setup, &choice) {
+            return (choice, BLOCKED + infeasible.violation * 1e3);
         }
         let problem = &self.setup.problem;
         let tally = Tally::trace(self.setup, &choice, 1.0, self.shots);

@@ -3,11 +3,11 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use peenpose::feasibility::infeasibility;
 use peenpose::jet::Deviate;
 use peenpose::objective::Tally;
 use peenpose::problem::setting::Choice;
 use peenpose::setup::Setup;
-use peenpose::solve::clearance_violation;
 
 use crate::common::cube::Cube;
 
@@ -54,7 +54,7 @@ impl Judge<'_> {
             choice: self.cube.choice(point),
             objective: f64::INFINITY,
         };
-        if clearance_violation(self.setup, &trial.choice).is_none() {
+        if infeasibility(self.setup, &trial.choice).is_none() {
             let problem = &self.setup.problem;
             let tally = Tally::trace(self.setup, &trial.choice, 1.0, self.shots);
             self.work.rays.fetch_add(tally.rays, Ordering::Relaxed);

@@ -13,6 +13,7 @@ use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize};
 
+use crate::printable;
 use crate::units::shortened;
 
 /// Bytes of the largest table that is read.
@@ -123,7 +124,12 @@ fn fields(line: &str) -> Vec<&str> {
 }
 
 fn name(column: &str, text: &str) -> Result<String, String> {
-    if text.contains(|c: char| c == '"' || c.is_control()) {
+    // Our own tables have it before what would be a formula.
+    let unquoted = text.strip_prefix('\'');
+    let text = unquoted
+        .filter(|rest| rest.starts_with(['=', '+', '-', '@']))
+        .unwrap_or(text);
+    if text.contains(|c: char| c == '"' || printable::acts(c)) {
         let shown = shortened(text);
         return Err(format!(
             "{column}: `{shown}` has a quote or a control character"

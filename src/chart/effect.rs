@@ -74,7 +74,7 @@ fn solved_variants(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Var
         }
         control.tell("effects", number, of);
         let solution = solve(&setup, &control.of_a_search());
-        let best = solution.answers.first().filter(|_| !control.is_stopped());
+        let best = solution.least().filter(|_| !control.is_stopped());
         variants.extend(best.map(|best| Variant {
             name,
             misled: best.choice,

@@ -22,15 +22,17 @@ pub use search::{BestKnown, Method, SearchRun, Searches};
 #[cfg(feature = "report")]
 pub(crate) use timing::median;
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
 use crate::jet::purpose;
+use crate::printable;
 use crate::problem::Source;
 use crate::problem::fault::Fault;
 use crate::problem::setting::Choice;
-use crate::record::SettingsRecord;
+use crate::record::{RecordFault, SettingsRecord, mesh_sha256, read_json};
 use crate::setup::Setup;
 use crate::solve::solve;
 use common::{jackknife, objective, sums};
@@ -45,6 +47,9 @@ pub struct Chart {
     pub file: String,
     /// Its checksum.
     pub problem_sha256: String,
+    /// Those of the mesh files; none in charts of older versions.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub mesh_sha256: BTreeMap<String, String>,
     /// Version of the program.
     pub version: String,
     /// The command that makes it again.
@@ -135,8 +140,9 @@ pub fn measure(
     let effects = effect::effects(setup, &choice, control);
     Ok(Chart {
         title: problem.title.clone(),
-        file: source.path.display().to_string(),
+        file: printable::line(&source.path.display().to_string()).into_owned(),
         problem_sha256: source.sha256.clone(),
+        mesh_sha256: mesh_sha256(setup, source),
         version: env!("CARGO_PKG_VERSION").into(),
         command,
         seed: problem.seed,
@@ -185,9 +191,9 @@ impl Chart {
     /// Reads a chart back.
     ///
     /// # Errors
-    /// When the text is not a chart.
-    pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
-        serde_json::from_str(text)
+    /// When the text is not a chart, or one of a newer version of the program.
+    pub fn from_json(text: &str) -> Result<Self, RecordFault> {
+        read_json(text)
     }
 }
 

@@ -150,7 +150,7 @@ fn outcome(setup: &Setup, method: Method, seed: u64, control: &Control) -> Optio
     let started = Instant::now();
     let solution = solve(&setup, &effort);
     let seconds = started.elapsed().as_secs_f64();
-    let best = solution.answers.first()?;
+    let best = solution.least()?;
     (!control.is_stopped() && best.violation <= 0.0).then_some(Outcome {
         method,
         seed,

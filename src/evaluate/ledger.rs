@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::impulses::Impulses;
 use crate::jet::Replicate;
 use crate::objective::{Score, Tally};
 use crate::problem::setting::Choice;
@@ -34,7 +35,7 @@ pub(super) struct SurfaceSums {
     pub impacts_by_number: Vec<usize>,
     pub over_by_number: Vec<usize>,
     /// N*, N s.
-    pub normal_impulses: Vec<f64>,
+    pub normal_impulses: Impulses,
 }
 
 impl Ledger {
@@ -68,6 +69,10 @@ impl Ledger {
     }
 }
 
+/// Impulses that a ledger keeps one by one, 16 MB: more than those of the 2048 shots in each set of a
+/// usual evaluation, however long their paths are.
+const MOST_KEPT: usize = 1 << 21;
+
 /// Writes a ledger.
 struct Clerk<'a> {
     setup: &'a Setup,
@@ -82,12 +87,24 @@ struct Clerk<'a> {
     seen_over: Marks,
 }
 
+impl Clerk<'_> {
+    #[cold]
+    fn keep_no_more(&mut self) {
+        for sums in &mut self.surfaces {
+            sums.normal_impulses.count_in_classes();
+        }
+    }
+}
+
 impl Witness<f64> for Clerk<'_> {
     fn impacts(&mut self, volley: &Volley<f64>) {
         self.score.impacts(volley);
         for i in (0..volley.rays.count).filter(|&i| volley.impacts.counts[i] != 0.0) {
             let number = volley.number[i] as usize;
             self.impacts += 1;
+            if self.impacts == MOST_KEPT {
+                self.keep_no_more();
+            }
             if self.score.is_on_target(i) {
                 self.sticking += usize::from(number == 1 && volley.impacts.sticks[i] != 0.0);
                 continue;

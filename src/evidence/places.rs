@@ -6,7 +6,7 @@ mod near;
 use nalgebra::{Point3, Vector3};
 
 use super::Flight;
-use crate::elementary::log10;
+use crate::digits::{fixed, significant};
 use crate::jet::Pose;
 use crate::setup::Setup;
 use crate::trace::PathImpact;
@@ -79,7 +79,7 @@ const QUANTITIES: [Quantity; 3] = [
         name: "most_grazing",
         of: |hit| hit.angle.to_degrees(),
         sign: -1.0,
-        words: |value| format!("most grazing hits, {value:.1} deg to the surface"),
+        words: |value| format!("most grazing hits, {} deg to the surface", fixed(value, 1)),
     },
     Quantity {
         name: "most_tangential_impulse",
@@ -176,19 +176,9 @@ fn in_words(setup: &Setup, strongest: &PathImpact, count: usize) -> String {
 }
 
 fn impulse(newton_seconds: f64) -> String {
-    format!("{} uN.s", three_digits(newton_seconds * 1e6))
+    format!("{} uN.s", significant(newton_seconds * 1e6, 3))
 }
 
 fn length(metres: f64) -> String {
-    format!("{} mm", three_digits(metres * 1e3))
-}
-
-/// A number that is not negative with three significant digits.
-fn three_digits(value: f64) -> String {
-    let magnitude = if value > 0.0 {
-        log10(value).floor() as i32
-    } else {
-        0
-    };
-    format!("{value:.*}", (2 - magnitude).clamp(0, 9) as usize)
+    format!("{} mm", significant(metres * 1e3, 3))
 }

@@ -27,6 +27,11 @@ const PROBES: usize = 64;
 ///
 /// The dearer a ray, the coarser they are.
 pub fn standard_maps(setup: &Setup, choice: &Choice) -> Vec<Map> {
+    standard_maps_until(setup, choice, &Control::default())
+}
+
+/// The same, as far as `control` lets them.
+pub fn standard_maps_until(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Map> {
     let rays = rays_at_one_place(setup, choice);
     let pairs = pairs(&free(setup, choice));
     let map = |[x, y]: [(Setting, Range); 2]| {
@@ -43,7 +48,7 @@ pub fn standard_maps(setup: &Setup, choice: &Choice) -> Vec<Map> {
             };
             Axis::over(setting, shown, steps as usize)
         };
-        Map::of(setup, choice, axis(x), axis(y), SHOTS, &Control::default())
+        Map::of(setup, choice, axis(x), axis(y), SHOTS, control)
     };
     pairs.into_iter().map(map).collect()
 }

@@ -34,6 +34,8 @@ pub(crate) struct Score<R> {
 #[derive(Clone, Copy)]
 struct Target<R> {
     surface: u32,
+    /// Whether its free side is that in front.
+    front: bool,
     low: [R; 3],
     high: [R; 3],
 }
@@ -42,10 +44,11 @@ impl<R: Real> Target<R> {
     fn of(patch: &Patch) -> Self {
         let everywhere = [-f64::INFINITY, f64::INFINITY].map(|bound| [bound; 3]);
         let [low, high] = patch
-            .within
+            .reach(R::COARSENESS)
             .map_or(everywhere, |(low, high)| [low.into(), high.into()]);
         Self {
             surface: patch.surface,
+            front: patch.front,
             low: low.map(R::of),
             high: high.map(R::of),
         }
@@ -185,8 +188,9 @@ impl<R: Real> Witness<R> for Score<R> {
         }
         let target = self.target;
         let mut on_surface = [R::ZERO; LANES];
-        for (on_it, &surface) in on_surface.iter_mut().zip(&volley.hits.surface) {
-            *on_it = truth(surface == target.surface);
+        let sides = volley.hits.surface.iter().zip(&volley.hits.spots.front);
+        for (on_it, (&surface, &front)) in on_surface.iter_mut().zip(sides) {
+            *on_it = truth((surface == target.surface) & (front == target.front));
         }
         let mut speed_share = [R::ONE; LANES];
         if let Some(mean_square) = self.mean_square {

@@ -46,6 +46,9 @@ pub struct Jet {
     /// Mass of shot per time, kg/s, where it is known. No path depends on it; it tells whether
     /// shots get into each other's way.
     pub mass_flow: Option<f64>,
+    /// Speed of the air that carries the shot, m/s, where it is known. No path depends on it; it tells
+    /// how much faster the shot is at the target.
+    pub air_speed: Option<f64>,
 }
 
 /// Which pressure gives which speed, as measured on the machine.

@@ -57,6 +57,12 @@ impl<T> Default for Needed<T> {
     }
 }
 
+impl<T> From<T> for Needed<T> {
+    fn from(value: T) -> Self {
+        Self(Field::Present(value))
+    }
+}
+
 impl<T> Deref for Needed<T> {
     type Target = Field<T>;
 

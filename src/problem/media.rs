@@ -13,6 +13,8 @@
 
 use std::fmt;
 
+use crate::impact::Restitution;
+
 /// Shot that can be bought.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Medium {
@@ -35,8 +37,23 @@ pub struct LibraryContact {
     pub static_friction: Number,
     /// Dynamic friction.
     pub dynamic_friction: Number,
-    /// Normal coefficient of restitution.
+    /// Normal coefficient of restitution at the speed at which it was measured.
     pub restitution: Number,
+    /// That normal speed, m/s.
+    pub restitution_speed: Number,
+    /// How steeply restitution falls with the normal speed.
+    pub restitution_exponent: Number,
+}
+
+impl LibraryContact {
+    /// Restitution as it falls with speed: shot arrives much faster than what it was measured on.
+    pub fn restitution_law(&self) -> Restitution {
+        Restitution::Falling {
+            reference: self.restitution.value,
+            speed: self.restitution_speed.value,
+            exponent: self.restitution_exponent.value,
+        }
+    }
 }
 
 /// A number and where it is from.
@@ -233,41 +250,68 @@ const CHART_GREASED: &str =
 const AS_ZOHDI: Origin = Assumed("0.9 of static friction, as in Zohdi (2015)");
 const LIKE_STEEL: Origin = Assumed("as of steel on steel");
 
+/// How restitution falls where metal yields.
+const PLASTIC: Number = number(
+    0.25,
+    Assumed("1/4, the limit of full plasticity (Johnson, Contact Mechanics, 1985)"),
+);
+/// Of steel balls that fall 1 m.
+const AFTER_A_FALL: Number = number(4.43, KIRK);
+/// The same of pairs taken to be like them.
+const AS_AFTER_A_FALL: Number = number(4.43, LIKE_STEEL);
+
+/// A contact whose restitution is that of steel on steel.
+const fn like_steel(
+    name: &'static str,
+    static_friction: Number,
+    dynamic_friction: Number,
+) -> LibraryContact {
+    LibraryContact {
+        name,
+        static_friction,
+        dynamic_friction,
+        restitution: number(0.71, LIKE_STEEL),
+        restitution_speed: AS_AFTER_A_FALL,
+        restitution_exponent: PLASTIC,
+    }
+}
+
+const fn steel_on_steel(
+    name: &'static str,
+    static_friction: f64,
+    dynamic_friction: f64,
+    source: Origin,
+) -> LibraryContact {
+    LibraryContact {
+        name,
+        static_friction: number(static_friction, source),
+        dynamic_friction: number(dynamic_friction, source),
+        restitution: number(0.71, KIRK),
+        restitution_speed: AFTER_A_FALL,
+        restitution_exponent: PLASTIC,
+    }
+}
+
 static CONTACTS: &[LibraryContact] = &[
-    LibraryContact {
-        name: "steel-on-steel-clean",
-        static_friction: number(0.78, KIRK_OTHMER),
-        dynamic_friction: number(0.42, KIRK_OTHMER),
-        restitution: number(0.71, KIRK),
-    },
-    LibraryContact {
-        name: "steel-on-steel-dry",
-        static_friction: number(0.31, DAVIS),
-        dynamic_friction: number(0.23, DAVIS),
-        restitution: number(0.71, KIRK),
-    },
-    LibraryContact {
-        name: "steel-on-steel-oiled",
-        static_friction: number(0.23, KIRK_OTHMER_OILED),
-        dynamic_friction: number(0.10, KIRK_OTHMER_OILED),
-        restitution: number(0.71, KIRK),
-    },
-    LibraryContact {
-        name: "glass-on-metal-dry",
-        static_friction: number(0.6, Published(CHART)),
-        dynamic_friction: number(0.54, AS_ZOHDI),
-        restitution: number(0.71, LIKE_STEEL),
-    },
-    LibraryContact {
-        name: "glass-on-metal-greased",
-        static_friction: number(0.25, Published(CHART_GREASED)),
-        dynamic_friction: number(0.225, AS_ZOHDI),
-        restitution: number(0.71, LIKE_STEEL),
-    },
+    steel_on_steel("steel-on-steel-clean", 0.78, 0.42, KIRK_OTHMER),
+    steel_on_steel("steel-on-steel-dry", 0.31, 0.23, DAVIS),
+    steel_on_steel("steel-on-steel-oiled", 0.23, 0.10, KIRK_OTHMER_OILED),
+    like_steel(
+        "glass-on-metal-dry",
+        number(0.6, Published(CHART)),
+        number(0.54, AS_ZOHDI),
+    ),
+    like_steel(
+        "glass-on-metal-greased",
+        number(0.25, Published(CHART_GREASED)),
+        number(0.225, AS_ZOHDI),
+    ),
     LibraryContact {
         name: "alumina-on-glass-dry",
         static_friction: number(0.092, KHARAZ),
         dynamic_friction: number(0.092, KHARAZ),
         restitution: number(0.98, KHARAZ),
+        restitution_speed: number(3.9, KHARAZ),
+        restitution_exponent: PLASTIC,
     },
 ];

@@ -32,12 +32,14 @@ pub mod size;
 pub mod warning;
 
 mod check;
+pub(crate) use check::limit::Limit;
 mod doubt;
 #[cfg(test)]
 pub(crate) mod example;
 mod faults;
 mod field;
 mod file;
+pub mod given;
 mod home;
 mod name;
 mod reader;
@@ -52,6 +54,7 @@ pub use reading::{Reading, read, read_text};
 pub use render::{one_line, render, render_warnings};
 pub use schema::schema;
 pub use source::Source;
+pub(crate) use source::sha256;
 
 use equipment::{
     Calibration, ContactChoice, CoverageWish, Jet, Nozzle, PathLimits, Shot, SurfaceRule,

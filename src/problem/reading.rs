@@ -18,6 +18,7 @@ use super::rule::Rule;
 use super::size::{self, LARGEST_FILE};
 use super::source::Source;
 use super::yaml::{self, Value};
+use crate::content::{self, Foreign};
 
 /// What came of a problem file.
 #[derive(Clone, Debug)]
@@ -74,11 +75,17 @@ fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Box<Fault>> {
                 .expecting("at most 1 MB; meshes belong into files of their own"),
         ));
     }
-    let content = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let text = String::from_utf8_lossy(content).into_owned();
+    let content = match content::text(bytes) {
+        Ok(content) => content,
+        Err(foreign) => {
+            let text = String::from_utf8_lossy(bytes).into_owned();
+            return Ok(Source::new(path, bytes, text).refused(not_a_problem(foreign)));
+        }
+    };
+    let text = String::from_utf8_lossy(&content).into_owned();
     let mut source = Source::new(path, bytes, text);
-    Ok(match std::str::from_utf8(content) {
-        Err(error) => source.refused(not_utf8(content, error.valid_up_to())),
+    Ok(match std::str::from_utf8(&content) {
+        Err(error) => source.refused(not_utf8(&content, error.valid_up_to())),
         Ok(text) => match yaml::parse(text) {
             Err(fault) => source.refused(*fault),
             Ok(root) if root.value == Value::Null => source.refused(empty()),
@@ -135,8 +142,17 @@ impl Source {
 }
 
 fn empty() -> Fault {
-    let mut fault = Fault::at_key(Rule::FileEmpty, "", "the file is empty")
-        .expecting("a problem that starts with `format: 1`");
+    let fault = Fault::at_key(Rule::FileEmpty, "", "the file is empty");
+    at_the_beginning(fault.expecting("a problem that starts with `format: 1`"))
+}
+
+/// A fault of a file of another kind.
+fn not_a_problem(foreign: Foreign) -> Fault {
+    let fault = Fault::at_key(Rule::NotUtf8, "", foreign.to_string());
+    at_the_beginning(fault.expecting("a text file saved with the encoding UTF-8"))
+}
+
+fn at_the_beginning(mut fault: Fault) -> Fault {
     fault.at = Some(Span {
         line: 1,
         column: 1,

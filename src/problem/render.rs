@@ -8,6 +8,7 @@ use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Render
 use super::fault::{Fault, Span};
 use super::source::Source;
 use super::warning::Warning;
+use crate::printable;
 
 /// More faults than this are only counted: nobody reads them before mending the first ones.
 const MOST_SHOWN: usize = 100;
@@ -23,7 +24,7 @@ const MOST_SHOWN: usize = 100;
 /// # Ok::<(), Box<peenpose::problem::fault::Fault>>(())
 /// ```
 pub fn render(source: &Source, faults: &[Fault], color: bool) -> String {
-    let path = source.path.display().to_string();
+    let path = shown_path(source);
     let reports = faults.iter().map(|fault| report(source, &path, fault));
     let mut text = rendered(reports.take(MOST_SHOWN), color);
     if faults.len() > MOST_SHOWN {
@@ -35,15 +36,15 @@ pub fn render(source: &Source, faults: &[Fault], color: bool) -> String {
 
 /// Shows every warning with the line that it is about.
 pub fn render_warnings(source: &Source, warnings: &[Warning], color: bool) -> String {
-    let path = source.path.display().to_string();
+    let path = shown_path(source);
     let report = |warning: &'_ Warning| {
-        let title = format!("{}: {}", warning.key, warning.message);
+        let title = shown(&format!("{}: {}", warning.key, warning.message));
         let group = Group::with_title(Level::WARNING.primary_title(title));
         let group = match warning.at {
             Some(at) => group.element(snippet(source, &path, at, None)),
             None => group.element(Origin::path(path.clone())),
         };
-        group.element(Level::HELP.message(warning.help.clone()))
+        group.element(Level::HELP.message(shown(&warning.help)))
     };
     rendered(warnings.iter().map(report), color)
 }
@@ -57,6 +58,15 @@ fn rendered<'a>(reports: impl Iterator<Item = Group<'a>>, color: bool) -> String
     let renderer = renderer.decor_style(DecorStyle::Ascii);
     let texts = reports.map(|report| format!("{}\n\n", renderer.render(&[report])));
     texts.collect()
+}
+
+fn shown_path(source: &Source) -> String {
+    printable::line(&source.path.display().to_string()).into_owned()
+}
+
+/// What titles and labels say, whatever of the file they quote.
+fn shown(text: &str) -> String {
+    printable::lines(text).into_owned()
 }
 
 /// A place in the text, with what is said there.
@@ -78,13 +88,13 @@ fn snippet<'a>(
 
 fn report<'a>(source: &'a Source, path: &'a str, fault: &'a Fault) -> Group<'a> {
     let title = match fault.key.as_str() {
-        "" => fault.message.clone(),
-        key => format!("{key}: {}", fault.message),
+        "" => shown(&fault.message),
+        key => shown(&format!("{key}: {}", fault.message)),
     };
     let expected = fault
         .expected
         .as_deref()
-        .map(|expected| format!("expected {expected}"));
+        .map(|expected| shown(&format!("expected {expected}")));
     let mut group = Group::with_title(Level::ERROR.primary_title(title));
     match fault.at {
         Some(at) => {
@@ -98,7 +108,8 @@ fn report<'a>(source: &'a Source, path: &'a str, fault: &'a Fault) -> Group<'a> 
         }
     }
     if let Some(suggestion) = &fault.suggestion {
-        group = group.element(Level::HELP.message(format!("did you mean `{suggestion}`?")));
+        let message = shown(&format!("did you mean `{suggestion}`?"));
+        group = group.element(Level::HELP.message(message));
     }
     group
 }
@@ -110,8 +121,7 @@ pub fn one_line(source: &Source, fault: &Fault) -> String {
         Some(at) => format!("{path}:{}:{}: {fault}", at.line, at.column),
         None => format!("{path}: {fault}"),
     };
-    // Names out of the file must not move the cursor of a terminal.
-    line.replace(char::is_control, "\u{fffd}")
+    printable::line(&line).into_owned()
 }
 
 #[cfg(test)]
@@ -144,7 +154,7 @@ mod tests {
         let reading = crate::problem::read_text("format: 2", Path::new("any.yaml"));
         let source = reading.expect("it is short enough").source;
         let mut fault = Fault::at_key(Rule::UnknownFormat, "format", "wrong\u{1b}[2J\nindeed");
-        let message = "format: wrong\u{fffd}[2J\u{fffd}indeed";
+        let message = "format: wrong\u{241b}[2J\u{240a}indeed";
         let line = one_line(&source, &fault);
         assert_eq!(line, format!("any.yaml: {message}"));
         fault.at = Some(Span {

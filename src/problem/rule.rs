@@ -181,6 +181,8 @@ listed! {
         PathLeavesFolder,
         /// No piece of the target in its box.
         TargetEmpty,
+        /// A target whose free side its mesh does not tell.
+        FreeSideUnclear,
         /// An aim point beside the target.
         AimOffTarget,
         /// A target whose own centre is beside it.
@@ -226,6 +228,10 @@ listed! {
         MeshNoSuchVertex,
         /// Another number of triangles than promised.
         MeshWrongCount,
+        /// Bytes of a program's own between the triangles.
+        MeshVendorData,
+        /// A file of another kind under the name of a mesh.
+        MeshForeign,
         /// Something else than the format wants.
         MeshUnexpected,
         /// A mesh file cut short.

@@ -255,5 +255,20 @@ pub struct Tolerance {
     pub friction: f64,
 }
 
+impl Tolerance {
+    /// Whether the nozzle may stand elsewhere than it is set.
+    pub fn moves_nozzle(&self) -> bool {
+        let errors = [
+            self.incidence,
+            self.azimuth,
+            self.standoff,
+            self.aim_along,
+            self.aim_across,
+            self.aim_above,
+        ];
+        errors.iter().any(|&error| error > 0.0)
+    }
+}
+
 #[cfg(test)]
 mod tests;

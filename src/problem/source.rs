@@ -37,7 +37,7 @@ impl Source {
         Self {
             path: path.to_owned(),
             text,
-            sha256: hexadecimal(&Sha256::digest(bytes)),
+            sha256: sha256(bytes),
             places: HashMap::new(),
         }
     }
@@ -145,6 +145,11 @@ pub(super) fn child_key(key: &str, name: &str) -> String {
 /// Key path of one item of the list `key`.
 pub(super) fn item_key(key: &str, index: usize) -> String {
     format!("{key}[{index}]")
+}
+
+/// SHA-256 of a file's bytes, in hexadecimal digits.
+pub(crate) fn sha256(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
 }
 
 fn hexadecimal(bytes: &[u8]) -> String {

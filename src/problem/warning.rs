@@ -4,6 +4,7 @@ use super::Problem;
 pub use super::doubt::Doubt;
 use super::fault::Span;
 use super::source::Source;
+use crate::digits::plain;
 use crate::elementary::sin;
 use crate::impact::Contact;
 
@@ -267,7 +268,7 @@ fn exit(problem: &Problem) -> Option<Warning> {
 /// A number with three significant digits.
 pub(crate) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    rounded.to_string()
+    plain(rounded)
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use explain::explain;
 
 use super::fault::{Fault, Span};
 use super::size::{MOST_ALIASES, MOST_LEVELS};
+use crate::units::parse_number;
 
 /// A value of the file and where it stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,6 +173,10 @@ fn node(text: &str, raw: Spanned<Raw>) -> Node {
         Raw::Null => Value::Null,
         Raw::Number => Value::Number(written()),
         Raw::Flag => Value::Text(written()),
+        // YAML knows no other minus and no other blank than ASCII's.
+        Raw::Text(content) if is_typeset(&content) && !is_quoted(&written()) => {
+            Value::Number(content)
+        }
         Raw::Text(content) => Value::Text(content),
         Raw::List(items) => {
             let items: Vec<Node> = items.into_iter().map(|item| node(text, item)).collect();
@@ -196,6 +201,17 @@ fn node(text: &str, raw: Spanned<Raw>) -> Node {
         }
     };
     Node { value, span }
+}
+
+/// Whether a text is a number with a sign or a blank of typesetters. What else YAML takes for text,
+/// such as `1_000`, is none.
+fn is_typeset(content: &str) -> bool {
+    !content.is_ascii() && parse_number(content).is_some()
+}
+
+/// Whether a scalar was written so that it is text whatever it holds.
+fn is_quoted(written: &str) -> bool {
+    written.starts_with(['"', '\'', '|', '>', '!', '&'])
 }
 
 /// Where a list or map ends: at its bracket, or with its last entry.

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::receipt::{ReceiptRecord, TargetRecord, receipts};
+use super::room::radius_left;
 use crate::evaluate::Evaluation;
+use crate::feasibility::{Gap, gap, gap_within_tolerance};
 use crate::impact::{Contact, Restitution};
 use crate::jet::Pose;
 use crate::problem::setting::Choice;
@@ -37,12 +39,27 @@ pub struct AnswerRecord {
     pub feasible: bool,
     /// Whether every verdict passes.
     pub passes: bool,
-    /// Distance between nozzle and part, m; absent for a nozzle without a body.
+    /// Why the nozzle cannot be there; absent where it can.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub infeasible_because: Option<String>,
+    /// Distance between nozzle and part as it is set, m; of a nozzle without a body that of its exit, grown
+    /// by the radius of a shot.
     pub clearance_m: Option<f64>,
     /// The surface that it is measured to.
     pub clearance_surface: Option<String>,
+    /// The least distance within the setup tolerance, m; absent without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clearance_within_tolerance_m: Option<f64>,
+    /// The surface that it is measured to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clearance_within_tolerance_surface: Option<String>,
     /// Least distance asked for, m.
     pub clearance_wanted_m: f64,
+    /// What would be left of the radius of the body, m, once it is made small enough to fit there:
+    /// the least of its pieces; below 0 where not even a line would fit. Absent where the nozzle
+    /// fits, and in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body_radius_left_m: Option<f64>,
     /// Fresh shots behind the figures.
     pub shots: usize,
     /// Fresh shots from where harm may come that stand behind the objective as well.
@@ -54,7 +71,7 @@ pub struct AnswerRecord {
     pub target: Option<TargetRecord>,
     /// What each secondary surface receives.
     pub surfaces: BTreeMap<String, ReceiptRecord>,
-    /// One verdict for each goal and each secondary surface.
+    /// One verdict for each goal and each secondary surface, then `clearance` and `free_space`.
     pub verdicts: Vec<VerdictRecord>,
 }
 
@@ -151,6 +168,18 @@ pub struct VerdictRecord {
 }
 
 impl AnswerRecord {
+    /// The least distance between nozzle and part, m, with the worst errors where there is a tolerance.
+    pub fn least_clearance(&self) -> Option<f64> {
+        self.clearance_within_tolerance_m.or(self.clearance_m)
+    }
+
+    /// Whether that is less than wanted, by more than its rounding.
+    pub fn is_too_near(&self) -> bool {
+        let wanted = self.clearance_wanted_m;
+        let least = wanted - 1e-6 * wanted.max(1e-3);
+        self.least_clearance().is_some_and(|gap| gap < least)
+    }
+
     /// The record of an answer.
     pub fn new(setup: &Setup, answer: &Answer) -> Self {
         let choice = &answer.choice;
@@ -158,10 +187,14 @@ impl AnswerRecord {
         let pose = Pose::new(&setup.target.frame, choice);
         let nozzle = &setup.problem.nozzle;
         let calibration = setup.problem.calibration.as_ref();
-        let clearance = setup
-            .scene
-            .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY);
-        let surface_name = |index: u32| setup.scene.surfaces()[index as usize].clone();
+        let surface_name = |gap: Gap| setup.scene.surfaces()[gap.surface as usize].clone();
+        let clearance = gap(setup, choice);
+        let worst = setup
+            .problem
+            .tolerance
+            .moves_nozzle()
+            .then(|| gap_within_tolerance(setup, choice))
+            .flatten();
         let evaluation = answer.evaluation.as_ref();
         Self {
             contact: contact.name.clone(),
@@ -171,9 +204,15 @@ impl AnswerRecord {
             pose: PoseRecord::new(&pose),
             feasible: answer.violation <= 0.0,
             passes: answer.passes(),
-            clearance_m: clearance.map(|(gap, _)| gap),
-            clearance_surface: clearance.map(|(_, surface)| surface_name(surface)),
+            infeasible_because: answer.obstacle.map(|it| it.reason(setup)),
+            clearance_m: clearance.map(|gap| gap.distance),
+            clearance_surface: clearance.map(surface_name),
+            clearance_within_tolerance_m: worst.map(|gap| gap.distance),
+            clearance_within_tolerance_surface: worst.map(surface_name),
             clearance_wanted_m: nozzle.clearance,
+            body_radius_left_m: (answer.violation > 0.0)
+                .then(|| radius_left(setup, &pose))
+                .flatten(),
             shots: evaluation.map_or(0, |evaluation| evaluation.shots),
             rim_shots: evaluation.map_or(0, |evaluation| evaluation.rim_shots),
             objective: evaluation.map(ObjectiveRecord::new),
@@ -284,5 +323,7 @@ pub(super) fn subject_name(setup: &Setup, subject: Subject) -> String {
         Subject::TangentialImpulse => "tangential_impulse".into(),
         Subject::Miss => "miss".into(),
         Subject::Surface(index) => setup.scene.surfaces()[index as usize].clone(),
+        Subject::Clearance => "clearance".into(),
+        Subject::FreeSpace => "free_space".into(),
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::coverage::{Coverage, Density};
+use crate::coverage::{Coverage, Density, Dented, Estimate};
 
 /// How densely first hits fall on the target, and how much it takes until it is dented; the nozzle
 /// stands still.
@@ -20,18 +20,49 @@ pub struct CoverageRecord {
     pub cells: usize,
     /// Side of a cell, m.
     pub cell_side_m: f64,
-    /// Mean over the target.
+    /// Mean over the target; mass and time are those until the wanted share of the whole target is dented.
     pub mean: DensityRecord,
     /// The least density, but for 5 % of the area where it is lower.
     pub lowest_5: DensityRecord,
     /// Standard deviation of the density over the area relative to its mean.
     pub variation: f64,
-    /// Share of the area that lies in cells without a hit.
+    /// Share of the area that lies in cells without a hit, of those that are small.
     pub share_not_hit: f64,
+    /// What is dented of the target, on the mean over small cells; absent in older records.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dented: Option<DentedRecord>,
     /// Number of shots in a kilogram.
     pub shots_per_kg: f64,
     /// Mass of shot per time, kg/s; absent where it is not known.
     pub mass_flow_kg_s: Option<f64>,
+}
+
+/// What is dented of the target: the mean over its cells, not what the mean density would dent.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DentedRecord {
+    /// Cells into which the target is cut for it.
+    pub cells: usize,
+    /// Side of a cell, m.
+    pub cell_side_m: f64,
+    /// Mass of shot that would dent the wanted share if hits fell evenly, kg; absent where nothing hits.
+    pub even_mass_kg: Option<f64>,
+    /// Share that it dents.
+    pub by_even_mass: Option<EstimateRecord>,
+    /// Mass of shot until the wanted share is dented, kg; absent where it never is.
+    pub mass_kg: Option<EstimateRecord>,
+    /// Bound of how much larger the share that is not hit may be with smaller cells.
+    pub not_hit_resolution: f64,
+}
+
+/// A number and its errors, in the unit of the number.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EstimateRecord {
+    /// The number.
+    pub value: f64,
+    /// Standard error.
+    pub standard_error: f64,
+    /// Bound of the error by the size of cells.
+    pub resolution: f64,
 }
 
 /// First hits per area, and what it takes until the wanted share is dented with so many.
@@ -55,6 +86,7 @@ impl CoverageRecord {
             mass_kg: coverage.mass_until_wanted(density),
             time_s: coverage.time_until_wanted(density),
         };
+        let mass_kg = coverage.dented.mass.map(|mass| mass.value);
         Self {
             dent_diameter_m: coverage.wish.dent_diameter,
             wanted: coverage.wish.wanted,
@@ -62,12 +94,40 @@ impl CoverageRecord {
             area_m2: coverage.area,
             cells: coverage.cells,
             cell_side_m: coverage.side,
-            mean: density(coverage.mean),
+            mean: DensityRecord {
+                mass_kg,
+                time_s: mass_kg
+                    .zip(coverage.mass_flow)
+                    .map(|(mass, flow)| mass / flow),
+                ..density(coverage.mean)
+            },
             lowest_5: density(coverage.lowest),
             variation: coverage.variation,
             share_not_hit: coverage.share_not_hit,
+            dented: Some(DentedRecord::new(
+                &coverage.dented,
+                coverage.mass_until_wanted(coverage.mean),
+            )),
             shots_per_kg: coverage.shots_per_kilogram,
             mass_flow_kg_s: coverage.mass_flow,
+        }
+    }
+}
+
+impl DentedRecord {
+    fn new(dented: &Dented, even_mass_kg: Option<f64>) -> Self {
+        let estimate = |it: Estimate| EstimateRecord {
+            value: it.value,
+            standard_error: it.standard_error,
+            resolution: it.resolution,
+        };
+        Self {
+            cells: dented.cells,
+            cell_side_m: dented.side,
+            even_mass_kg,
+            by_even_mass: dented.by_even_mass.map(estimate),
+            mass_kg: dented.mass.map(estimate),
+            not_hit_resolution: dented.not_reached_resolution,
         }
     }
 }

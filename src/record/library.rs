@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::impact::{Contact, Restitution};
+use crate::impact::Contact;
 use crate::problem::Problem;
 use crate::problem::equipment::Shot;
 use crate::problem::media::{LibraryContact, Number};
@@ -36,6 +36,9 @@ pub struct LibraryContactRecord {
     /// Where restitution is from; absent where the file gives another.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub restitution: Option<OriginRecord>,
+    /// Where it is from how that falls with speed; absent where the file gives another.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restitution_exponent: Option<OriginRecord>,
 }
 
 /// Where a number is from.
@@ -84,15 +87,15 @@ impl LibraryContactRecord {
     }
 
     fn new(name: &str, known: &LibraryContact, contact: &Contact) -> Self {
+        let is_known = contact.restitution == known.restitution_law();
+        let of_law = |number: &Number| origin(number, number.value).filter(|_| is_known);
         Self {
             contact: name.into(),
             library: known.name.into(),
             mu_s: origin(&known.static_friction, contact.static_friction),
             mu_d: origin(&known.dynamic_friction, contact.dynamic_friction),
-            restitution: match contact.restitution {
-                Restitution::Constant(value) => origin(&known.restitution, value),
-                Restitution::Falling { .. } => None,
-            },
+            restitution: of_law(&known.restitution),
+            restitution_exponent: of_law(&known.restitution_exponent),
         }
     }
 }

@@ -3,8 +3,10 @@
 //! Angles are in degrees, everything else is SI, and every key ends with its unit.
 
 mod answer;
+mod check;
 mod coverage;
 mod evidence;
+mod fault;
 mod front;
 mod json;
 mod library;
@@ -12,34 +14,45 @@ mod map;
 mod model;
 mod question;
 mod receipt;
+mod room;
 mod unknowns;
 mod window;
 
 pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, SettingsRecord, VerdictRecord,
 };
-pub use coverage::{CoverageRecord, DensityRecord};
+pub use coverage::{CoverageRecord, DensityRecord, DentedRecord, EstimateRecord};
 pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
+pub use fault::RecordFault;
+pub(crate) use fault::read_json;
 pub use front::FrontRecord;
 pub use library::{LibraryContactRecord, MediumRecord, OriginRecord};
 pub use map::MapTerm;
 pub use model::{ModelRecord, RungRecord};
-pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
+pub use question::{
+    CalibrationRecord, GoalsRecord, LengthsIn, QuestionRecord, RangeRecord, ToleranceRecord,
+};
 pub use receipt::{ReceiptRecord, SpreadRecord, TargetRecord};
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,
 };
 pub use window::{DriftRecord, WindowRecord};
 
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
 use serde::{Deserialize, Serialize};
 
 use crate::coverage::Coverage;
 use crate::evidence::{Evidence, SHOTS};
-use crate::map::standard_maps;
+use crate::map::{Control, standard_maps_until};
+use crate::printable;
 use crate::problem::Source;
+use crate::scene::MeshSource;
 use crate::setup::Setup;
 use crate::solve::{Answer, Ladder, Status, Window};
 use crate::unknowns::Unknowns;
@@ -47,6 +60,17 @@ use crate::validity::Note;
 
 /// Bytes of the largest `result.json` that is read.
 pub const LARGEST_FILE: u64 = 500_000_000;
+
+/// The SHA-256 of every mesh file of a scene, by its name as in the problem file.
+pub fn mesh_sha256(setup: &Setup, source: &Source) -> BTreeMap<String, String> {
+    let folder = source.path.parent().unwrap_or(Path::new(""));
+    let named = |file: &MeshSource| {
+        let name = file.path.strip_prefix(folder).unwrap_or(&file.path);
+        let name = printable::line(&name.display().to_string()).into_owned();
+        (name, file.sha256.clone())
+    };
+    setup.scene.mesh_files().iter().map(named).collect()
+}
 
 /// The result of a search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -84,6 +108,9 @@ pub struct Record {
     pub work: WorkRecord,
     /// Checksum of the problem file.
     pub problem_sha256: String,
+    /// Checksums of the mesh files, by their names as in the problem file; none in results of older versions.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub mesh_sha256: BTreeMap<String, String>,
     /// Version of the program.
     pub version: String,
     /// The command that gives the same answer again.
@@ -199,8 +226,9 @@ impl Record {
             evidence: None,
             work: circumstances.work,
             problem_sha256: circumstances.source.sha256.clone(),
+            mesh_sha256: mesh_sha256(setup, circumstances.source),
             version: env!("CARGO_PKG_VERSION").into(),
-            command: circumstances.command,
+            command: printable::line(&circumstances.command).into_owned(),
         })
     }
 
@@ -212,24 +240,38 @@ impl Record {
         json::text(self)
     }
 
-    /// Reads a record back.
+    /// Reads a record back. What it concludes is concluded again: nothing is shown that its own numbers
+    /// contradict.
     ///
     /// # Errors
-    /// When the text is not a record.
-    pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {
-        serde_json::from_str(text)
+    /// When the text is not a record, one of a newer version of the program, or contradicts itself.
+    pub fn from_json(text: &str) -> Result<Self, RecordFault> {
+        let record: Self = read_json(text)?;
+        check::record(&record)?;
+        Ok(record)
     }
 
     /// The same with what the pictures of the best settings are drawn from; `best` is the first
     /// of the answers behind it.
     #[must_use]
     pub fn with_evidence(self, setup: &Setup, best: &Answer) -> Self {
+        self.with_evidence_until(setup, best, &AtomicBool::new(false))
+    }
+
+    /// The same without the maps of which nothing is known when `stop` is set, and with blanks in the others.
+    #[must_use]
+    pub fn with_evidence_until(self, setup: &Setup, best: &Answer, stop: &AtomicBool) -> Self {
         let fits = best.evaluation.is_some();
         let shots = if fits { SHOTS } else { 0 };
         let shown = Evidence::of(setup, &best.choice, shots);
         let mut evidence = EvidenceRecord::new(setup, &best.choice, &shown);
-        let maps = standard_maps(setup, &best.choice);
-        evidence.maps = maps.iter().map(|map| MapRecord::new(setup, map)).collect();
+        let control = Control {
+            stop,
+            ..Control::default()
+        };
+        let maps = standard_maps_until(setup, &best.choice, &control);
+        let maps = maps.iter().map(|map| MapRecord::new(setup, map));
+        evidence.maps = maps.filter(|map| map.known_places() > 0).collect();
         Self {
             evidence: Some(evidence),
             ..self

@@ -43,8 +43,9 @@ pub struct RungRecord {
     pub settings_without: SettingsRecord,
     /// By how much J of the whole model is higher at the latter, relative.
     pub regret: f64,
-    /// Time for a pose without it over time with it.
-    pub relative_time: f64,
+    /// Rays of a pose without it over rays with it; in results of older versions the same of times.
+    #[serde(alias = "relative_time")]
+    pub relative_rays: f64,
     /// Whether the search did without it.
     pub left_out: bool,
 }
@@ -85,7 +86,7 @@ impl RungRecord {
             settings_with: SettingsRecord::new(&rung.best_with),
             settings_without: SettingsRecord::new(&rung.best_without),
             regret: rung.regret,
-            relative_time: rung.relative_time,
+            relative_rays: rung.relative_rays,
             left_out: rung.left_out,
         }
     }

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::library::{LibraryContactRecord, MediumRecord};
 use super::window::key_and_unit;
+use crate::printable;
 use crate::problem::equipment::Spread;
+use crate::problem::part::FileUnit;
 use crate::problem::setting::{Range, Setting};
 use crate::problem::{Problem, Source};
 use crate::units::degrees;
@@ -32,6 +34,9 @@ pub struct QuestionRecord {
     pub library_contacts: Vec<LibraryContactRecord>,
     /// Diameter of the exit, m.
     pub exit_diameter_m: f64,
+    /// The unit of the file's coordinates, in which poses are printed.
+    #[serde(default)]
+    pub lengths_in: LengthsIn,
     /// Half-angle of the cone, deg.
     pub divergence_deg: f64,
     /// `uniform` or `gaussian`.
@@ -118,13 +123,32 @@ pub struct ToleranceRecord {
     pub friction: f64,
 }
 
+/// The unit of a file's coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LengthsIn {
+    /// Its name in the file.
+    pub name: String,
+    /// m.
+    pub metres: f64,
+}
+
+impl Default for LengthsIn {
+    fn default() -> Self {
+        let FileUnit { name, metres } = FileUnit::default();
+        Self {
+            name: name.into(),
+            metres,
+        }
+    }
+}
+
 impl QuestionRecord {
     /// The record of a problem.
     pub fn new(problem: &Problem, source: &Source) -> Self {
         let (goals, tolerance) = (&problem.goals, &problem.tolerance);
         Self {
             title: problem.title.clone(),
-            file: source.path.display().to_string(),
+            file: printable::line(&source.path.display().to_string()).into_owned(),
             shot_radius_m: problem.shot.radius,
             shot_density_kg_m3: problem.shot.density,
             shot_mass_kg: problem.shot.mass(),
@@ -132,6 +156,10 @@ impl QuestionRecord {
             medium: MediumRecord::of(&problem.shot),
             library_contacts: LibraryContactRecord::all(problem),
             exit_diameter_m: problem.jet.exit_diameter,
+            lengths_in: LengthsIn {
+                name: problem.target.lengths_in.name.into(),
+                metres: problem.target.lengths_in.metres,
+            },
             divergence_deg: degrees(problem.jet.divergence),
             spread: match problem.jet.spread {
                 Spread::Uniform => "uniform".into(),

@@ -26,7 +26,7 @@ pub struct DriftRecord {
     pub to: f64,
     /// Width of the interval beyond in which the turn lies; 0 when none turned.
     pub within: f64,
-    /// What turns: a goal, a surface or `clearance`; absent at the end of the setting's range.
+    /// What turns: a goal, a surface, `clearance` or `free_space`; absent at the end of the setting's range.
     pub turns: Option<String>,
 }
 
@@ -40,6 +40,7 @@ impl WindowRecord {
             turns: drift.turns.map(|turn| match turn {
                 Turn::Verdict(subject) => subject_name(setup, subject),
                 Turn::Clearance => "clearance".into(),
+                Turn::FreeSpace => "free_space".into(),
             }),
         };
         Self {

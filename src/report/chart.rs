@@ -5,8 +5,9 @@ use crate::precision::Precision;
 use crate::report::figure::curve_name;
 use crate::report::finding::{self, rounded_time, share, signed_share};
 use crate::report::layout::{Align, Block, Table};
-use crate::report::number::{Scale, count, fixed, significant};
+use crate::report::number::{Scale, count, significant};
 use crate::report::series::{Group, Series};
+use crate::report::sheet::setting::SETTINGS;
 
 /// The chart as text.
 pub fn chart(chart: &Chart) -> String {
@@ -32,14 +33,15 @@ fn head(chart: &Chart) -> Block {
     block.paragraph(&chart.file);
     block.gap();
     let settings = chart.recommended.settings;
+    let pose = SETTINGS[..3].iter();
+    let pose = pose.map(|it| format!("{} {}", it.name, it.text_with_unit(&settings)));
+    let pose: Vec<String> = pose.collect();
     block.hanging(
         "settings   ",
         &format!(
-            "{}, incidence {} deg, azimuth {} deg, standoff {} mm, speed {} m/s",
+            "{}, {}, speed {} m/s",
             chart.recommended.contact,
-            fixed(settings.incidence_deg, 1),
-            fixed(settings.azimuth_deg, 1),
-            fixed(settings.standoff_m * 1e3, 1),
+            pose.join(", "),
             significant(settings.speed_m_s, 3),
         ),
     );

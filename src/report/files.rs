@@ -3,10 +3,36 @@
 use std::io;
 
 use super::figure::Figure;
+use super::map::MAPS;
 use super::page::page_with;
 use super::sheet;
 use super::table::Table;
 use crate::record::Record;
+
+/// Names of all files that any record may lead to.
+pub fn names() -> impl Iterator<Item = String> {
+    const TABLES: [&str; 11] = [
+        "surfaces",
+        "verdicts",
+        "choices",
+        "windows",
+        "pose",
+        "hits",
+        "rebounds",
+        "places",
+        MAPS[0],
+        MAPS[1],
+        "trade_off",
+    ];
+    const FIGURES: [&str; 4] = ["hits", MAPS[0], MAPS[1], "trade_off"];
+    let tables = TABLES.map(|name| format!("{name}.csv"));
+    let figures = FIGURES.map(|name| ["png", "svg"].map(|ending| format!("{name}.{ending}")));
+    let texts = ["sheet.txt", "report.html"].map(str::to_owned);
+    texts
+        .into_iter()
+        .chain(tables)
+        .chain(figures.into_iter().flatten())
+}
 
 /// Every report that can be made from a record, by the name of its file; `result.json` itself is not
 /// among them. The same record gives the same bytes.

@@ -101,6 +101,13 @@ impl Block {
         self.hanging("", text);
     }
 
+    /// Adds a paragraph where a condition holds.
+    pub fn paragraph_if(&mut self, condition: bool, text: &str) {
+        if condition {
+            self.paragraph(text);
+        }
+    }
+
     /// Adds a paragraph whose first line starts with `label`, and the others below what follows it.
     pub fn hanging(&mut self, label: &str, text: &str) {
         self.parts.push(Part::Paragraph {

@@ -51,21 +51,32 @@ fn contacts(sources: &mut Sources) -> Block {
         ("mu_d", Align::Right),
         ("from", Align::Left),
         ("restitution", Align::Right),
+        ("at m/s", Align::Right),
         ("from", Align::Left),
     ]);
+    let mut exponents: Vec<String> = Vec::new();
     for contact in media::contacts() {
         let mut cells = vec![contact.name.to_owned()];
-        for number in [
-            &contact.static_friction,
-            &contact.dynamic_friction,
-            &contact.restitution,
-        ] {
-            cells.push(plain(number.value));
-            cells.push(sources.cited(number));
+        for number in [&contact.static_friction, &contact.dynamic_friction] {
+            cells.extend([plain(number.value), sources.cited(number)]);
         }
+        // The speed is part of what was measured, from the same source.
+        let restitution = &contact.restitution;
+        cells.extend([restitution, &contact.restitution_speed].map(|it| plain(it.value)));
+        cells.push(sources.cited(restitution));
         table.row(cells);
+        let exponent = &contact.restitution_exponent;
+        let cited = format!("{} {}", plain(exponent.value), sources.cited(exponent));
+        if !exponents.contains(&cited) {
+            exponents.push(cited);
+        }
     }
     block.table(table);
+    block.paragraph(&format!(
+        "Restitution was measured at a low normal speed, `at`, and falls beyond it: restitution x (speed / \
+         at)^(-p), p being {}. A problem file writes it as {{ value: 0.71, at: 4.43 m/s, exponent: 0.25 }}.",
+        exponents.join(" or ")
+    ));
     block.paragraph(
         "In a problem file: contacts: { use: [steel-on-steel-dry, steel-on-steel-oiled] }, or \
          contacts: { dry: { use: steel-on-steel-dry, restitution: 0.5 } }, where keys beside use go \

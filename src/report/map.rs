@@ -121,7 +121,7 @@ impl MapView<'_> {
             .iter()
             .filter(|setting| !is_axis(setting.key))
             .filter(|it| !it.key.starts_with("aim") || it.value(settings) != 0.0)
-            .map(|it| format!("{} {} {}", it.name, it.text(settings), it.unit))
+            .map(|it| format!("{} {}", it.name, it.text_with_unit(settings)))
             .collect();
         held.push(format!("contact {}", self.answer.contact));
         held.join(", ")

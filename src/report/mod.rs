@@ -13,9 +13,10 @@ mod page;
 mod series;
 mod sheet;
 pub mod table;
+mod typeset;
 
 pub use chart::chart;
-pub use files::files;
+pub use files::{files, names};
 pub use library::library;
 pub use map::{MapView, map};
 pub use page::{PageFault, page};

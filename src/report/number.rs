@@ -1,60 +1,8 @@
-//! Numbers for people: convenient units, and no more digits than a figure deserves.
+//! Numbers of reports: convenient units, and no more digits than a figure deserves.
 
+use crate::digits::{MOST, NO_NUMBER};
+pub use crate::digits::{coordinate, decimals_for, fixed, plain, rounded, significant};
 use crate::elementary::whole_power;
-
-/// What is shown instead of a number that is not finite.
-const NO_NUMBER: &str = "-";
-
-/// `value` with this many decimals; never `-0`.
-pub fn fixed(value: f64, decimals: usize) -> String {
-    if !value.is_finite() {
-        return NO_NUMBER.into();
-    }
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.into(),
-        _ => text,
-    }
-}
-
-/// `value` with this many significant digits, zeros at the end kept.
-pub fn significant(value: f64, digits: i32) -> String {
-    if value == 0.0 {
-        return "0".into();
-    }
-    fixed(value, decimals_for(value, digits))
-}
-
-/// A number that somebody asked for: up to six significant digits, without zeros at the end.
-pub fn plain(value: f64) -> String {
-    rounded(value, 6)
-}
-
-/// `value` with at most this many significant digits, without zeros at the end.
-pub fn rounded(value: f64, digits: i32) -> String {
-    without_end_zeros(&significant(value, digits)).into()
-}
-
-fn without_end_zeros(text: &str) -> &str {
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        text
-    }
-}
-
-/// Decimals that show this many significant digits of `value`.
-pub fn decimals_for(value: f64, digits: i32) -> usize {
-    if value == 0.0 || !value.is_finite() {
-        return 0;
-    }
-    let rounded = format!("{:.*e}", (digits - 1).max(0) as usize, value.abs());
-    let exponent = rounded
-        .split_once('e')
-        .and_then(|(_, exponent)| exponent.parse::<i32>().ok())
-        .unwrap_or(0);
-    (digits - 1 - exponent).clamp(0, 12) as usize
-}
 
 /// An impulse in uN.s without its unit, three significant digits.
 pub fn impulse(newton_seconds: f64) -> String {
@@ -79,7 +27,22 @@ pub fn share(share: f64) -> String {
     } else {
         0
     };
-    format!("{} %", fixed(share * 100.0, decimals))
+    format!("{} %", percent(share, decimals))
+}
+
+/// A share in percent with this many decimals; neither nothing nor the whole unless it is.
+fn percent(share: f64, decimals: usize) -> String {
+    if share == 1.0 {
+        return "100".into();
+    }
+    let text = fixed(share * 100.0, decimals);
+    match text.parse() {
+        Ok(0.0) if share > 0.0 => {
+            format!("<{}", fixed(whole_power(0.1, decimals as i32), decimals))
+        }
+        Ok(100.0) if share < 1.0 => ">99.99".into(),
+        _ => text,
+    }
 }
 
 /// A share with its 95 % interval as two texts, in percent: `2.01` and `1.90 to 2.12`. A share of
@@ -96,11 +59,12 @@ pub fn share_with_interval(share: f64, [low, high]: [f64; 2]) -> (String, String
         );
     }
     let decimals = decimals_for((high - low) * 50.0, 2);
-    let percent = |value: f64| fixed(value * 100.0, decimals);
-    (
-        percent(share),
-        format!("{} to {}", percent(low), percent(high)),
-    )
+    let [share, low_text, high_text] = [share, low, high].map(|it| percent(it, decimals));
+    let interval = match low_text.strip_prefix('>') {
+        Some(least) => format!("above {least}"),
+        None => format!("{low_text} to {high_text}"),
+    };
+    (share, interval)
 }
 
 /// A count with thin groups: `1 912 854`.
@@ -156,7 +120,11 @@ impl Scale {
         } else {
             decimals_for(value, 4)
         };
-        Self::Decimals(decimals.min(8))
+        let most = match value {
+            0.0 => decimals,
+            _ => decimals_for(value, MOST),
+        };
+        Self::Decimals(decimals.min(most).min(8))
     }
 
     /// A value on this scale.
@@ -197,19 +165,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_the_digits_that_they_deserve() {
-        assert_eq!(significant(1.606_918_391_474_963_2, 3), "1.61");
-        assert_eq!(significant(0.000_999_6, 3), "0.00100");
-        assert_eq!(significant(12_345.6, 3), "12346");
-        assert_eq!(fixed(-0.000_1, 2), "0.00");
-        assert_eq!(fixed(-1.25, 1), "-1.2");
-        assert_eq!(plain(29.999_999_999_999_996), "30");
-        assert_eq!(plain(0.0015 * 1e3), "1.5");
-        assert_eq!(fixed(f64::NAN, 2), "-");
-        assert_eq!(plain(f64::INFINITY), "-");
-    }
-
-    #[test]
     fn impulses_are_in_micronewton_seconds() {
         assert_eq!(impulse(3.981_214_874_978_531e-5), "39.8");
         assert_eq!(impulse_asked(4e-5), "40 uN.s");
@@ -226,7 +181,9 @@ mod tests {
     fn shares_show_what_was_counted() {
         assert_eq!(share(0.0), "0 %");
         assert_eq!(share(1.0), "100 %");
-        assert_eq!(share(0.999_95), "99.9950 %");
+        assert_eq!(share(0.999_95), "99.995 %");
+        assert_eq!(share(0.999_999_9), ">99.99 %");
+        assert_eq!(share(2e-9), "<0.00001 %");
         assert_eq!(share(0.020_065_3), "2.0 %");
         assert_eq!(share(0.701_34), "70.1 %");
         assert_eq!(
@@ -236,6 +193,14 @@ mod tests {
         assert_eq!(
             share_with_interval(0.0, [0.0, 3.0 / 65_536.0]),
             ("0".into(), "below 0.0046".into())
+        );
+        assert_eq!(
+            share_with_interval(0.999_999, [0.999_99, 0.999_999_9]),
+            (">99.99".into(), "99.999 to >99.99".into())
+        );
+        assert_eq!(
+            share_with_interval(1.0, [0.999_77, 1.0]),
+            ("100".into(), "99.977 to 100".into())
         );
     }
 
@@ -253,6 +218,11 @@ mod tests {
         assert_eq!(Scale::for_error(0.0, 0.0).with_error(0.0, 0.0), "0 +- 0");
         assert_eq!(scale.text(6.8e-8), "<0.000001");
         assert_eq!(Scale::for_error(11.312, 0.013_98).text(11.312), "11.312");
+        let sharp = Scale::for_error(1.234_567_8, 0.000_001_1);
+        assert_eq!(
+            sharp.with_error(1.234_567_8, 0.000_001_1),
+            "1.2346 +- <0.0001"
+        );
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::mesh_file::MOST_TRIANGLES;
 use super::part::Geometry;
 use super::{SLACK, Scene, Walls};
+use crate::printable;
 use crate::problem::fault::Fault;
 use crate::problem::part::Part;
 use crate::problem::rule::Rule;
@@ -37,15 +38,17 @@ impl Scene {
             parts: Vec::new(),
             surfaces: Vec::new(),
             warnings: Vec::new(),
+            files: Vec::new(),
             size,
             reach: size.min(longest_side(&geometries)),
         };
         for (part, mut geometry) in parts.iter().zip(geometries) {
             let base = scene.surfaces.len() as u32;
             let names = geometry.mesh.surfaces.iter();
-            let full = names.map(|name| format!("{}.{name}", part.name));
+            let full = names.map(|name| format!("{}.{}", part.name, printable::line(name)));
             scene.surfaces.extend(full);
             scene.warnings.append(&mut geometry.warnings);
+            scene.files.extend(geometry.file.take());
             scene.parts.push(geometry.build(part, base, SLACK * size));
         }
         Ok(scene)

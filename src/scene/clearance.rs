@@ -74,18 +74,29 @@ impl Facets {
     ) -> Option<(f64, u32)> {
         let segment = Segment::new(from.coords.into(), to.coords.into());
         let (low, high) = (segment.a.min(segment.b), segment.a.max(segment.b));
+        self.nearest_triangle(limit, low, high, |index, _| {
+            segment_triangle(&segment, &self.triangle(index))
+        })
+    }
+
+    /// The least distance of something in a box from a triangle, by `distance`, which may stop at the
+    /// limit that it is given; `None` when everything is farther than `limit`.
+    pub(super) fn nearest_triangle(
+        &self,
+        limit: f64,
+        low: Vector,
+        high: Vector,
+        distance: impl Fn(u32, f64) -> f64,
+    ) -> Option<(f64, u32)> {
         let (_, found) = self.distance_tree().find_best(
             limit,
             |node, _| gap(node, low, high),
-            |leaf, _| {
-                let distance = |index| segment_triangle(&segment, &self.triangle(index));
-                nearest_of(self.leaf(leaf).map(|index| (distance(index), index)))
-            },
+            |leaf, best| nearest_of(self.leaf(leaf).map(|index| (distance(index, best), index))),
         )?;
         Some((found.distance, found.triangle))
     }
 
-    fn triangle(&self, index: u32) -> Triangle {
+    pub(super) fn triangle(&self, index: u32) -> Triangle {
         let [a, b, c] = self.corners(index).map(|corner| corner.coords.into());
         Triangle::new(a, b, c)
     }

@@ -43,6 +43,8 @@ pub struct Facets {
     slack: f64,
     /// What a weight may lose to an edge that a ray passes by a lift, m².
     doubtful_weight: f64,
+    /// Whether its fronts look towards free space, as is taken for granted until a target tells.
+    pub(super) fronts_are_free: bool,
 }
 
 impl Facets {
@@ -85,6 +87,7 @@ impl Facets {
                 .map(|t| surface_base + t.surface)
                 .collect(),
             doubtful_weight: doubtful_weight(&mesh, slack),
+            fronts_are_free: true,
             vertices: mesh.vertices,
             slack,
         }

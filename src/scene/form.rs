@@ -184,6 +184,14 @@ impl Form {
         }
     }
 
+    /// Unit normal on the front of the wall where it is nearest to a point of the cross-section.
+    pub fn front_nearest(&self, to: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Plane(plane) => plane.front(),
+            Self::Cylinder(cylinder) => cylinder.front(cylinder.relative(cylinder.nearest(to))),
+        }
+    }
+
     /// How often a line from a point of the cross-section crosses the wall ahead.
     pub fn crossings(&self, origin: [f64; 2], direction: [f64; 2]) -> usize {
         match self {

@@ -2,14 +2,16 @@
 
 mod pieces;
 mod seams;
+mod shells;
 mod smoothness;
 mod topology;
 mod winding;
 
 pub(super) use pieces::tiny_pieces;
 pub(super) use seams::rims;
+pub(super) use shells::{Shell, Shells};
 pub use topology::Topology;
-pub(super) use topology::{duplicates, examine};
+pub(super) use topology::{duplicates, examine, open_edges};
 pub(super) use winding::unify;
 
 use nalgebra::{Point3, Vector3};

@@ -8,6 +8,7 @@ mod bundle;
 mod clearance;
 mod facets;
 mod form;
+mod free_side;
 pub mod lanes;
 pub mod mesh;
 pub mod mesh_file;
@@ -21,18 +22,22 @@ pub mod ray;
 pub mod rays;
 pub mod stand;
 mod start;
+pub mod swept;
 pub mod tessellate;
 mod triangle;
 mod wide_tree;
+mod winding;
 
 use nalgebra::{Point3, Vector3};
 
 use crate::precision::{Real, along, scaled, unit};
+use crate::printable;
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::{Fault, one_of};
 use crate::problem::rule::Rule;
 use lanes::{components, padded, put};
 use part::BuiltPart;
+pub use part::MeshSource;
 use ray::{Hit, Ray, Spot};
 use rays::{Hits, Rays};
 use stand::Stand;
@@ -52,6 +57,7 @@ pub struct Scene {
     parts: Vec<BuiltPart>,
     surfaces: Vec<String>,
     warnings: Vec<String>,
+    files: Vec<MeshSource>,
     size: f64,
     /// By shares of this it is felt what lies beside a surface, m.
     reach: f64,
@@ -80,6 +86,8 @@ impl Scene {
     /// # Errors
     /// A fault (without a key) that names the nearest surface and lists all of them.
     pub fn surface_named(&self, name: &str) -> Result<u32, Box<Fault>> {
+        // Names in mesh files may hold what cannot be shown.
+        let name = &*printable::line(name);
         let found = self.surfaces.iter().position(|surface| surface == name);
         found.map(|index| index as u32).ok_or_else(|| {
             let known: Vec<&str> = self.surfaces.iter().map(String::as_str).collect();
@@ -92,6 +100,11 @@ impl Scene {
     /// What was noticed while the mesh files were read.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// The mesh files behind it, in the order of the parts.
+    pub fn mesh_files(&self) -> &[MeshSource] {
+        &self.files
     }
 
     /// Largest coordinate of any corner, m: the scale of rounding errors.

@@ -1,22 +1,45 @@
-//! The place on a surface that is nearest to a point, and which side of it is free.
+//! The place on a surface that is nearest to a point.
 
 use crate::elementary::sin_cos;
 use nalgebra::{Point3, Vector3};
 
 use super::Scene;
-use super::part::Fronts;
+use super::part::FreeSide;
 use super::ray::Ray;
+
+/// The place on a surface that is nearest to a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foot {
+    /// Index of its part.
+    pub part: u32,
+    /// Index of its triangle in that part.
+    pub triangle: u32,
+    /// m.
+    pub point: Point3<f64>,
+    /// Unit normal of the triangle on its front.
+    pub facet_normal: Vector3<f64>,
+    /// Unit normal of the surface on its front.
+    pub front: Vector3<f64>,
+}
 
 impl Scene {
     /// The point of a surface that stands in the scene nearest to a given point, and the unit
-    /// normal there towards free space:
-    /// on the front, or for an open mesh, whose winding tells nothing, on the side that is more
-    /// enclosed.
+    /// normal there towards free space.
     pub fn nearest_on_surface(
         &self,
         to: &Point3<f64>,
         surface: u32,
     ) -> Option<(Point3<f64>, Vector3<f64>)> {
+        let foot = self.foot(to, surface)?;
+        let normal = match self.parts[foot.part as usize].free {
+            FreeSide::Back => -foot.front,
+            FreeSide::Front | FreeSide::Round | FreeSide::Either => foot.front,
+        };
+        Some((foot.point, normal))
+    }
+
+    /// The same with the triangle that it is on.
+    pub(super) fn foot(&self, to: &Point3<f64>, surface: u32) -> Option<Foot> {
         let standing = self.parts.iter().enumerate();
         let standing = standing.filter(|(_, part)| !part.on_nozzle);
         let candidates = standing.filter_map(|(index, part)| {
@@ -38,33 +61,13 @@ impl Scene {
             Some((crossing, front)) if crossing.surface == surface && crossing.front => front,
             _ => facet_normal,
         };
-        let normal = match self.parts[part as usize].fronts {
-            Fronts::Free => front,
-            Fronts::Solid => -front,
-            Fronts::Unknown => self.enclosed_side(&nearest.point, &front),
-        };
-        Some((nearest.point, normal))
-    }
-
-    /// Of the two sides of a surface the one from which more directions meet the scene; the front
-    /// when the other has not clearly more.
-    pub(super) fn enclosed_side(&self, point: &Point3<f64>, front: &Vector3<f64>) -> Vector3<f64> {
-        const DIRECTIONS: usize = 256;
-        let height = 1e-4 * self.reach;
-        let met = |side: Vector3<f64>| {
-            let origin = point + side * height;
-            let hits = (0..DIRECTIONS).filter(|&index| {
-                let direction = spiral_direction(index, DIRECTIONS);
-                let direction = direction * direction.dot(&side).signum();
-                self.first_hit(&Ray { origin, direction }, None).is_some()
-            });
-            hits.count()
-        };
-        if met(-front) > met(*front) + DIRECTIONS / 8 {
-            -front
-        } else {
-            *front
-        }
+        Some(Foot {
+            part,
+            triangle: nearest.triangle,
+            point: nearest.point,
+            facet_normal,
+            front,
+        })
     }
 }
 

@@ -1,62 +1,73 @@
 //! One part of the scene, ready for rays and distances.
 
-use nalgebra::Vector3;
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use nalgebra::{Point3, Vector3};
 
 use super::Walls;
 use super::facets::{self, Facets};
-use super::mesh::Mesh;
-use super::mesh_file::{self, MeshWarning};
+use super::mesh::{Mesh, Shell, Shells};
+use super::mesh_file;
 use super::prism::Prism;
 use super::profile::Profile;
 use super::ray::{Crossing, Ray, Spot};
 use super::rays::{Hits, Rays};
 use super::tessellate;
+use super::winding::Winding;
 use crate::precision::Real;
+use crate::printable;
 use crate::problem::fault::Fault;
-use crate::problem::part::{Ends, Part, Shape};
+use crate::problem::part::{Ends, Part, Place, Shape};
 
 /// A part whose surfaces have their indices in the scene.
 #[derive(Clone)]
 pub(super) struct BuiltPart {
     /// Its triangles: for distances, for the target patch, and for rays where there is no prism.
     pub facets: Facets,
-    /// What the fronts of its surfaces say about where the free space is.
-    pub fronts: Fronts,
+    /// Which side of its surfaces is free.
+    pub free: FreeSide,
+    /// Its shells, where it is a mesh from a file.
+    shells: Option<Shells>,
+    /// The triangles of shells that wrap round a volume; made when first asked for.
+    solid: OnceLock<Option<Winding>>,
     /// Whether its frame is the nozzle's.
     pub on_nozzle: bool,
     prism: Option<Prism>,
+    /// Whether it is a block, all of whose sides belong to one volume.
+    is_block: bool,
+    /// The cylinder of a bore.
+    round: Option<Round>,
 }
 
-/// What the fronts of a part's surfaces say about where the free space is.
+/// A cylinder along z from 0 to a length, in its place.
+#[derive(Clone, Copy, Debug)]
+struct Round {
+    place: Place,
+    radius: f64,
+    length: f64,
+}
+
+/// Which side of a part's surfaces is free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fronts {
-    /// Free space is in front.
-    Free,
-    /// A closed mesh that is inside out: free space is behind.
-    Solid,
-    /// An open mesh, whose winding nobody had to care about, or one whose winding cannot agree. A mesh
-    /// with small holes is a closed one with damage.
-    Unknown,
+pub(super) enum FreeSide {
+    /// The one in front: outside of a solid, inside of a bore.
+    Front,
+    /// The one behind: a target that faces there says so, or a bore that is a pin.
+    Back,
+    /// A bore that may as well be a pin: the target decides.
+    Round,
+    /// Either: a thin wall, or an open mesh whose winding tells nothing.
+    Either,
 }
 
-impl Fronts {
-    fn of(warnings: &[MeshWarning]) -> Self {
-        let noticed = |is: fn(&MeshWarning) -> bool| warnings.iter().any(is);
-        if noticed(|warning| matches!(warning, MeshWarning::InsideOut { .. })) {
-            Self::Solid
-        } else if noticed(tells_nothing_about_fronts) {
-            Self::Unknown
-        } else {
-            Self::Free
-        }
-    }
-}
-
-fn tells_nothing_about_fronts(warning: &MeshWarning) -> bool {
-    matches!(
-        warning,
-        MeshWarning::OpenEdges { small: false, .. } | MeshWarning::InconsistentWinding { .. }
-    )
+/// A mesh file as it was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshSource {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
 }
 
 /// The geometry of a part before its surfaces are numbered.
@@ -64,7 +75,10 @@ pub(super) struct Geometry {
     pub mesh: Mesh,
     /// What the reader of a mesh file noticed.
     pub warnings: Vec<String>,
-    fronts: Fronts,
+    /// The file that it was read from.
+    pub file: Option<MeshSource>,
+    free: FreeSide,
+    shells: Option<Shells>,
     prism: Option<(Profile, f64, Ends)>,
 }
 
@@ -75,6 +89,12 @@ impl Geometry {
     /// The geometry of a part in its place.
     pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
         let mut warnings = Vec::new();
+        let mut file = None;
+        let mut shells = None;
+        let free = match &part.shape {
+            Shape::Bore { .. } => FreeSide::Round,
+            _ => FreeSide::Front,
+        };
         let (mesh, prism) = match &part.shape {
             Shape::Keyway(keyway) => prismatic(
                 Profile::keyway(keyway),
@@ -98,23 +118,38 @@ impl Geometry {
                 metres_per_unit,
                 regions,
             } => {
-                let (mesh, found) =
-                    mesh_file::read(path, *metres_per_unit, regions).map_err(|fault| {
-                        let key = match fault.defect.region() {
-                            Some(region) => format!("scene.{}.regions.{region}", part.name),
-                            None => format!("scene.{}.mesh", part.name),
-                        };
-                        Fault::at_key(fault.defect.rule(), key, fault.to_string())
-                    })?;
-                warnings = found;
-                (mesh, None)
+                let loaded = mesh_file::load(path, *metres_per_unit, regions).map_err(|fault| {
+                    let key = match fault.defect.region() {
+                        Some(region) => format!("scene.{}.regions.{region}", part.name),
+                        None => format!("scene.{}.mesh", part.name),
+                    };
+                    Fault::at_key(fault.defect.rule(), key, fault.to_string())
+                })?;
+                warnings = loaded.warnings;
+                shells = Some(loaded.shells);
+                file = Some(MeshSource {
+                    path: path.clone(),
+                    sha256: loaded.sha256,
+                });
+                (loaded.mesh, None)
             }
         };
-        let named = |warning| format!("part `{}`: {warning}", part.name);
+        let is_open = |shells: &Shells| shells.list.iter().all(|shell| !shell.is_solid);
+        let free = if shells.as_ref().is_some_and(is_open) {
+            FreeSide::Either
+        } else {
+            free
+        };
+        let named = |warning| {
+            let text = format!("part `{}`: {warning}", part.name);
+            printable::line(&text).into_owned()
+        };
         Ok(Self {
             mesh: tessellate::placed(mesh, &part.place),
-            fronts: Fronts::of(&warnings),
+            free,
+            shells,
             warnings: warnings.iter().map(named).collect(),
+            file,
             prism,
         })
     }
@@ -123,8 +158,21 @@ impl Geometry {
     pub fn build(self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
         BuiltPart {
             facets: Facets::new(self.mesh, surface_base, slack),
-            fronts: self.fronts,
+            free: self.free,
+            shells: self.shells,
+            solid: OnceLock::new(),
             on_nozzle: part.on_nozzle,
+            is_block: matches!(part.shape, Shape::Box { .. }),
+            round: match part.shape {
+                Shape::Bore {
+                    diameter, length, ..
+                } => Some(Round {
+                    place: part.place,
+                    radius: diameter / 2.0,
+                    length,
+                }),
+                _ => None,
+            },
             prism: self.prism.map(|(profile, length, ends)| {
                 Prism::new(&profile, length, ends, &part.place, surface_base, slack)
             }),
@@ -148,6 +196,66 @@ fn prismatic(profile: Profile, length: f64, ends: Ends, walls: Walls) -> Built {
 }
 
 impl BuiltPart {
+    /// Whether a point is inside its material, where its shape tells: a block, or the solid bodies of a
+    /// mesh. A cavity is what a target inside makes of them.
+    pub fn holds(&self, point: &Point3<f64>) -> bool {
+        let corners = |index: u32| self.facets.corners(index);
+        let solid = self.solid.get_or_init(|| {
+            let all = 0..self.facets.count() as u32;
+            let wraps = |&index: &u32| match &self.shells {
+                Some(shells) => shells.list[shells.of[index as usize] as usize].is_solid,
+                None => self.prism.is_none() && self.is_block,
+            };
+            let solid: Vec<u32> = all.filter(wraps).collect();
+            (!solid.is_empty()).then(|| Winding::new(&solid, corners))
+        });
+        let Some(solid) = solid else {
+            return false;
+        };
+        let is_inside = solid.number(point, corners) > 0.5;
+        is_inside != (self.free == FreeSide::Back)
+    }
+
+    /// Whether it is a wall of unknown thickness: it holds no point, but bounds free space on one side.
+    pub fn is_skin(&self) -> bool {
+        let is_open = |shells: &Shells| shells.list.iter().all(|shell| !shell.is_solid);
+        self.shells.as_ref().map_or(!self.is_block, is_open)
+    }
+
+    /// Which side of a bore is free if a point is: a hole round it, a pin beside it.
+    pub fn side_of_axis(&self, point: &Point3<f64>) -> FreeSide {
+        let Some(round) = self.round else {
+            return FreeSide::Front;
+        };
+        let there = round.place.rotation.inverse() * (point - round.place.shift);
+        let is_beside = (0.0..=round.length).contains(&there.z);
+        match (is_beside, there.coords.xy().norm() < round.radius) {
+            (true, true) => FreeSide::Front,
+            (true, false) => FreeSide::Back,
+            (false, _) => FreeSide::Either,
+        }
+    }
+
+    /// The shell that a triangle of a mesh from a file belongs to.
+    pub fn shell(&self, triangle: u32) -> Option<&Shell> {
+        let shells = self.shells.as_ref()?;
+        shells.list.get(shells.of[triangle as usize] as usize)
+    }
+
+    /// Winding numbers of the shell of a triangle at some points.
+    pub fn winding_of_shell(&self, triangle: u32, at: [&Point3<f64>; 2]) -> [f64; 2] {
+        let corners = |index: u32| self.facets.corners(index);
+        let all = 0..self.facets.count() as u32;
+        let own: Vec<u32> = match &self.shells {
+            Some(shells) => all
+                .filter(|&index| shells.of[index as usize] == shells.of[triangle as usize])
+                .collect(),
+            None => all.collect(),
+        };
+        let tree = Winding::new(&own, corners);
+        at.map(|point| tree.number(point, corners))
+    }
+
     /// The first contact of a shot of some radius, or of a point where that is 0, nearer than
     /// `limit`, and the unit normal on the front there.
     #[inline]
@@ -198,38 +306,6 @@ impl BuiltPart {
             Some(prism) => prism.cross(index, rays, hits),
             None if rays.are_spheres => facets::touch(&self.facets, index, rays, hits),
             None => facets::cross(&self.facets, index, rays, hits),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::Point3;
-
-    use super::*;
-
-    /// Damage that leaves a closed mesh closed does not make anybody doubt its fronts.
-    #[test]
-    fn only_open_and_contradictory_meshes_leave_their_fronts_in_doubt() {
-        let near = Point3::origin();
-        let count = 7;
-        let duplicates = MeshWarning::DuplicateTriangles { count, near };
-        let hole = |small: bool| MeshWarning::OpenEdges { count, near, small };
-        let inside_out = MeshWarning::InsideOut {
-            signed_volume: -1.0,
-        };
-        let contradiction = MeshWarning::InconsistentWinding { count, near };
-        for (warnings, fronts) in [
-            (vec![], Fronts::Free),
-            (vec![duplicates.clone()], Fronts::Free),
-            (vec![MeshWarning::Seams { count, near }], Fronts::Free),
-            (vec![hole(true)], Fronts::Free),
-            (vec![hole(true), inside_out.clone()], Fronts::Solid),
-            (vec![duplicates.clone(), inside_out], Fronts::Solid),
-            (vec![hole(false)], Fronts::Unknown),
-            (vec![duplicates, contradiction], Fronts::Unknown),
-        ] {
-            assert_eq!(Fronts::of(&warnings), fronts, "{warnings:?}");
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Scene;
 use super::ray::Hit;
+use super::{SLACK, Scene};
 use crate::problem::fault::Fault;
-use crate::problem::part::Target;
+use crate::problem::part::{FileUnit, Target};
 use crate::problem::rule::Rule;
 
 /// The target of the scene.
@@ -15,6 +15,14 @@ pub struct Patch {
     pub surface: u32,
     /// Only this box of it.
     pub within: Option<(Point3<f64>, Point3<f64>)>,
+    /// Whether its free side is that in front: a hit from the other one is off target.
+    pub front: bool,
+    /// Whether it faces the inside of a solid part: then no nozzle is in free space.
+    pub in_material: bool,
+    /// How far outside its box a place may be by rounding, m.
+    slack: f64,
+    /// What paths in f64 may be off by rounding, m.
+    rounding: f64,
     /// Where the settings are measured from.
     pub frame: Frame,
     /// Area of the patch, m2.
@@ -38,13 +46,24 @@ impl Patch {
     /// Whether a hit is on the target.
     #[inline]
     pub fn holds(&self, hit: &Hit) -> bool {
-        hit.surface == self.surface && self.covers(&hit.point)
+        hit.surface == self.surface && hit.spot.front == self.front && self.covers(&hit.point)
     }
 
     /// Whether a place on its surface belongs to it.
     #[inline]
     pub fn covers(&self, point: &Point3<f64>) -> bool {
-        self.within.is_none_or(|limits| inside(point, &limits))
+        self.reach(1.0).is_none_or(|limits| inside(point, &limits))
+    }
+
+    /// The box in which hits count that were found this many times as coarsely as in f64. Rounding must
+    /// not lose those in its faces, where a part often ends.
+    #[inline]
+    pub fn reach(&self, coarseness: f64) -> Option<(Point3<f64>, Point3<f64>)> {
+        self.within.map(|limits| {
+            let coarse = self.rounding * coarseness;
+            let least = SMALL * shortest_side(&limits);
+            widened(limits, self.slack.max(coarse.min(least)))
+        })
     }
 
     /// The triangles of its surface, cut along the faces of its box: those that belong to it, and
@@ -56,7 +75,7 @@ impl Patch {
         };
         let (mut inside, mut outside) = (Vec::new(), Vec::new());
         for triangle in triangles {
-            let (within, beyond) = split(&triangle, limits);
+            let (within, beyond) = split(&triangle, limits, self.slack);
             if within.len() < 3 {
                 outside.push(triangle);
             } else {
@@ -70,8 +89,8 @@ impl Patch {
     /// Finds the patch in a scene.
     ///
     /// # Errors
-    /// An unknown surface, one that moves with the nozzle, an empty patch, an aim point off the patch, or `along` perpendicular
-    /// to it.
+    /// An unknown surface, one that moves with the nozzle, an empty patch, an aim point off the patch, a
+    /// free side that cannot be told, or `along` perpendicular to it.
     pub fn find(scene: &Scene, target: &Target) -> Result<Self, Vec<Fault>> {
         let surface = scene.surface_named(&target.surface).map_err(|fault| {
             vec![Fault {
@@ -89,9 +108,10 @@ impl Patch {
                 fault.expecting("a surface of a part that stands in the scene"),
             ]);
         }
+        let slack = slack(scene, target.within);
         let pieces = scene.surface_triangles(surface);
         let clipped = pieces.map(|corners| match target.within {
-            Some(limits) => split(&corners, &limits).0,
+            Some(limits) => split(&corners, &limits, slack).0,
             None => corners.to_vec(),
         });
         let (area, centre) = area_and_centre(clipped);
@@ -104,30 +124,32 @@ impl Patch {
                     target.surface
                 ),
             );
-            return Err(vec![
-                fault.expecting(format!("a box that meets {}", extent(scene, surface))),
-            ]);
+            return Err(vec![fault.expecting(format!(
+                "a box that meets {}",
+                extent(scene, surface, target.lengths_in)
+            ))]);
         }
         let aim = target.aim.unwrap_or(centre);
         let reach = area.sqrt();
-        let nearest = scene.nearest_on_surface(&aim, surface);
+        let nearest = scene.foot(&aim, surface);
         let on_patch = |p: &Point3<f64>| {
-            target.within.is_none_or(|(low, high)| {
-                let margin = Vector3::repeat(1e-9);
-                inside(p, &(low - margin, high + margin))
-            })
+            let limits = target.within;
+            limits.is_none_or(|limits| inside(p, &widened(limits, slack.max(1e-9))))
         };
         // A mesh's facets lie a little inside the true surface that a drawing's numbers mean.
         let near_enough = 1e-5_f64.max(1e-3 * reach);
-        let Some((_, front)) =
-            nearest.filter(|(foot, _)| (foot - aim).norm() <= near_enough && on_patch(&aim))
+        let Some(foot) =
+            nearest.filter(|foot| (foot.point - aim).norm() <= near_enough && on_patch(&aim))
         else {
             return Err(vec![aim_fault(target, &aim)]);
         };
-        let normal = match target.facing {
-            Some(facing) if facing.dot(&front) < 0.0 => -front,
-            _ => front,
+        let front = match target.facing {
+            Some(facing) => facing.dot(&foot.front) >= 0.0,
+            None => scene
+                .front_is_free(&foot)
+                .map_err(|undecided| vec![undecided.fault(&target.surface)])?,
         };
+        let normal = if front { foot.front } else { -foot.front };
         let frame = Frame::new(aim, normal, target.along).ok_or_else(|| {
             let fault = Fault::at_key(
                 Rule::AlongPerpendicular,
@@ -139,6 +161,10 @@ impl Patch {
         Ok(Self {
             surface,
             within: target.within,
+            front,
+            in_material: !front && scene.is_solid(&foot),
+            slack,
+            rounding: SLACK * scene.size(),
             frame,
             area,
         })
@@ -172,11 +198,9 @@ impl Frame {
 }
 
 fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
-    let millimetres = aim.coords * 1e3;
-    let place = format!(
-        "[{:.3}, {:.3}, {:.3}] mm",
-        millimetres.x, millimetres.y, millimetres.z
-    );
+    let unit = target.lengths_in;
+    let [x, y, z] = [aim.x, aim.y, aim.z].map(|it| unit.text(it));
+    let place = format!("[{x}, {y}, {z}] {}", unit.name);
     match target.aim {
         Some(_) => Fault::at_key(
             Rule::AimOffTarget,
@@ -197,16 +221,47 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
 }
 
 /// The box round a surface, in words.
-fn extent(scene: &Scene, surface: u32) -> String {
+fn extent(scene: &Scene, surface: u32, unit: FileUnit) -> String {
     let corners = || scene.surface_triangles(surface).flatten();
-    let low = corners().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(&p.coords)) * 1e3;
+    let low = corners().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(&p.coords));
     let high = corners().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| {
         high.sup(&p.coords)
-    }) * 1e3;
+    });
+    let axis =
+        |name: &str, at: usize| format!("{name} {} to {}", unit.text(low[at]), unit.text(high[at]));
     format!(
-        "x {:.3} to {:.3}, y {:.3} to {:.3}, z {:.3} to {:.3} mm",
-        low.x, high.x, low.y, high.y, low.z, high.z
+        "{}, {}, {} {}",
+        axis("x", 0),
+        axis("y", 1),
+        axis("z", 2),
+        unit.name
     )
+}
+
+/// What rounding takes from coordinates, m: of files with seven digits, where there are meshes; never much of
+/// the box itself.
+fn slack(scene: &Scene, within: Option<(Point3<f64>, Point3<f64>)>) -> f64 {
+    let share = if scene.has_exact_walls() {
+        ROUNDING
+    } else {
+        f64::from(f32::EPSILON)
+    };
+    let most = within.map_or(f64::INFINITY, |limits| SMALL * shortest_side(&limits));
+    most.min(share * scene.size())
+}
+
+/// Places of exact walls count as in a face of the box within this share of the scene's size.
+const ROUNDING: f64 = 1e-12;
+/// What is small against a box.
+const SMALL: f64 = 1e-4;
+
+fn shortest_side((low, high): &(Point3<f64>, Point3<f64>)) -> f64 {
+    (high - low).min()
+}
+
+fn widened((low, high): (Point3<f64>, Point3<f64>), by: f64) -> (Point3<f64>, Point3<f64>) {
+    let margin = Vector3::repeat(by);
+    (low - margin, high + margin)
 }
 
 fn inside(p: &Point3<f64>, (low, high): &(Point3<f64>, Point3<f64>)) -> bool {
@@ -214,16 +269,20 @@ fn inside(p: &Point3<f64>, (low, high): &(Point3<f64>, Point3<f64>)) -> bool {
 }
 
 /// A triangle cut along the faces of a box: the convex polygon inside, which may be empty, and
-/// those outside.
+/// those outside. Corners within the slack of a face lie in it.
 fn split(
     corners: &[Point3<f64>; 3],
     (low, high): &(Point3<f64>, Point3<f64>),
+    slack: f64,
 ) -> (Polygon, Vec<Polygon>) {
     let mut inside = corners.to_vec();
     let mut outside = Vec::new();
     for axis in 0..3 {
         for (limit, sign) in [(low[axis], 1.0), (high[axis], -1.0)] {
-            let depth = |p: &Point3<f64>| (p[axis] - limit) * sign;
+            let depth = |p: &Point3<f64>| {
+                let depth = (p[axis] - limit) * sign;
+                if depth.abs() <= slack { 0.0 } else { depth }
+            };
             if inside.iter().any(|p| depth(p) < 0.0) {
                 outside.push(half(&inside, |p| -depth(p)));
             }

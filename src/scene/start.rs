@@ -19,6 +19,8 @@ pub(super) struct Start {
     pub piece: Option<u32>,
     /// The side of the wall that it leaves, of whatever part.
     pub front: Option<bool>,
+    /// Whether the part that is asked has its fronts towards free space; a hollow has its backs.
+    pub fronts_are_free: bool,
 }
 
 impl Start {
@@ -28,6 +30,16 @@ impl Start {
         Self {
             piece: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
             front: leaving.map(|spot| spot.front),
+            fronts_are_free: true,
+        }
+    }
+
+    /// The same for a part with this side towards free space.
+    #[inline]
+    pub fn with_free_side(self, fronts_are_free: bool) -> Self {
+        Self {
+            fronts_are_free,
+            ..self
         }
     }
 
@@ -37,7 +49,7 @@ impl Start {
     #[inline]
     pub fn sees(&self, front: bool) -> bool {
         let known = self.front.filter(|_| self.piece.is_some());
-        known.unwrap_or(true) == front
+        known.unwrap_or(self.fronts_are_free) == front
     }
 
     /// Whether a ray runs along a wall, given the direction's component along the wall's normal.
@@ -96,5 +108,7 @@ mod tests {
         }
         let nowhere = Start::of(None, false);
         assert!(nowhere.sees(true) && !nowhere.sees(false));
+        let in_hollow = nowhere.with_free_side(false);
+        assert!(in_hollow.sees(false) && !in_hollow.sees(true));
     }
 }

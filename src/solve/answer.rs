@@ -3,6 +3,7 @@
 use super::judge::{Effort, Standing};
 use super::polish::Candidate;
 use crate::evaluate::{Evaluation, evaluate_each_focused};
+use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::Fresh;
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -17,8 +18,10 @@ pub struct Answer {
     pub evaluation: Option<Evaluation>,
     /// Verdicts on that.
     pub verdicts: Vec<Verdict>,
-    /// By how much the clearance is violated, m; 0 when it is kept.
+    /// By how much the pose is infeasible, m; 0 when it is feasible.
     pub violation: f64,
+    /// What is in the way then.
+    pub obstacle: Option<Obstacle>,
 }
 
 impl Answer {
@@ -74,12 +77,7 @@ impl Answer {
                 let evaluation = evaluations.next()?;
                 Some(Self::feasible(setup, &candidate.choice, evaluation, effort))
             }
-            Standing::Blocked(violation) => Some(Self {
-                choice: candidate.choice,
-                evaluation: None,
-                verdicts: Vec::new(),
-                violation,
-            }),
+            Standing::Blocked(_) => Some(Self::judged(setup, &candidate.choice, None)),
         };
         candidates.iter().filter_map(answer).collect()
     }
@@ -92,11 +90,22 @@ impl Answer {
         effort: &Effort,
     ) -> Self {
         effort.add(1, evaluation.rays);
+        Self::judged(setup, choice, Some(evaluation))
+    }
+
+    /// Settings with the verdicts on what they do, if that is known, and on the pose that they mean.
+    pub fn judged(setup: &Setup, choice: &Choice, evaluation: Option<Evaluation>) -> Self {
+        let infeasible = infeasibility(setup, choice);
+        let mut verdicts = evaluation
+            .as_ref()
+            .map_or_else(Vec::new, |evaluation| Verdict::all(setup, evaluation));
+        verdicts.extend(Verdict::of_pose(setup, choice, infeasible.as_ref()));
         Self {
             choice: *choice,
-            verdicts: Verdict::all(setup, &evaluation),
-            evaluation: Some(evaluation),
-            violation: 0.0,
+            evaluation,
+            verdicts,
+            violation: infeasible.map_or(0.0, |it| it.violation),
+            obstacle: infeasible.map(|it| it.obstacle),
         }
     }
 }

@@ -1,12 +1,16 @@
 //! The figures of the answers, on as many fresh shots as they need.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::accuracy::is_vague;
 use super::answer::Answer;
 use super::control::Control;
 use super::judge::Effort;
 use super::polish::Candidate;
 use super::search::Search;
+use super::tie::recommended;
 use crate::jet::{Fresh, purpose};
+use crate::problem::Problem;
 use crate::setup::Setup;
 use crate::verdict::Verdict;
 
@@ -15,17 +19,19 @@ pub(super) struct Figures<'a> {
     setup: &'a Setup,
     effort: &'a Effort,
     most_shots: usize,
+    stop: &'a AtomicBool,
     fresh: Fresh,
 }
 
 impl<'a> Figures<'a> {
     /// Draws a part of the shots.
-    pub fn new(setup: &'a Setup, control: &Control, effort: &'a Effort) -> Self {
+    pub fn new(setup: &'a Setup, control: &Control<'a>, effort: &'a Effort) -> Self {
         let first = control.first_fresh_shots();
         Self {
             setup,
             effort,
             most_shots: control.fresh_shots,
+            stop: control.stop,
             fresh: Fresh::new(&setup.problem, purpose::ANSWERS, first),
         }
     }
@@ -60,7 +66,10 @@ impl<'a> Figures<'a> {
     fn sharpened(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
         let problem = &self.setup.problem;
         let has_all = problem.has_one_ray() || self.fresh.shots() >= self.most_shots;
-        if has_all || !(is_vague(&answers, problem) || is_open(&answers)) {
+        if has_all
+            || self.stop.load(Ordering::Relaxed)
+            || !(is_vague(&answers, problem) || is_open(&answers, problem))
+        {
             return answers;
         }
         self.fresh = Fresh::new(problem, purpose::ANSWERS, self.most_shots);
@@ -73,10 +82,8 @@ impl<'a> Figures<'a> {
     }
 }
 
-/// Whether it is uncertain if the best answer passes.
-fn is_open(answers: &[Answer]) -> bool {
-    let best = answers
-        .iter()
-        .min_by(|a, b| a.order().total_cmp(&b.order()));
+/// Whether it is uncertain if the answer that would be recommended passes.
+fn is_open(answers: &[Answer], problem: &Problem) -> bool {
+    let best = recommended(answers, problem);
     best.is_some_and(|best| !best.verdicts.iter().all(Verdict::is_certain))
 }

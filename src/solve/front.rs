@@ -58,10 +58,13 @@ pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
     let judged = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
     let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
     let answer = |judged: &Judged| {
+        if control.is_stopped() {
+            return None;
+        }
         let evaluation = evaluate_focused(setup, &judged.choice, &fresh);
-        Answer::feasible(setup, &judged.choice, evaluation, &effort)
+        Some(Answer::feasible(setup, &judged.choice, evaluation, &effort))
     };
-    let evaluated: Vec<Answer> = judged.par_iter().map(answer).collect();
+    let evaluated: Vec<Answer> = judged.par_iter().filter_map(answer).collect();
     let all = found.iter().chain(&evaluated).filter_map(Measured::of);
     let all: Vec<Measured> = all.collect();
     let mut kept = apart(&all);

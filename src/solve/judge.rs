@@ -9,7 +9,8 @@ use super::archive::Archive;
 use super::control::Control;
 use super::risks::Risks;
 use crate::checkpoint::{Checkpoint, Page};
-use crate::jet::{Deviate, Pose};
+use crate::feasibility::infeasibility;
+use crate::jet::Deviate;
 use crate::objective::{Tally, Terms};
 use crate::precision::Precision;
 use crate::problem::setting::{Choice, Range};
@@ -20,7 +21,7 @@ use crate::setup::Setup;
 pub enum Standing {
     /// The nozzle fits.
     Feasible(Terms),
-    /// The nozzle is nearer to a surface than it may be, by this much, m.
+    /// The nozzle cannot be there, by this much, m.
     Blocked(f64),
 }
 
@@ -192,10 +193,10 @@ impl<'a> Judge<'a> {
     }
 
     fn judge_anew(&self, choice: &Choice, best: f64) -> Judged {
-        if let Some(violation) = clearance_violation(self.setup, choice) {
+        if let Some(infeasible) = infeasibility(self.setup, choice) {
             return Judged {
                 speed: choice.speed,
-                standing: Standing::Blocked(violation),
+                standing: Standing::Blocked(infeasible.violation),
                 rays: 0,
             };
         }
@@ -256,13 +257,3 @@ const FEWEST: usize = 64;
 const MOST_ALONE: usize = 2048;
 /// Shots of more than those that one thread traces at a time.
 const CHUNK: usize = 256;
-
-/// By how much the nozzle of a choice is nearer to a surface than it may be, m.
-pub fn clearance_violation(setup: &Setup, choice: &Choice) -> Option<f64> {
-    let nozzle = &setup.problem.nozzle;
-    let pose = Pose::new(&setup.target.frame, choice);
-    let (gap, _) = setup
-        .scene
-        .clearance(nozzle, &pose.exit, &pose.direction, nozzle.clearance)?;
-    Some(nozzle.clearance - gap)
-}

@@ -33,8 +33,8 @@ pub struct Rung {
     pub best_with: Choice,
     /// By how much J of the whole model is higher at the former, relative.
     pub regret: f64,
-    /// Time for a pose without it over time with it.
-    pub relative_time: f64,
+    /// Rays of a pose without it over rays with it.
+    pub relative_rays: f64,
     /// Whether the search did without it.
     pub left_out: bool,
 }

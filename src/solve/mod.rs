@@ -20,15 +20,17 @@ mod polish;
 mod risks;
 mod search;
 mod space;
+mod tie;
 mod window;
 
 pub use answer::Answer;
 pub use control::{Control, Progress, Shortcuts, Status};
 pub use front::{Front, front};
-pub use judge::{Effort, Standing, clearance_violation};
+pub use judge::{Effort, Standing};
 pub use ladder::{Ladder, Rung};
 pub use risks::{Risks, risks};
-pub use window::{Drift, Turn, Window, passing_windows, windows};
+pub use tie::is_tie;
+pub use window::{Drift, Turn, Window, passing_windows, passing_windows_until, windows};
 
 use rayon::prelude::*;
 
@@ -40,13 +42,15 @@ use judge::Judge;
 use models::Models;
 use search::{STAGES, STAGES_SET_EXACTLY, Search, Stage};
 use space::Space;
+use tie::ranked;
 
 /// What a search found.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// How it ended.
     pub status: Status,
-    /// The best settings for each contact, best first.
+    /// The best settings for each contact, best first: by J, and contacts that tie with the best in
+    /// the order of the file.
     pub answers: Vec<Answer>,
     /// Which effects were searched with, and what each of them does.
     pub ladder: Ladder,
@@ -56,6 +60,14 @@ pub struct Solution {
     pub shots_per_pose: usize,
     /// Rays cast.
     pub rays: usize,
+}
+
+impl Solution {
+    /// The answer with the least J; contacts that tie with it may be recommended before it.
+    pub fn least(&self) -> Option<&Answer> {
+        let answers = self.answers.iter();
+        answers.min_by(|a, b| a.order().total_cmp(&b.order()))
+    }
 }
 
 const SCREENING_SHOTS: usize = 64;
@@ -100,7 +112,7 @@ pub fn solve(setup: &Setup, control: &Control) -> Solution {
     if !control.is_stopped() {
         models.measure_unasked(&searches, &effort, control);
     }
-    answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
+    let answers = ranked(answers, problem);
     let status = match answers.first() {
         _ if control.is_stopped() => Status::Interrupted,
         Some(best) if best.evaluation.is_none() => Status::NoFeasiblePose,
@@ -126,12 +138,12 @@ fn agree(
     control: &Control,
     effort: &Effort,
 ) -> Vec<Claim> {
-    let mut claims = models.claims(searches, shots);
+    let mut claims = models.claims(searches, shots, control);
     while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
         let all: Vec<usize> = (0..searches.len()).collect();
         let stage = Stage::beyond(shots);
         refine(models, searches, &all, &stage, control, effort);
-        claims = models.claims(searches, shots);
+        claims = models.claims(searches, shots, control);
     }
     claims
 }
@@ -172,8 +184,13 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         .par_iter()
         .map(|&contact| Search::screen(&models.searched, contact, &judge))
         .collect();
-    models.choose_precision(&searches, effort, control);
+    if !control.is_stopped() {
+        models.choose_precision(&searches, effort, control);
+    }
     for (index, stage) in stages.into_iter().enumerate() {
+        if control.is_stopped() {
+            break;
+        }
         let before = searches.clone();
         if index > 0 {
             models.focus_on_harm(&searches, effort, control);
@@ -188,14 +205,14 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         if index == 0 {
             models.climb(&mut searches, effort, control);
         } else if stage.shots < most_shots {
-            let mut claims = models.claims(&searches, stage.shots);
+            let mut claims = models.claims(&searches, stage.shots, control);
             // What was found without effects that matter leads astray: once more from where it began.
             while !control.is_stopped() && models.put_back(&mut searches, &claims, effort, control)
             {
                 let carried = |search: &Search| search.carried_over(&models.searched);
                 searches = before.iter().map(carried).collect();
                 advance(models, &mut searches, stage, control, effort);
-                claims = models.claims(&searches, stage.shots);
+                claims = models.claims(&searches, stage.shots, control);
             }
             if is_set_exactly && models.are_sharp(&searches, stage.shots, effort) {
                 return (searches, stage.shots);

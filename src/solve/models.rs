@@ -164,7 +164,10 @@ impl<'a> Models<'a> {
     }
 
     /// J of the best candidates on the shots of the search.
-    pub fn claims(&self, searches: &[Search], shots: usize) -> Vec<Claim> {
+    pub fn claims(&self, searches: &[Search], shots: usize, control: &Control) -> Vec<Claim> {
+        if control.is_stopped() {
+            return searches.iter().map(|_| None).collect();
+        }
         let precision = self.ladder.precision;
         let is_whole = self.ladder.left_out().is_empty() && precision == Precision::F64;
         let draw = || self.draw_from(Stream::Search, &self.asked, shots).deviates;

@@ -1,11 +1,13 @@
 //! How far each setting may drift alone before a verdict turns.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 
 use super::Solution;
-use super::judge::clearance_violation;
 use crate::elementary::whole_power;
 use crate::evaluate::{Counts, Survey};
+use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::setting::{Choice, Range, Setting};
 use crate::setup::Setup;
@@ -40,6 +42,8 @@ pub enum Turn {
     Verdict(Subject),
     /// The nozzle comes too near to the part.
     Clearance,
+    /// The nozzle leaves free space.
+    FreeSpace,
 }
 
 /// Halvings of the interval in which a verdict turns.
@@ -49,6 +53,11 @@ const DOUBLINGS: i32 = 5;
 
 /// The windows round the best answer, for the verdicts that it passes; none without a pose that fits.
 pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
+    passing_windows_until(setup, solution, &AtomicBool::new(false))
+}
+
+/// The same, without those that are not known when `stop` is set.
+pub fn passing_windows_until(setup: &Setup, solution: &Solution, stop: &AtomicBool) -> Vec<Window> {
     let Some(best) = solution.answers.first() else {
         return Vec::new();
     };
@@ -62,7 +71,7 @@ pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
         .map(|verdict| verdict.subject)
         .collect();
     let fresh = Replicates::without_rim(&setup.problem, purpose::WINDOWS, WINDOW_SHOTS);
-    windows(setup, &best.choice, &passing, &fresh)
+    windows_until(setup, &best.choice, &passing, &fresh, stop)
 }
 
 /// Shots behind each verdict of a window at most.
@@ -75,6 +84,17 @@ pub fn windows(
     passing: &[Subject],
     fresh: &Replicates,
 ) -> Vec<Window> {
+    windows_until(setup, choice, passing, fresh, &AtomicBool::new(false))
+}
+
+fn windows_until(
+    setup: &Setup,
+    choice: &Choice,
+    passing: &[Subject],
+    fresh: &Replicates,
+    stop: &AtomicBool,
+) -> Vec<Window> {
+    let is_stopped = || stop.load(Ordering::Relaxed);
     let settings: Vec<(Setting, Range)> = Setting::OF_THE_NOZZLE
         .into_iter()
         .filter_map(|setting| Some((setting, setup.problem.settings.range(setting)?)))
@@ -82,8 +102,10 @@ pub fn windows(
         .collect();
     let shares_paths = setup.speed_scales_out(choice.contact);
     let window = |&(setting, Range { min, max }): &(Setting, Range)| {
-        let drift =
-            |end: f64, shots: &mut dyn Shots| drift(setup, choice, (setting, end), passing, shots);
+        // A window that is cut short says nothing.
+        let drift = |end: f64, shots: &mut dyn Shots| {
+            drift(setup, choice, (setting, end), passing, shots, stop)
+        };
         let (down, up) = if setting == Setting::Speed && shares_paths {
             let mut shots = Recorded::of(setup, choice, fresh);
             (drift(min, &mut shots), drift(max, &mut shots))
@@ -91,9 +113,9 @@ pub fn windows(
             let traced = || Traced { setup, fresh };
             rayon::join(|| drift(min, &mut traced()), || drift(max, &mut traced()))
         };
-        Window { setting, down, up }
+        (!is_stopped()).then_some(Window { setting, down, up })
     };
-    settings.par_iter().map(window).collect()
+    settings.par_iter().filter_map(window).collect()
 }
 
 /// Shots that tell what turns at a choice, some sets after the other.
@@ -167,11 +189,16 @@ fn drift(
     (setting, end): (Setting, f64),
     passing: &[Subject],
     shots: &mut dyn Shots,
+    stop: &AtomicBool,
 ) -> Drift {
     let start = setting.of(choice);
     let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
-    let mut turn =
-        |fraction: f64| turned(setup, &setting.with(choice, at(fraction)), passing, shots);
+    let mut turn = |fraction: f64| {
+        if stop.load(Ordering::Relaxed) {
+            return None;
+        }
+        turned(setup, &setting.with(choice, at(fraction)), passing, shots)
+    };
     if start == end {
         return Drift {
             to: end,
@@ -220,8 +247,11 @@ fn turned(
     passing: &[Subject],
     shots: &mut dyn Shots,
 ) -> Option<Turn> {
-    if clearance_violation(setup, choice).is_some() {
-        return Some(Turn::Clearance);
+    if let Some(infeasible) = infeasibility(setup, choice) {
+        return Some(match infeasible.obstacle {
+            Obstacle::Surface(_) => Turn::Clearance,
+            Obstacle::Material(_) | Obstacle::Body => Turn::FreeSpace,
+        });
     }
     let mut all = Counts::none(setup);
     let mut turn = None;

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::tidy::tidy;
 use super::{Dimension, parse, plain_spelling};
 
 /// Why a text is not the quantity that was asked for.
@@ -97,6 +98,7 @@ impl UnitFault {
 ///
 /// Whether `1,000 mm` is a metre or a millimetre only its writer knows.
 fn in_plain_digits(text: &str, dimension: Dimension) -> Option<String> {
+    let text = &*tidy(text);
     let (whole, rest) = text.split_once(',').unwrap_or((text, ""));
     let fraction = rest.bytes().take_while(u8::is_ascii_digit).count();
     let plain = match fraction {

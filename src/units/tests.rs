@@ -20,13 +20,31 @@ fn every_unit_leads_to_si() {
         (Dimension::Length, "-5. m", -5.0),
         (Dimension::Length, "1 in", 0.0254),
         (Dimension::Length, "2 inch", 0.0508),
+        (Dimension::Length, "4\"", 0.1016),
+        (Dimension::Length, "4″", 0.1016),
+        (Dimension::Length, "5 mil", 5.0 * 0.0254 / 1000.0),
+        (Dimension::Length, "5 thou", 5.0 * 0.0254 / 1000.0),
+        (Dimension::Length, "2 ft", 0.6096),
+        (Dimension::Length, "2'", 0.6096),
+        (Dimension::Length, "0.5\u{a0}mm", 0.0005),
+        (Dimension::Length, "0.5\u{202f}mm\u{200b}", 0.0005),
+        (Dimension::Length, "−0.5 mm", -0.0005),
+        (Dimension::Length, "–5e−1 mm", -0.0005),
         (Dimension::Angle, "180 deg", std::f64::consts::PI),
         (Dimension::Angle, "180°", std::f64::consts::PI),
         (Dimension::Angle, "1.5 rad", 1.5),
+        (Dimension::Angle, "60′", std::f64::consts::PI / 180.0),
+        (Dimension::Angle, "−180\u{2009}°", -std::f64::consts::PI),
         (Dimension::Speed, "10 m/s", 10.0),
         (Dimension::Speed, "10 mm/s", 0.01),
         (Dimension::Speed, "36 km/h", 10.0),
         (Dimension::Speed, "10 ft/s", 3.048),
+        (Dimension::Speed, "10 fps", 3.048),
+        (Dimension::Speed, "600 ft/min", 600.0 * (0.3048 / 60.0)),
+        (Dimension::Speed, "10 in/s", 0.254),
+        (Dimension::Speed, "60 m/min", 1.0),
+        (Dimension::Speed, "10 m / s", 10.0),
+        (Dimension::Speed, "10 m⁄s", 10.0),
         (Dimension::Impulse, "40 uN.s", 40e-6),
         (Dimension::Impulse, "40 uN s", 40e-6),
         (Dimension::Impulse, "40 µN.s", 40e-6),
@@ -39,11 +57,18 @@ fn every_unit_leads_to_si() {
         (Dimension::Density, "7.8 g/cm3", 7800.0),
         (Dimension::Density, "7.8 g/cm^3", 7800.0),
         (Dimension::Density, "7000 kg/m³", 7000.0),
+        (Dimension::Density, "7.8 g/cc", 7800.0),
+        (Dimension::Density, "7.8 kg/dm³", 7800.0),
+        // A pound on 28.316 846 592 l, and on 16.387 064 ml.
+        (Dimension::Density, "1 lb/ft3", 16.018_463_373_960_138),
+        (Dimension::Density, "1 lb/in^3", 27_679.904_710_203_12),
         (Dimension::MassFlow, "6 kg/min", 0.1),
         (Dimension::MassFlow, "0.1 kg/s", 0.1),
         (Dimension::MassFlow, "100 g/s", 0.1),
         (Dimension::MassFlow, "6000 g/min", 0.1),
         (Dimension::MassFlow, "60 lb/min", 0.453_592_37),
+        (Dimension::MassFlow, "3600 kg/h", 1.0),
+        (Dimension::MassFlow, "3600 lb/h", 0.453_592_37),
         (Dimension::Pressure, "2.5 bar", 250e3),
         (Dimension::Pressure, "250 kPa", 250e3),
         (Dimension::Pressure, "0.25 MPa", 250e3),
@@ -54,7 +79,30 @@ fn every_unit_leads_to_si() {
         (Dimension::Fraction, "0.1%", 0.001),
     ];
     for (dimension, text, si) in cases {
-        assert_eq!(parse(dimension, text), Ok(si), "{text}");
+        let read = parse(dimension, text).expect(text);
+        // A factor is rounded once for each of its parts.
+        assert!(
+            (read - si).abs() <= 2.0 * f64::EPSILON * si.abs(),
+            "{text}: {read} {si}"
+        );
+    }
+}
+
+#[test]
+fn signs_in_the_wrong_place_are_no_quantities() {
+    for text in [
+        "5−10 mm",
+        "5 – 10 mm",
+        "−−5 mm",
+        "1'000 mm",
+        "1\u{a0}000 mm",
+        "5'6\"",
+        "0.5 m m",
+    ] {
+        assert!(parse(Dimension::Length, text).is_err(), "{text}");
+    }
+    for text in ["−5", "5\u{a0}", "\u{2009}–0.25"] {
+        assert!(parse_number(text).is_some(), "{text}");
     }
 }
 
@@ -94,7 +142,7 @@ fn faults_say_what_to_write() {
         (
             Dimension::Length,
             "5 MM",
-            "`MM` is not a unit of length; expected one of um, mm, cm, m, in, inch; \
+            "`MM` is not a unit of length; expected one of um, mm, cm, m, in, inch, mil, thou, ft; \
              did you mean `mm`?",
         ),
         (

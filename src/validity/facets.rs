@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::Note;
+use crate::digits::fixed;
 use crate::problem::part::Shape;
 use crate::scene::mesh::Mesh;
 use crate::setup::Setup;
@@ -25,10 +26,10 @@ pub(super) fn note(setup: &Setup) -> Option<Note> {
         name: "facets",
         value: angle.to_degrees(),
         text: format!(
-            "the facets of mesh `{part}` turn by up to {:.2} deg from one to the next where it looks smooth \
-             (by less than {:.0} deg): rebounds there are turned by up to that angle",
-            angle.to_degrees(),
-            SMOOTH.to_degrees(),
+            "the facets of mesh `{part}` turn by up to {} deg from one to the next where it looks smooth \
+             (by less than {} deg): rebounds there are turned by up to that angle",
+            fixed(angle.to_degrees(), 2),
+            fixed(SMOOTH.to_degrees(), 0),
         ),
     })
 }

@@ -1,6 +1,7 @@
 //! What acts on a shot between exit and target: gravity and the drag of the air.
 
 use super::Note;
+use crate::digits::{fixed, plain};
 use crate::elementary::{exp, power};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -21,33 +22,68 @@ pub(super) fn gravity(choice: &Choice) -> Note {
         name: "gravity",
         value: drop,
         text: format!(
-            "gravity is left out: a shot falls {:.2} um on its way to the target",
-            drop * 1e6
+            "gravity is left out: a shot falls {} um on its way to the target",
+            fixed(drop * 1e6, 2)
         ),
     }
 }
 
-/// Share of the speed lost on the way to the target.
+/// Share of the speed lost or gained on the way to the target.
 pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
     let shot = setup.problem.shot;
-    let left = speed_left(2.0 * shot.radius, shot.density, choice);
-    let loss = 1.0 - left / choice.speed;
-    let advice = if loss > MATTERS {
-        "; N* falls by as much, unless the speed is measured at the target"
+    let end = speed_at_end(
+        2.0 * shot.radius,
+        shot.density,
+        choice,
+        setup.problem.jet.air_speed,
+    );
+    let gain = end / choice.speed - 1.0;
+    let follows = |how: &str| {
+        if gain.abs() > MATTERS {
+            format!("; N* {how} by as much, unless the speed is measured at the target")
+        } else {
+            String::new()
+        }
+    };
+    let Some(air) = setup.problem.jet.air_speed else {
+        return Note {
+            name: "drag",
+            value: -gain,
+            text: format!(
+                "drag is left out: in still air a shot loses {:.2} % of its speed before the target{}; the air \
+                 of an air nozzle is faster than its shot and speeds it up (jet.air_speed tells by how much)",
+                -gain * 100.0,
+                follows("falls"),
+            ),
+        };
+    };
+    let (what, how) = if gain < 0.0 {
+        ("loses", "falls")
     } else {
-        ""
+        ("gains", "rises")
     };
     Note {
-        name: "drag",
-        value: loss,
+        name: "air",
+        value: gain,
         text: format!(
-            "drag is left out: in air at rest a shot loses {:.2} % of its speed before the target{advice}",
-            loss * 100.0
+            "the air is left out: in air of {} m/s up to the target a shot {what} {} % of its speed{}; slower \
+             air beside and beyond the jet's core changes less",
+            plain(air),
+            fixed(gain.abs() * 100.0, 2),
+            follows(how),
         ),
     }
 }
 
-/// Speed at the end of the flight, m/s: dv/dx = -decay(v) v, each step with the decay of its middle.
+/// Speed at the end of the flight, m/s, in air that moves along at a speed, or rests.
+fn speed_at_end(diameter: f64, density: f64, choice: &Choice, air: Option<f64>) -> f64 {
+    match air {
+        None => speed_left(diameter, density, choice),
+        Some(air) => speed_in_moving_air(diameter, density, choice, air),
+    }
+}
+
+/// The same in air at rest: dv/dx = -decay(v) v, each step with the decay of its middle.
 fn speed_left(diameter: f64, density: f64, choice: &Choice) -> f64 {
     let step = choice.standoff / STEPS as f64;
     let after = |speed: f64, at: f64, way: f64| speed * exp(-decay(diameter, density, at) * way);
@@ -55,6 +91,29 @@ fn speed_left(diameter: f64, density: f64, choice: &Choice) -> f64 {
     for _ in 0..STEPS {
         let middle = after(speed, speed, 0.5 * step);
         speed = after(speed, middle, step);
+    }
+    speed
+}
+
+/// The same in moving air, which draws at the shot with the speed u that it has relative to it:
+/// dv/dt = decay(u) u |u|. The shot never gets past the air.
+fn speed_in_moving_air(diameter: f64, density: f64, choice: &Choice, air: f64) -> f64 {
+    // u falls by this rate in time; within a step it is that of the middle.
+    let rate = |speed: f64| {
+        let relative = (air - speed).abs();
+        if relative > 0.0 {
+            decay(diameter, density, relative) * relative
+        } else {
+            0.0
+        }
+    };
+    let after = |speed: f64, at: f64, time: f64| air - (air - speed) * exp(-rate(at) * time);
+    let step = choice.standoff / STEPS as f64;
+    let mut speed = choice.speed;
+    for _ in 0..STEPS {
+        let middle = after(speed, speed, 0.5 * step / speed);
+        let mean = after(speed, middle, 0.5 * step / middle);
+        speed = after(speed, mean, step / mean);
     }
     speed
 }

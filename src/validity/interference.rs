@@ -14,6 +14,8 @@ use crate::trace::{End, Tracer};
 const SHOWS: f64 = 0.1;
 /// From here on every third rebound is another than was computed.
 const SPOILS: f64 = 0.3;
+/// The name of the note then.
+pub const STRONG: &str = "interference_strong";
 /// A scene that fewer than this share of the shots leave is nearly closed.
 const NEARLY_CLOSED: f64 = 0.5;
 /// Shots that stay in the jet meet others without end; a record holds finite numbers only.
@@ -48,13 +50,15 @@ pub(super) fn note(
     let encounters = (stream.encounters(&rebound, diameter) * passes).min(MOST);
     let (name, verdict) = if encounters >= SPOILS {
         (
-            "interference_strong",
-            "shots cannot be called independent, and the figures of this sheet are not to be relied on",
+            STRONG,
+            "as many incoming shots are turned as rebounds, so shots cannot be called independent: N*, misses, \
+             rebounds and coverage of this sheet are not to be relied on",
         )
     } else if encounters >= SHOWS {
         (
             "interference",
-            "that many rebounds are deflected on their way, which the figures leave out",
+            "that many rebounds are deflected on their way and as many incoming shots are turned, which N*, \
+             misses, rebounds and coverage leave out",
         )
     } else {
         ("interference", "too few to matter")

@@ -1,6 +1,7 @@
 //! Whether the restitution is known at the speed at which shots arrive.
 
 use super::Note;
+use crate::digits::{fixed, plain, significant};
 use crate::evaluate::Evaluation;
 use crate::impact::Restitution;
 use crate::problem::setting::Choice;
@@ -24,8 +25,9 @@ pub(super) fn note(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluatio
             name: "constant_restitution",
             value,
             text: format!(
-                "restitution is taken as {value} at every speed; on metal it falls as speed rises, and it \
-                 turns rebounds more than friction does"
+                "restitution is taken as {} at every speed; on metal it falls as speed rises, and it \
+                 turns rebounds more than friction does",
+                plain(value)
             ),
         },
         (
@@ -37,10 +39,13 @@ pub(super) fn note(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluatio
             name: "restitution_speed",
             value: arriving / speed,
             text: format!(
-                "restitution was measured as {reference} at {speed} m/s; first hits arrive with a mean normal \
-                 speed of {arriving:.3} m/s, {:.2} times as fast, where the law gives {:.3}{}",
-                arriving / speed,
-                contact.restitution.at(arriving),
+                "restitution was measured as {} at {} m/s; first hits arrive with a mean normal \
+                 speed of {} m/s, {} times as fast, where the law gives {}{}",
+                plain(reference),
+                plain(speed),
+                significant(arriving, 3),
+                significant(arriving / speed, 3),
+                fixed(contact.restitution.at(arriving), 3),
                 if (FAR.recip()..=FAR).contains(&(arriving / speed)) {
                     ""
                 } else {
@@ -56,7 +61,11 @@ pub(super) fn note(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluatio
         ) => Note {
             name: "falling_restitution",
             value: reference,
-            text: format!("restitution is {reference} at {speed} m/s and falls as speed rises"),
+            text: format!(
+                "restitution is {} at {} m/s and falls as speed rises",
+                plain(reference),
+                plain(speed)
+            ),
         },
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::{Point2, Vector2};
 
 use super::Note;
+use crate::digits::{fixed, significant};
 use crate::elementary::cos;
 use crate::jet::Pose;
 use crate::problem::curve::Curve;
@@ -27,9 +28,9 @@ pub(super) fn point_shots(setup: &Setup) -> Option<Note> {
         name: "point_shots",
         value: radius,
         text: format!(
-            "shots fly as points, as the file asks: a real one touches a wall {:.3} mm before its centre \
+            "shots fly as points, as the file asks: a real one touches a wall {} mm before its centre \
              would, which matters where that is not small against the groove",
-            radius * 1e3
+            significant(radius * 1e3, 3)
         ),
     })
 }
@@ -42,13 +43,27 @@ pub(super) fn fillet(setup: &Setup) -> Option<Note> {
         name: "fillet",
         value: diameter / radius,
         text: format!(
-            "shots of {:.3} mm are {:.2} times the smallest fillet radius of the part, {:.3} mm; at most half \
-             of it reaches all of the fillet (ASTM B851)",
-            diameter * 1e3,
-            diameter / radius,
-            radius * 1e3,
+            "shots of {} mm are {} times the smallest fillet radius of the part, {} mm: {}; ASTM B851 \
+             has shot of at most half the radius, which keeps three quarters",
+            significant(diameter * 1e3, 3),
+            fixed(diameter / radius, 2),
+            significant(radius * 1e3, 3),
+            against_a_fillet(diameter / (2.0 * radius)),
         ),
     })
+}
+
+/// What a fillet does to the dent of a shot whose radius is this part of its own: the curvature across the
+/// fillet that is left between the two.
+fn against_a_fillet(part: f64) -> String {
+    if part >= 1.0 {
+        return "they span it and do not touch its bottom".into();
+    }
+    format!(
+        "against its hollow they curve by only {:.0} % of what they do against a flat strip, so dents are wider \
+         and shallower there",
+        (1.0 - part) * 100.0
+    )
 }
 
 /// Shots that are too large for the narrowest gap of the part that holds the target.
@@ -59,11 +74,11 @@ pub(super) fn opening(setup: &Setup, choice: &Choice) -> Option<Note> {
         name: "opening",
         value: diameter / width,
         text: format!(
-            "shots of {:.3} mm are {:.2} times the narrowest gap of the part, {:.3} mm; above a quarter of it \
-             they get in each other's way (ASTM B851)",
-            diameter * 1e3,
-            diameter / width,
-            width * 1e3,
+            "shots of {} mm are {} times the narrowest gap of the part, {} mm; ASTM B851 has shot of at most \
+             a quarter of it: wider ones have no room to pass each other on their way in and out",
+            significant(diameter * 1e3, 3),
+            fixed(diameter / width, 2),
+            significant(width * 1e3, 3),
         ),
     })
 }

@@ -18,7 +18,7 @@ pub(super) fn warning(setup: &Setup) -> Option<Warning> {
     let back = |direction: Vector3<f64>| {
         let direction = direction.normalize();
         let hit = setup.scene.first_hit(&Ray { origin, direction }, None)?;
-        (!hit.spot.front).then_some(hit.surface)
+        (!setup.scene.is_free_side(&hit.spot)).then_some(hit.surface)
     };
     let backs: Vec<u32> = directions.into_iter().map(back).collect::<Option<_>>()?;
     let surface = &setup.scene.surfaces()[backs[0] as usize];

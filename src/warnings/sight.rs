@@ -2,12 +2,13 @@
 
 use rayon::prelude::*;
 
+use crate::feasibility::infeasibility;
 use crate::jet::{Samples, Stream};
 use crate::objective::Tally;
 use crate::problem::setting::Choice;
 use crate::problem::warning::{Doubt, Warning};
 use crate::setup::Setup;
-use crate::solve::{clearance_violation, spread_choices};
+use crate::solve::spread_choices;
 
 /// Settings that are tried.
 const PLACES: usize = 512;
@@ -17,7 +18,7 @@ const SHOTS: usize = 8;
 pub(super) fn warning(setup: &Setup) -> Option<Warning> {
     let contact = setup.problem.settings.contact.first().copied()?;
     let choices = spread_choices(setup, contact, PLACES);
-    let fits = |choice: &&Choice| clearance_violation(setup, choice).is_none();
+    let fits = |choice: &&Choice| infeasibility(setup, choice).is_none();
     let shots = Samples::new(&setup.problem, Stream::Search, SHOTS).deviates;
     let hits = |choice: &Choice| {
         let tally = Tally::trace(setup, choice, choice.speed, &shots);

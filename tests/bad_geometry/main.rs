@@ -168,7 +168,7 @@ fn single_faults_of_a_keyway() {
         (
             "radius: 0.5 mm",
             "radius: -0.5 mm",
-            &["shot.radius", "from 1 nm"],
+            &["shot.radius", "from 0.001 um"],
         ),
         ("radius: 0.5 mm", "radius: .nan mm", &["shot.radius"]),
         ("radius: 0.5 mm", "radius: 1e999 mm", &["shot.radius"]),

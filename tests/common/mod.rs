@@ -35,6 +35,7 @@ pub fn keyway(length: f64) -> Problem {
             on_nozzle: false,
         }],
         target: Target {
+            lengths_in: Default::default(),
             surface: "hub.floor".into(),
             within: Some((
                 Point3::new(-3e-3, 18e-3, middle - 5e-3),
@@ -56,6 +57,7 @@ pub fn keyway(length: f64) -> Problem {
             spread: Spread::Uniform,
             speed_spread: 0.05,
             mass_flow: None,
+            air_speed: None,
         },
         calibration: None,
         nozzle: Nozzle {

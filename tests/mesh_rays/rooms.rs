@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
-use peenpose::problem::part::{Part, Place, Shape};
-use peenpose::scene::ray::Spot;
+use peenpose::problem::part::{FileUnit, Part, Place, Shape, Target};
+use peenpose::scene::patch::Patch;
+use peenpose::scene::ray::{Ray, Spot};
 use peenpose::scene::{Scene, Walls};
 
 use crate::solids::{self, Solid};
@@ -17,6 +18,8 @@ pub struct Room {
     pub name: &'static str,
     pub scene: Scene,
     pub triangles: Vec<Triangle>,
+    /// Whether it is the inside of a single body, whose fronts look outwards.
+    pub is_hollow: bool,
     /// The triangles round each vertex.
     round_vertices: HashMap<[u64; 3], Vec<usize>>,
     pub inside: Point3<f64>,
@@ -27,10 +30,10 @@ pub struct Room {
 }
 
 impl Room {
-    /// Whether a hit is on a side that shots inside can see: fronts of the mesh, and backs of the
-    /// box round it, if there is one.
+    /// Whether a hit is on a side that shots inside can see: fronts of a part in a box, and backs of what
+    /// is round them, be it the box or a hollow.
     pub fn shows(&self, spot: &Spot) -> bool {
-        spot.front == (spot.part == 0)
+        spot.front == (spot.part == 0 && !self.is_hollow)
     }
 
     /// The triangles round a corner of a triangle.
@@ -96,10 +99,16 @@ impl Plan {
     }
 
     fn build(&self, parts: &[Part]) -> Room {
-        let scene = Scene::build(parts, Walls::Exact).unwrap_or_else(|faults| panic!("{faults:?}"));
+        let mut scene =
+            Scene::build(parts, Walls::Exact).unwrap_or_else(|faults| panic!("{faults:?}"));
+        let inside =
+            self.place.rotation * (Point3::from(self.inside) * self.unit) + self.place.shift;
+        if parts.len() == 1 {
+            settle_inside(&mut scene, inside);
+        }
         let mut odd = scene.warnings().iter();
         // Those of hollows look inwards.
-        let odd = odd.find(|warning| !warning.contains("look into the material"));
+        let odd = odd.find(|warning| !warning.contains("point into the material"));
         assert_eq!(odd, None, "{}", self.name);
         let surfaces = 0..scene.surfaces().len() as u32;
         let triangles: Vec<Triangle> = surfaces
@@ -112,11 +121,11 @@ impl Plan {
             }
         }
         Room {
+            is_hollow: parts.len() == 1,
             name: self.name,
             triangles,
             round_vertices,
-            inside: self.place.rotation * (Point3::from(self.inside) * self.unit)
-                + self.place.shift,
+            inside,
             radius: self.radius * self.unit,
             share: self.share,
             scene,
@@ -138,6 +147,25 @@ impl Plan {
         let shape = Shape::Box { min, max };
         self.build(&[self.mesh(path), self.part("box", shape)])
     }
+}
+
+/// Tells a scene of one body that a nozzle is in it: some place of its wall is the target, seen from there.
+fn settle_inside(scene: &mut Scene, inside: Point3<f64>) {
+    let look = Ray {
+        origin: inside,
+        direction: Vector3::new(0.6, 0.48, 0.64),
+    };
+    let hit = scene.first_hit(&look, None).expect("a wall all round");
+    let target = Target {
+        lengths_in: FileUnit::default(),
+        surface: scene.surfaces()[hit.surface as usize].clone(),
+        within: None,
+        aim: Some(hit.point),
+        along: None,
+        facing: Some(hit.normal),
+    };
+    let patch = Patch::find(scene, &target).unwrap_or_else(|faults| panic!("{faults:?}"));
+    scene.settle(&patch);
 }
 
 /// So that nothing lies along an axis.

@@ -3,10 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Point3, Vector3};
+use peenpose::feasibility::infeasibility;
 use peenpose::jet::Pose;
 use peenpose::problem::setting::Choice;
 use peenpose::setup::Setup;
-use peenpose::solve::{Status, clearance_violation};
+use peenpose::solve::Status;
 
 use crate::{PLATE, best_objective, edited, held, search, setup, terms};
 
@@ -365,14 +366,14 @@ fn a_feasible_region_that_no_screening_meets_is_found_by_how_far_the_nozzle_is_f
             aim_above: settings.aim_above.min,
             ..held(&tight)
         };
-        fitting += u32::from(clearance_violation(&tight, &choice).is_none());
+        fitting += u32::from(infeasibility(&tight, &choice).is_none());
     }
     let share = f64::from(fitting) / f64::from(steps.pow(4));
     assert!(share < 1e-3, "{share}");
     let solution = search(&tight);
     assert_ne!(solution.status, Status::NoFeasiblePose);
     let best = &solution.answers[0];
-    assert_eq!(clearance_violation(&tight, &best.choice), None);
+    assert_eq!(infeasibility(&tight, &best.choice), None);
     assert!(best_objective(&solution) < 1e-3);
 }
 
@@ -419,7 +420,7 @@ fn infeasible_by_a_hair_is_infeasible_and_says_by_how_much() {
     }
     // At the limit itself rounding decides, and violates nothing worth naming.
     let exactly = above("5 mm");
-    let violation = clearance_violation(&exactly, &held(&exactly)).unwrap_or(0.0);
+    let violation = infeasibility(&exactly, &held(&exactly)).map_or(0.0, |it| it.violation);
     assert!((0.0..1e-17).contains(&violation), "{violation}");
     let pose = Pose::new(&exactly.target.frame, &held(&exactly));
     assert!((pose.exit - Point3::new(0.0, 0.0, 5e-3)).norm() < 1e-17);

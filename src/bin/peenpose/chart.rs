@@ -3,16 +3,22 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use peenpose::chart::{BesidePoint, Control, LARGEST_TABLE, measure};
+use peenpose::chart::{BesidePoint, Chart, Control, LARGEST_TABLE, measure};
+use peenpose::record::LARGEST_FILE;
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
 use peenpose::setup::Setup;
 
 use crate::args::ChartArgs;
-use crate::output::{self, Failure, limited_text, quoted};
+use crate::folder::Staged;
+use crate::output::{self, Failure, both, limited_text, quoted};
 use crate::progress::Watcher;
+use crate::result;
 use crate::start;
+
+/// The file of a chart in its folder.
+const CHART: &str = "chart.json";
 
 /// Measures a problem file and writes figures, tables and a text.
 pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
@@ -35,17 +41,58 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
         .to_json()
         .map_err(|error| format!("cannot write the chart as JSON: {error}"))?;
     let sheet = report::chart(&chart);
-    output::write(&args.out, "chart.json", json.as_bytes())?;
-    output::write(&args.out, "chart.txt", sheet.as_bytes())?;
-    let tables =
-        Table::of_chart(&chart).map_err(|error| format!("cannot write tables: {error}"))?;
+    // What is printed is not lost whatever becomes of the folder.
+    let printed = output::text(&sheet);
+    let mut files = Staged::new(&args.out);
+    files.add(CHART, json.as_bytes());
+    files.add("chart.txt", sheet.as_bytes());
+    let drawn = add_drawn(&chart, &mut files);
+    let stale = if files.is_whole() && drawn.is_ok() {
+        stale(&files, &args.out)
+    } else {
+        Vec::new()
+    };
+    both(both(printed, drawn), files.put())
+        .and_then(|code| result::remove(&args.out, &stale).map(|()| code))
+}
+
+/// The files of an earlier chart in the folder that this one has no successor for.
+fn stale(files: &Staged, folder: &Path) -> Vec<String> {
+    let named = |name: &str| ["csv", "svg", "png"].map(|ending| format!("{name}.{ending}"));
+    let left_over = files.left_over(
+        ["pose", "search", "effect"]
+            .iter()
+            .flat_map(|name| named(name)),
+    );
+    let earlier = || {
+        let text = limited_text(&folder.join(CHART), LARGEST_FILE).ok()?;
+        let chart = Chart::from_json(&text).ok()?;
+        let tables = Table::of_chart(&chart).ok()?;
+        let figures = Figure::of_chart(&chart).ok()?;
+        let names = tables.iter().map(|table| table.name);
+        let names = names.chain(figures.iter().map(|figure| figure.name));
+        Some(names.flat_map(named).collect::<Vec<String>>())
+    };
+    if left_over.is_empty() {
+        return left_over;
+    }
+    let theirs = earlier().unwrap_or_default();
+    left_over
+        .into_iter()
+        .filter(|name| theirs.contains(name))
+        .collect()
+}
+
+/// Adds tables and figures.
+fn add_drawn(chart: &Chart, files: &mut Staged) -> Result<(), Failure> {
+    let tables = Table::of_chart(chart).map_err(|error| format!("cannot make tables: {error}"))?;
     for Table { name, csv } in tables {
-        output::write(&args.out, &format!("{name}.csv"), csv.as_bytes())?;
+        files.add(&format!("{name}.csv"), csv.as_bytes());
     }
-    for figure in Figure::of_chart(&chart).map_err(|fault| fault.to_string())? {
-        output::figure(&args.out, figure.name, &figure)?;
+    for figure in Figure::of_chart(chart).map_err(|fault| fault.to_string())? {
+        files.add_figure(figure.name, &figure);
     }
-    output::text(sheet)
+    Ok(())
 }
 
 /// The points of all tables.

@@ -6,9 +6,11 @@ use peenpose::setup::Setup;
 
 use crate::args::CheckArgs;
 use crate::output::{BAD_INPUT, Failure, text, warnings};
+use crate::start;
 
 /// Checks files; the faults of all of them are the failure.
 pub fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
+    start::use_threads(None)?;
     let mut failed = ExitCode::SUCCESS;
     let mut good = String::new();
     for path in &args.files {

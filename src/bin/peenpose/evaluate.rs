@@ -8,14 +8,14 @@ use peenpose::jet::{Draw, purpose};
 use peenpose::problem::setting::{Choice, Setting};
 use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{Answer, Ladder, clearance_violation};
+use peenpose::solve::{Answer, Ladder};
 use peenpose::units;
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
-use peenpose::verdict::Verdict;
 
 use crate::args::EvaluateArgs;
-use crate::output::{self, Failure, quoted};
+use crate::output::{Failure, quoted};
+use crate::result;
 use crate::settings::{self, Earlier};
 use crate::start;
 
@@ -26,19 +26,14 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let from = args
         .from
         .as_deref()
-        .map(|path| Earlier::read(path, &setup.problem, args.start.quiet))
+        .map(|path| Earlier::read(path, &setup, &source, args.start.quiet))
         .transpose()?;
     let setup = setup.as_asked();
     let choice = settings::choice(&args.set, from.as_ref(), &setup.problem)?;
     let fresh = Draw::new(&setup.problem, purpose::ANSWERS, args.shots as usize);
     let evaluation = evaluate_drawn(&setup, &choice, &fresh);
     let (shots, rays) = (evaluation.shots, evaluation.rays);
-    let answer = Answer {
-        verdicts: Verdict::all(&setup, &evaluation),
-        evaluation: Some(evaluation),
-        violation: clearance_violation(&setup, &choice).unwrap_or(0.0),
-        choice,
-    };
+    let answer = Answer::judged(&setup, &choice, Some(evaluation));
     let circumstances = Circumstances {
         source: &source,
         status: StatusRecord::Evaluated,
@@ -59,7 +54,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     if args.out.is_some() {
         record = record.with_evidence(&setup, &answers[0]);
     }
-    output::record(&record, args.json, args.out.as_deref())
+    result::report(&record, args.json, args.out.as_deref())
 }
 
 /// The command that gives the same figures again.

@@ -1,16 +1,20 @@
 //! `peenpose export`: scene, paths and hits for other programs.
 
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use peenpose::report::export::{Format, export};
 
 use crate::args::ExportArgs;
-use crate::output::{self, Failure, RESULT};
+use crate::folder::{self, folder_of};
+use crate::output::{self, Failure};
+use crate::result::{self, RESULT};
+use crate::start;
 
 /// Writes one file in the format that its name asks for.
 pub fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
+    start::use_threads(None)?;
     let format = format_of(&args.out)?;
     let result = if args.result.is_dir() {
         args.result.join(RESULT)
@@ -18,17 +22,15 @@ pub fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
         args.result.clone()
     };
     let shown = result.display();
-    let record = output::read_record(&result)?;
+    let folder = folder_of(&args.out);
+    folder::prepare(Some(folder))?;
+    let record = result::read(&result)?;
     let contents = export(&record, format).ok_or_else(|| {
         format!("{shown} holds no surfaces, paths and hits; `--out` of this version writes them")
     })?;
     let contents = contents.map_err(|error| format!("cannot export {shown}: {error}"))?;
-    let folder = match args.out.parent() {
-        Some(folder) if folder != Path::new("") => folder.to_owned(),
-        _ => PathBuf::from("."),
-    };
     let name = args.out.file_name().unwrap_or_default().to_string_lossy();
-    output::write(&folder, &name, &contents)?;
+    folder::write(folder, &name, &contents)?;
     output::text(format!("{}\n", args.out.display()))
 }
 

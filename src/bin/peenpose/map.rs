@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 use peenpose::checkpoint::Checkpoint;
 use peenpose::map::{self, Axis, Map};
-use peenpose::problem::Problem;
 use peenpose::problem::setting::{Choice, Range, Setting};
+use peenpose::problem::{Problem, given};
 use peenpose::record::{AnswerRecord, MapRecord, MapTerm, QuestionRecord};
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
@@ -14,8 +14,9 @@ use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Control, solve};
 
 use crate::args::MapArgs;
+use crate::folder::Staged;
 use crate::kept;
-use crate::output::{self, Failure};
+use crate::output::{self, Failure, both};
 use crate::progress::{ENDED, Watcher};
 use crate::settings::{self, Earlier, contact_named, setting_named};
 use crate::start;
@@ -33,7 +34,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     let from = args
         .from
         .as_deref()
-        .map(|path| Earlier::read(path, &setup.problem, args.start.quiet))
+        .map(|path| Earlier::read(path, &setup, &source, args.start.quiet))
         .transpose()?;
     if let Some(name) = &args.contact {
         let contact = contact_named(name, &setup.problem)
@@ -65,12 +66,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     let map = Map::of(&setup, &choice, x, y, args.shots as usize, &control);
     watcher.finish();
     kept::close(kept, args.start.quiet);
-    let answer = Answer {
-        choice,
-        evaluation: None,
-        verdicts: Vec::new(),
-        violation: 0.0,
-    };
+    let answer = Answer::judged(&setup, &choice, None);
     let view = MapView {
         map: &MapRecord::new(&setup, &map),
         problem: &QuestionRecord::new(&setup.problem, &source),
@@ -96,12 +92,15 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
     let figure = figure.ok_or("the map has no extent".to_owned())?;
     let table =
         Table::of_map(view.map).map_err(|error| format!("cannot write the table: {error}"))?;
-    output::figure(&args.out, &stem, &figure)?;
-    output::write(&args.out, &format!("{stem}.csv"), table.csv.as_bytes())?;
+    // What is printed is not lost whatever becomes of the files.
+    let printed = output::text(report::map(view, term));
+    let mut files = Staged::new(&args.out);
+    files.add_figure(&stem, &figure);
+    files.add(&format!("{stem}.csv"), table.csv.as_bytes());
+    let shown = both(printed, files.put())?;
     let written = args.out.join(stem);
-    let text = report::map(view, term);
-    let shown = output::text(format!(
-        "{text}  {:<10} {}.svg, .png, .csv\n",
+    output::text(format!(
+        "  {:<10} {}.svg, .png, .csv\n",
         "written",
         written.display()
     ))?;
@@ -171,13 +170,7 @@ impl Asked {
             let (from, to) = range
                 .split_once(':')
                 .ok_or_else(|| format!("expected NAME=FROM:TO, such as `{example}`"))?;
-            let value = |text: &str| settings::parse(setting, text.trim());
-            let (min, max) = (value(from)?, value(to)?);
-            if min < max {
-                Ok(Range { min, max })
-            } else {
-                Err(format!("`{from}` is not below `{to}`"))
-            }
+            given::range(setting, from, to)
         });
         Ok(Self {
             option,

@@ -43,6 +43,8 @@ struct ContactJson {
     mu_s: NumberJson,
     mu_d: NumberJson,
     restitution: NumberJson,
+    restitution_at_m_s: NumberJson,
+    restitution_exponent: NumberJson,
 }
 
 #[derive(Serialize)]
@@ -70,6 +72,8 @@ impl From<&LibraryContact> for ContactJson {
             mu_s: contact.static_friction.into(),
             mu_d: contact.dynamic_friction.into(),
             restitution: contact.restitution.into(),
+            restitution_at_m_s: contact.restitution_speed.into(),
+            restitution_exponent: contact.restitution_exponent.into(),
         }
     }
 }

@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use peenpose::chart::Step;
+use peenpose::digits::significant;
 use peenpose::solve::Progress;
 
 use crate::output;
@@ -18,11 +20,16 @@ pub const ENDED: u8 = 130;
 /// theirs to the program and to its group.
 const SAME_REQUEST: Duration = Duration::from_millis(500);
 
+/// What comes after the search has so long once the user asks for an end.
+const GRACE: Duration = Duration::from_millis(400);
+
 /// Shows how far a search is, and notices Ctrl-C.
 pub struct Watcher {
     bar: ProgressBar,
     /// Set when the user asks for an end.
     pub stop: Arc<AtomicBool>,
+    /// Set a moment later: what makes an answer complete has so long.
+    pub late: Arc<AtomicBool>,
     is_writing: Arc<AtomicBool>,
 }
 
@@ -42,11 +49,23 @@ impl Watcher {
         let stop = Arc::new(AtomicBool::new(false));
         let is_writing = Arc::new(AtomicBool::new(false));
         let (asked, found) = (Arc::clone(&stop), Arc::clone(&is_writing));
+        let late = Arc::new(AtomicBool::new(false));
+        let grace_is_over = Arc::clone(&late);
         let mut first: Option<Instant> = None;
         let handler = ctrlc::set_handler(move || {
             asked.store(true, Ordering::SeqCst);
             match first {
-                None => first = Some(Instant::now()),
+                None => {
+                    first = Some(Instant::now());
+                    let late = Arc::clone(&grace_is_over);
+                    let wait = move || {
+                        sleep(GRACE);
+                        late.store(true, Ordering::SeqCst);
+                    };
+                    if Builder::new().spawn(wait).is_err() {
+                        grace_is_over.store(true, Ordering::SeqCst);
+                    }
+                }
                 Some(first) if first.elapsed() < SAME_REQUEST => return,
                 // Whoever asks twice does not want to wait for the best answer so far.
                 Some(_) => {
@@ -66,6 +85,7 @@ impl Watcher {
         Self {
             bar,
             stop,
+            late,
             is_writing,
         }
     }
@@ -73,7 +93,11 @@ impl Watcher {
     /// Takes a step of the search to the bar.
     pub fn show(&self, progress: Progress) {
         self.bar.set_message(match progress.best {
-            Some(best) => format!("{} poses, best J so far {best:.6}", progress.poses),
+            Some(best) => format!(
+                "{} poses, best J so far {}",
+                progress.poses,
+                significant(best, 4)
+            ),
             None => format!(
                 "{} poses, the nozzle has fitted nowhere yet",
                 progress.poses

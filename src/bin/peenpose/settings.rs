@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
-use peenpose::problem::Problem;
+use peenpose::printable;
 use peenpose::problem::fault::nearest_name;
 use peenpose::problem::setting::{Choice, Setting};
-use peenpose::record::Record;
-use peenpose::units::{self, Dimension};
+use peenpose::problem::{Problem, Source, given};
+use peenpose::record::{Record, mesh_sha256};
+use peenpose::setup::Setup;
 
 use crate::output::{self, Failure};
+use crate::result;
 
 /// The settings asked for: from a result, from `--set`, or held in the file.
 pub fn choice(set: &[String], from: Option<&Earlier>, problem: &Problem) -> Result<Choice, String> {
@@ -61,16 +63,22 @@ pub struct Earlier<'a> {
 }
 
 impl<'a> Earlier<'a> {
-    /// Reads it. Unless `quiet`, warns when it answers another problem: settings that fit there may be
-    /// nonsense here.
-    pub fn read(path: &'a Path, problem: &Problem, quiet: bool) -> Result<Self, Failure> {
-        let record = output::read_record(path)?;
-        let answered = &record.problem.title;
-        if !quiet && *answered != problem.title {
-            output::warn(&format!(
-                "{} answers another problem, `{answered}`: its settings are taken all the same",
-                path.display()
-            ));
+    /// Reads it. Unless `quiet`, warns when it answers another problem, or the same before its files were
+    /// changed: settings that fit there may be nonsense here.
+    pub fn read(
+        path: &'a Path,
+        setup: &Setup,
+        source: &Source,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let record = result::read(path)?;
+        if !quiet {
+            let shown = path.display();
+            for difference in differences(&record, setup, source) {
+                output::warn(&format!(
+                    "{shown} {difference}: its settings are taken all the same"
+                ));
+            }
         }
         Ok(Self { path, record })
     }
@@ -94,6 +102,35 @@ impl<'a> Earlier<'a> {
     }
 }
 
+/// What a result was made from that is not what is here.
+fn differences(record: &Record, setup: &Setup, source: &Source) -> Vec<String> {
+    let answered = &record.problem.title;
+    if *printable::line(&setup.problem.title) != **answered {
+        return vec![format!("answers another problem, `{answered}`")];
+    }
+    let mut changed = Vec::new();
+    if record.problem_sha256 != source.sha256 {
+        let file = source.path.display();
+        changed.push(format!(
+            "was made before the problem file {file} was changed"
+        ));
+    }
+    for (file, sha256) in mesh_sha256(setup, source) {
+        match record.mesh_sha256.get(&file) {
+            Some(earlier) if *earlier != sha256 => {
+                changed.push(format!("was made before the mesh {file} was changed"));
+            }
+            // Results of older versions tell nothing about meshes.
+            None if !record.mesh_sha256.is_empty() => {
+                changed.push(format!("was made without the mesh {file}"));
+            }
+            _ => {}
+        }
+    }
+    changed
+}
+
+/// The index of the contact with a name.
 pub fn contact_named(name: &str, problem: &Problem) -> Result<usize, String> {
     let contacts = &problem.contacts;
     contacts
@@ -179,8 +216,8 @@ impl Known {
                 unknown("setting", name, &names)
             ));
         };
-        let parsed =
-            parse(SETTINGS[index], value).map_err(|fault| format!("--set {text}: {fault}"))?;
+        let parsed = given::setting(SETTINGS[index], value)
+            .map_err(|fault| format!("--set {text}: {fault}"))?;
         self.values[index] = Some(parsed);
         self.friction_asked |= SETTINGS[index] == Setting::StaticFriction;
         Ok(())
@@ -226,49 +263,12 @@ impl Known {
             return Err(message.into());
         }
         if missing.is_empty() {
-            return Ok(choice);
+            return given::check(&choice).map(|()| choice);
         }
         Err(format!(
             "the file leaves {} open; say what to evaluate with --set {}=... or --from result.json",
             missing.join(", "),
             missing[0]
         ))
-    }
-}
-
-/// Lengths, m, and speeds, m/s, beyond any workshop; problem files end there too.
-const FARTHEST: f64 = 1e3;
-const FASTEST: f64 = 1e4;
-
-/// A value of a setting, SI, in the range where it means something.
-pub fn parse(setting: Setting, text: &str) -> Result<f64, String> {
-    let (dimension, fits): (_, fn(f64) -> bool) = match setting {
-        Setting::Incidence => (Dimension::Angle, |x| {
-            (0.0..=std::f64::consts::FRAC_PI_2 + 1e-12).contains(&x)
-        }),
-        Setting::Azimuth => (Dimension::Angle, |_| true),
-        Setting::Standoff => (Dimension::Length, |x| x > 0.0 && x <= FARTHEST),
-        Setting::Speed => (Dimension::Speed, |x| x > 0.0 && x <= FASTEST),
-        Setting::AimAlong | Setting::AimAcross | Setting::AimAbove => {
-            (Dimension::Length, |x| x.abs() <= FARTHEST)
-        }
-        Setting::StaticFriction => {
-            return text
-                .parse()
-                .ok()
-                .filter(|value: &f64| value.is_finite() && *value >= 0.0)
-                .ok_or_else(|| format!("`{text}` is not a friction coefficient such as `0.2`"));
-        }
-    };
-    let value = units::parse(dimension, text).map_err(|fault| fault.to_string())?;
-    if fits(value) {
-        Ok(value)
-    } else {
-        Err(match setting {
-            Setting::Incidence => format!("`{text}` must be at least 0 deg and at most 90 deg"),
-            Setting::Standoff => format!("`{text}` must be above 0 mm and at most 1 km"),
-            Setting::Speed => format!("`{text}` must be above 0 m/s and at most 10000 m/s"),
-            _ => format!("`{text}` must be at most 1 km"),
-        })
     }
 }

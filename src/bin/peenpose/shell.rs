@@ -7,6 +7,7 @@ use clap_mangen::Man;
 use peenpose::problem::fault::nearest_name;
 
 use crate::args::{Arguments, CompletionsArgs, ManArgs};
+use crate::folder::Staged;
 use crate::output::{self, Failure};
 
 /// Prints completions for a shell.
@@ -26,9 +27,11 @@ pub fn man(args: &ManArgs) -> Result<ExitCode, Failure> {
         pages.push((format!("peenpose-{}", of.get_name()), page(of.clone())?));
     }
     if let Some(folder) = &args.out {
+        let mut files = Staged::new(folder);
         for (name, page) in &pages {
-            output::write(folder, &format!("{name}.1"), page)?;
+            files.add(&format!("{name}.1"), page);
         }
+        files.put()?;
         return Ok(ExitCode::SUCCESS);
     }
     let name = match &args.command {

@@ -1,12 +1,13 @@
 //! `peenpose solve`: the main job.
 
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
+use peenpose::problem::given;
 use peenpose::record::{Circumstances, FrontRecord, Record, StatusRecord, WorkRecord};
 use peenpose::setup::Setup;
-use peenpose::solve::{Control, front, passing_windows, solve};
-use peenpose::units::{self, Dimension};
+use peenpose::solve::{Control, front, passing_windows_until, solve};
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
 
@@ -14,6 +15,7 @@ use crate::args::SolveArgs;
 use crate::kept;
 use crate::output::{self, Failure, quoted};
 use crate::progress::Watcher;
+use crate::result;
 use crate::start;
 
 /// Solves a problem file and reports the answer.
@@ -21,7 +23,8 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let started = Instant::now();
     let (mut setup, source) = start::load(&args.start, &args.file, args.out.as_deref())?;
     if let Some(accuracy) = &args.accuracy {
-        setup.problem.accuracy = accuracy_of(accuracy)?;
+        setup.problem.accuracy =
+            given::accuracy(accuracy).map_err(|fault| format!("--accuracy: {fault}"))?;
     }
     let checkpoint = kept::open(args.checkpoint.as_deref(), &setup)?;
     let watcher = Watcher::new(args.start.quiet);
@@ -39,7 +42,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let is_stopped = control.is_stopped();
     watcher.finish();
     kept::close(checkpoint.as_ref(), args.start.quiet);
-    let windows = passing_windows(&setup, &solution);
+    let windows = passing_windows_until(&setup, &solution, &watcher.late);
     if is_stopped {
         output::note("stopped: this is the best answer so far");
     }
@@ -49,7 +52,10 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         .ok_or("there is no contact to choose".to_owned())?;
     let notes = validity::notes(&setup, &best.choice, best.evaluation.as_ref());
     let fits = best.evaluation.is_some();
-    let unknowns = fits.then(|| Unknowns::of(&setup, &best.choice)).flatten();
+    let has_time = !watcher.late.load(Ordering::Relaxed);
+    let unknowns = (fits && has_time)
+        .then(|| Unknowns::of(&setup, &best.choice))
+        .flatten();
     let circumstances = Circumstances {
         source: &source,
         status: if is_stopped {
@@ -79,9 +85,9 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         record.front = FrontRecord::all(&setup, front);
     }
     if args.out.is_some() {
-        record = record.with_evidence(&setup, best);
+        record = record.with_evidence_until(&setup, best, &watcher.late);
     }
-    output::record(&record, args.json, args.out.as_deref())
+    result::report(&record, args.json, args.out.as_deref())
 }
 
 /// The command that gives the same answer again.
@@ -93,16 +99,4 @@ fn command(args: &SolveArgs, setup: &Setup) -> String {
         setup.problem.accuracy * 100.0,
         setup.problem.seed
     )
-}
-
-fn accuracy_of(text: &str) -> Result<f64, String> {
-    let accuracy =
-        units::parse(Dimension::Fraction, text).map_err(|fault| format!("--accuracy: {fault}"))?;
-    if accuracy > 0.0 && accuracy < 1.0 {
-        Ok(accuracy)
-    } else {
-        Err(format!(
-            "--accuracy: `{text}` must lie between 0 and 100 %, such as `1 %`"
-        ))
-    }
 }

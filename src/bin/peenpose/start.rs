@@ -1,10 +1,14 @@
 //! How every command that computes begins.
 
+use std::num::NonZero;
 use std::path::Path;
+use std::thread::{available_parallelism, sleep};
+use std::time::Duration;
 
 use peenpose::problem::Source;
 use peenpose::setup::Setup;
 
+use crate::folder;
 use crate::output::{self, Failure};
 
 /// What all of them can be told.
@@ -23,11 +27,14 @@ pub struct StartArgs {
 
 /// Reads a problem file and shows its warnings, after it is known that results can be written.
 pub fn load(args: &StartArgs, file: &Path, out: Option<&Path>) -> Result<(Setup, Source), Failure> {
-    args.threads.map_or(Ok(()), use_threads)?;
-    output::prepare(out)?;
+    use_threads(args.threads)?;
+    folder::prepare(out)?;
     let (mut setup, source) = Setup::load(file)?;
     if !args.quiet {
         output::warnings(&setup, &source);
+        for warning in setup.scene.warnings() {
+            output::warn(warning);
+        }
     }
     if let Some(seed) = args.seed {
         setup.problem.seed = seed;
@@ -35,9 +42,34 @@ pub fn load(args: &StartArgs, file: &Path, out: Option<&Path>) -> Result<(Setup,
     Ok((setup, source))
 }
 
-fn use_threads(threads: u16) -> Result<(), String> {
+/// Starts the threads that compute, one for each core unless told otherwise. Where none are to be had it
+/// is a failure here, before anything that cannot do without.
+pub fn use_threads(asked: Option<u16>) -> Result<(), String> {
+    let cores = available_parallelism().map_or(1, NonZero::get);
+    let most = cores.saturating_mul(MOST_PER_CORE).max(LEAST_MOST);
+    let threads = asked.map_or(cores, |asked| usize::from(asked).min(most));
+    if let Some(asked) = asked.filter(|&asked| usize::from(asked) > most) {
+        output::note(&format!(
+            "--threads {asked}: more than {most} threads only wait for each other here; {most} are used"
+        ));
+    }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.into())
+        .num_threads(threads)
         .build_global()
-        .map_err(|error| format!("cannot start {threads} threads: {error}"))
+        .map_err(|error| {
+            format!("cannot start {threads} threads: {error}; --threads asks for fewer")
+        })?;
+    // The progress bar and whoever waits for Ctrl-C need one each.
+    let spare = || std::thread::Builder::new().spawn(|| sleep(Duration::from_millis(1)));
+    let both = [spare(), spare()]
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>();
+    both.map(drop).map_err(|error| {
+        format!("cannot start a thread beside {threads} others: {error}; --threads asks for fewer")
+    })
 }
+
+/// More threads for each core only wait for each other,
+const MOST_PER_CORE: usize = 16;
+/// but so many harm nobody.
+const LEAST_MOST: usize = 256;

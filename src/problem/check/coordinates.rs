@@ -29,6 +29,11 @@ impl<'a> Coordinates<'a> {
         }
     }
 
+    /// The unit that the file gives, if it does: one without coordinates needs none.
+    pub fn given_unit(&self) -> Option<LengthUnit> {
+        self.unit
+    }
+
     /// The unit of coordinate lists and mesh files.
     pub fn unit(&self) -> Option<LengthUnit> {
         if self.unreported.replace(false) {

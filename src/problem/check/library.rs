@@ -2,7 +2,7 @@
 
 use super::scope::Scope;
 use crate::problem::field::Field;
-use crate::problem::file::contact::{ContactEntry, ContactsItem, RestitutionEntry};
+use crate::problem::file::contact::{ContactEntry, ContactsItem, FallingEntry, RestitutionEntry};
 use crate::problem::file::settings::OneOrRange;
 use crate::problem::media::{self, LibraryContact};
 use crate::problem::rule::Rule;
@@ -88,8 +88,7 @@ pub(super) fn merged(entry: &ContactEntry, known: &LibraryContact) -> ContactEnt
         entry.mu_d = Field::Present(known.dynamic_friction.value);
     }
     if !entry.restitution.is_given() {
-        let value = known.restitution.value;
-        entry.restitution = Field::Present(RestitutionEntry::Constant(value));
+        entry.restitution = Field::Present(RestitutionEntry::Falling(FallingEntry::of(known)));
     }
     entry
 }

@@ -7,8 +7,8 @@ use crate::problem::rule::Rule;
 /// An interval of allowed values in SI.
 ///
 /// The outermost ends are far beyond any workshop; they keep masses and squares computable.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Limit {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limit {
     min: f64,
     max: f64,
     /// Whether `max` itself is too large.
@@ -39,9 +39,9 @@ const fn below(min: f64, max: f64, expected: &'static str) -> Limit {
 const ROUNDING: f64 = 1e-12;
 
 impl Limit {
-    pub const LENGTH: Self = to(1e-9, 1e3, "a length from 1 nm to 1 km");
-    pub const LENGTH_OR_ZERO: Self = to(0.0, 1e3, "a length from 0 mm to 1 km");
-    pub const SHIFT: Self = to(-1e3, 1e3, "a length from -1 km to 1 km");
+    pub const LENGTH: Self = to(1e-9, 1e3, "a length from 0.001 um to 1000 m");
+    pub const LENGTH_OR_ZERO: Self = to(0.0, 1e3, "a length from 0 mm to 1000 m");
+    pub const SHIFT: Self = to(-1e3, 1e3, "a length from -1000 m to 1000 m");
     pub const DENSITY: Self = to(1.0, 1e5, "a density from 1 kg/m3 to 100000 kg/m3");
     pub const SPEED: Self = to(1e-6, 1e4, "a speed from 1 um/s to 10000 m/s");
     pub const IMPULSE: Self = to(1e-18, 1e6, "an impulse above 0 N.s");

@@ -8,7 +8,7 @@ mod contacts;
 mod coordinates;
 mod goals;
 mod library;
-mod limit;
+pub(in crate::problem) mod limit;
 mod mesh;
 mod model;
 mod nozzle;
@@ -33,6 +33,7 @@ use super::file::settings::SolveEntry;
 use super::file::{FORMAT, ProblemFile};
 use super::part::{Part, Target};
 use super::rule::Rule;
+use crate::printable;
 use coordinates::Coordinates;
 use limit::Limit;
 use scope::Scope;
@@ -124,7 +125,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         format?;
         let (accuracy, seed) = solve?;
         Some(Problem {
-            title: title?,
+            title: printable::line(&title?).into_owned(),
             parts: parts?,
             target: target.clone()?,
             shot: shot?,
@@ -158,6 +159,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
     let divergence = scope.needed("divergence", &entry.divergence, Limit::DIVERGENCE);
     let speed_spread = scope.optional("speed_spread", &entry.speed_spread, Limit::SPREAD, 0.0);
     let mass_flow = scope.maybe("mass_flow", &entry.mass_flow, Limit::MASS_FLOW);
+    let air_speed = scope.maybe("air_speed", &entry.air_speed, Limit::SPEED);
     let spread = entry
         .spread
         .or(SpreadEntry::Uniform)
@@ -171,6 +173,7 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
         spread: spread?,
         speed_spread: speed_spread?,
         mass_flow: mass_flow?,
+        air_speed: air_speed?,
     })
 }
 

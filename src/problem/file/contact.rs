@@ -10,6 +10,7 @@ use super::Speed;
 use super::form;
 use super::settings::OneOrRange;
 use crate::problem::field::{Field, Needed};
+use crate::problem::media::LibraryContact;
 
 /// What may stand under a name in `contacts`: a contact, or, under `use`, names out of the library.
 #[derive(Clone, Debug, Deserialize)]
@@ -58,8 +59,8 @@ impl JsonSchema for ContactsSchema {
     }
 }
 
-/// One friction choice. With restitution that falls with speed the best speed no longer follows
-/// from the paths, so it is searched like the others, which takes longer.
+/// One friction choice. With restitution that falls with speed, as that of the library does, the best
+/// speed no longer follows from the paths, so it is searched like the others, which takes longer.
 ///
 /// ```yaml
 /// contacts:
@@ -139,6 +140,17 @@ pub(in crate::problem) struct FallingEntry {
     /// How steeply it falls, 0 to 1; 0.25 is the plastic limit.
     #[schemars(example = 0.25)]
     pub exponent: Needed<f64>,
+}
+
+impl FallingEntry {
+    /// As it would be written for a contact of the library.
+    pub fn of(known: &LibraryContact) -> Self {
+        Self {
+            value: Needed::from(known.restitution.value),
+            at: Needed::from(Speed(known.restitution_speed.value)),
+            exponent: Needed::from(known.restitution_exponent.value),
+        }
+    }
 }
 
 /// The friction law of a contact.

@@ -27,7 +27,7 @@ pub(in crate::problem) struct ShotEntry {
     #[serde(rename = "use")]
     #[schemars(with = "Field<form::MediumName>", example = &"S110")]
     pub medium: Field<String>,
-    /// Mean radius, 1 nm to 1 km; that of `use` where absent.
+    /// Mean radius, 0.001 um to 1000 m; that of `use` where absent.
     #[schemars(example = &"0.5 mm")]
     pub radius: Field<Length>,
     /// Density, 1 to 100000 kg/m3; that of `use` where absent.
@@ -42,7 +42,7 @@ pub(in crate::problem) struct ShotEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct JetEntry {
-    /// Diameter of the exit, 0 mm (a point) to 1 km.
+    /// Diameter of the exit, 0 mm (a point) to 1000 m.
     #[schemars(example = &"1.5 mm")]
     pub exit_diameter: Needed<Length>,
     /// Half-angle of the cone, 0 deg (a parallel jet) to below 90 deg.
@@ -60,6 +60,11 @@ pub(in crate::problem) struct JetEntry {
     /// absent.
     #[schemars(example = &"5 kg/min")]
     pub mass_flow: Field<MassFlow>,
+    /// Speed of the air between exit and target, 1 um/s to 10000 m/s; that of an air nozzle is 200 to 300
+    /// m/s. Changes no figure; with it the sheet says how much faster the shot gets on its way, see
+    /// [model.md](model.md#what-is-left-out); taken to be at rest where absent.
+    #[schemars(example = &"250 m/s")]
+    pub air_speed: Field<Speed>,
     /// The machine's calibration, measured with this shot and nozzle: at least two pressures, each
     /// with the mean speed of the shot at the exit, both strictly rising. With it the sheet says
     /// the pressure that belongs to the speed, linear between the two rows beside it and never
@@ -111,9 +116,9 @@ pub(in crate::problem) enum SpreadEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct NozzleEntry {
-    /// Its pieces; none, so that it takes no room, where absent.
+    /// Its pieces; the disc of the exit grown by the radius of a shot where absent.
     pub body: Field<Vec<Field<BodyEntry>>>,
-    /// Least distance to every surface, up to 1 km.
+    /// Least distance to every surface, up to 1000 m, for every pose within the [tolerance](#tolerance).
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub clearance: Field<Length>,
 }
@@ -138,7 +143,7 @@ impl BodyEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BallEntry {
-    /// Radius, 1 nm to 1 km.
+    /// Radius, 0.001 um to 1000 m.
     #[schemars(example = &"3 mm")]
     pub radius: Needed<Length>,
 }
@@ -147,10 +152,10 @@ pub(in crate::problem) struct BallEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct CapsuleEntry {
-    /// Length, 1 nm to 1 km.
+    /// Length, 0.001 um to 1000 m.
     #[schemars(example = &"60 mm")]
     pub length: Needed<Length>,
-    /// Radius, 1 nm to 1 km.
+    /// Radius, 0.001 um to 1000 m.
     #[schemars(example = &"2 mm")]
     pub radius: Needed<Length>,
     /// A fixed direction in the scene: a lance that keeps it whatever the jet does; back along the
@@ -206,7 +211,8 @@ pub(in crate::problem) enum RoleEntry {
 /// and time it takes until the share `wanted` of it is dented, on the mean and where hits are few.
 ///
 /// Dents are taken to fall at random with the density of the place: coverage is then
-/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). The nozzle is taken to stand still, and only
+/// 1 - exp(-n pi d^2 / 4) for n hits per area (Avrami). That of the whole target is the mean over it; where
+/// nothing hits a part of it, the wanted share may never be reached. The nozzle is taken to stand still, and only
 /// first hits count. Times need `jet.mass_flow`. No other figure depends on it.
 ///
 /// ```yaml
@@ -215,7 +221,7 @@ pub(in crate::problem) enum RoleEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct CoverageEntry {
-    /// Diameter d of the dent that one hit leaves, as measured on a strip, 1 nm to 1 km.
+    /// Diameter d of the dent that one hit leaves, as measured on a strip, 0.001 um to 1000 m.
     #[schemars(example = &"0.2 mm")]
     pub dent_diameter: Needed<Length>,
     /// Share of the area that is to be dented, above 0 % and below 100 %.

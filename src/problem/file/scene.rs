@@ -64,22 +64,22 @@ impl PartEntry {
     pub const SHAPES: [&str; 5] = ["keyway", "bore", "box", "extrude", "mesh"];
 }
 
-/// A bore along z from 0 to `length`, open at both ends, with a groove of rectangular section towards
+/// A bore along z from 0 to `length` with a groove of rectangular section towards
 /// +y. The floor lies at y = bore/2 + depth. Surfaces: `floor`, `wall_neg` (x < 0), `wall_pos`,
-/// `bore`, and with a root radius `root_neg` and `root_pos`.
+/// `bore`, and with a root radius `root_neg` and `root_pos`. Both [ends](#ends) are open, without end faces.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct KeywayEntry {
-    /// Diameter of the bore, 1 nm to 1 km.
+    /// Diameter of the bore, 0.001 um to 1000 m.
     #[schemars(example = &"30 mm")]
     pub bore: Needed<Length>,
     /// Width of the groove, below `bore`.
     #[schemars(example = &"8 mm")]
     pub width: Needed<Length>,
-    /// Depth of the floor below the crown of the bore, 1 nm to 1 km.
+    /// Depth of the floor below the crown of the bore, 0.001 um to 1000 m.
     #[schemars(example = &"3.3 mm")]
     pub depth: Needed<Length>,
-    /// Length along z, 1 nm to 1 km.
+    /// Length along z, 0.001 um to 1000 m.
     #[schemars(example = &"40 mm")]
     pub length: Needed<Length>,
     /// Radius between floor and walls, at most half the width and at most the height of the
@@ -89,14 +89,14 @@ pub(in crate::problem) struct KeywayEntry {
 }
 
 /// A round hole along z from 0 to `length`; a pin when it is seen from outside. Surfaces: `wall`, and
-/// `near` (z = 0) and `far` where closed.
+/// `near` (z = 0) and `far` where its [ends](#ends) are closed.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BoreEntry {
-    /// Diameter, 1 nm to 1 km.
+    /// Diameter, 0.001 um to 1000 m.
     #[schemars(example = &"12 mm")]
     pub diameter: Needed<Length>,
-    /// Length along z, 1 nm to 1 km.
+    /// Length along z, 0.001 um to 1000 m.
     #[schemars(example = &"48 mm")]
     pub length: Needed<Length>,
     /// Whether its ends are closed: both alike, or each on its own.
@@ -118,11 +118,12 @@ pub(in crate::problem) struct BoxEntry {
 }
 
 /// A cross-section of lines and arcs, along z from 0 to `length`. Free space lies to the left of its
-/// direction. Surfaces: those that its segments name, and `near` (z = 0) and `far` where closed.
+/// direction. Surfaces: those that its segments name, and `near` (z = 0) and `far` where its
+/// [ends](#ends) are closed.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ExtrudeEntry {
-    /// Length along z, 1 nm to 1 km.
+    /// Length along z, 0.001 um to 1000 m.
     #[schemars(example = &"40 mm")]
     pub length: Needed<Length>,
     /// Whether its ends are closed, as for `bore`. The outline must be closed where an end is.
@@ -173,6 +174,13 @@ pub(in crate::problem) enum EndsEntry {
 }
 
 /// The ends of a part along z, each on its own.
+///
+/// A closed end carries a flat face across the cross-section that the outline encloses: the bottom of a blind hole. It looks into the
+/// part. An open end has no face, neither across the hole nor round it on the metal: shots that pass it leave the part, or come in by
+/// it, and only its rim stands there. Of shots of finite size those that touch the rim hit the wall that ends there; where two walls
+/// meet, the one whose normal is nearer to the direction of the contact. Where the end face of the metal matters, place a `box` or a
+/// `mesh` there. A `keyway` has open ends, a `bore` and an `extrude` have what `ends` says, a `box` has all six faces, and a
+/// `mesh` those in its file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct EachEnd {
@@ -278,9 +286,9 @@ pub(in crate::problem) struct TargetEntry {
     /// faces along z, where absent.
     #[schemars(example = [0, 0, 1])]
     pub along: Field<Triple>,
-    /// Any direction towards the nozzle's side of the target, where the default is not meant: thin
-    /// sheets, the outside of an open shell. The default is the front of the surface; for an open
-    /// mesh, whose winding tells nothing, the side that is more enclosed; the free side where absent.
+    /// Any direction towards the nozzle's side of the target: for thin sheets, the outside of a bore (a
+    /// pin), and open meshes that do not tell which side is free. Parametric parts and closed meshes do:
+    /// a nozzle in their material is infeasible, whatever is said here; the free side where absent.
     #[schemars(example = [0, -1, 0])]
     pub facing: Field<Triple>,
 }

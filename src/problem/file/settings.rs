@@ -53,13 +53,13 @@ pub(in crate::problem) struct SettingsEntry {
     /// 0 deg is along `target.along`.
     #[schemars(example = ["-90 deg", "90 deg"])]
     pub azimuth: Needed<OneOrRange<Angle>>,
-    /// From the aim point back along the axis to the exit, 1 nm to 1 km.
+    /// From the aim point back along the axis to the exit, 0.001 um to 1000 m.
     #[schemars(example = ["6 mm", "20 mm"])]
     pub standoff: Needed<OneOrRange<Length>>,
     /// Speed of the shot at the exit, 1 um/s to 10000 m/s.
     #[schemars(example = ["5 m/s", "40 m/s"])]
     pub speed: Needed<OneOrRange<Speed>>,
-    /// Moves the aim point along azimuth 0, -1 km to 1 km.
+    /// Moves the aim point along azimuth 0, -1000 m to 1000 m.
     #[schemars(example = ["-2 mm", "2 mm"], extend("default" = "0 mm"))]
     pub aim_along: Field<OneOrRange<Length>>,
     /// Moves it across, along azimuth 90 deg.
@@ -173,22 +173,23 @@ pub(in crate::problem) struct ToleranceEntry {
     /// Of the azimuth, 0 to 360 deg.
     #[schemars(example = &"2 deg", extend("default" = "0 deg"))]
     pub azimuth: Field<Angle>,
-    /// Of the standoff, 0 mm to 1 km.
+    /// Of the standoff, 0 mm to 1000 m.
     #[schemars(example = &"1 mm", extend("default" = "0 mm"))]
     pub standoff: Field<Length>,
     /// Of the speed, relative, 0 to below 100 %.
     #[schemars(example = &"3 %", extend("default" = "0 %"))]
     pub speed: Field<Percentage>,
-    /// Of the aim point along azimuth 0, 0 mm to 1 km.
+    /// Of the aim point along azimuth 0, 0 mm to 1000 m.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_along: Field<Length>,
-    /// Of the aim point across it, 0 mm to 1 km.
+    /// Of the aim point across it, 0 mm to 1000 m.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_across: Field<Length>,
-    /// Of the aim point away from the target, 0 mm to 1 km.
+    /// Of the aim point away from the target, 0 mm to 1000 m.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
     pub aim_above: Field<Length>,
-    /// Of the coefficient of restitution, absolute, 0 to 1; the result is kept within 0 to 1.
+    /// Of the coefficient of restitution, absolute, 0 to 1; the result is kept within 0 to 1. Of one that
+    /// falls with speed it shifts `value`, which is E at the speed `at`: E at other speeds shifts in proportion.
     #[schemars(example = 0.1, extend("default" = 0))]
     pub restitution: Field<f64>,
     /// Of both friction coefficients at once, relative, 0 to below 100 %.

@@ -4,9 +4,9 @@ use serde_saphyr::budget::BudgetBreach;
 use serde_saphyr::{Error, MessageFormatter, UserMessageFormatter};
 
 use super::span;
-use crate::problem::fault::Fault;
+use crate::problem::fault::{Fault, Span};
 use crate::problem::rule::Rule;
-use crate::units::shortened;
+use crate::units::{Dimension, parse, parse_number, shortened};
 
 /// The YAML crate's complaint in the words of this program.
 pub(super) fn explain(text: &str, error: &Error) -> Fault {
@@ -55,7 +55,44 @@ pub(super) fn explain(text: &str, error: &Error) -> Fault {
         other => explain_syntax(&UserMessageFormatter.format_message(other)),
     };
     fault.at = error.location().map(|location| span(text, location));
-    fault
+    let unit = (fault.rule == Rule::NotYaml).then(|| unit_behind_list(text, fault.at?));
+    unit.flatten().unwrap_or(fault)
+}
+
+/// The fault of a unit that stands behind a list, as in `[-90, 90] deg`, where the crate complains
+/// about that line or the next.
+fn unit_behind_list(text: &str, at: Span) -> Option<Fault> {
+    let line_of = |number: usize| text.lines().nth(number.checked_sub(1)?);
+    [at.line, at.line.saturating_sub(1)]
+        .into_iter()
+        .find_map(|number| {
+            let line = line_of(number)?;
+            let (start, end) = (line.find('[')?, line.find(']')?);
+            let list = line.get(start + 1..end)?;
+            let rest = &line[end + 1..];
+            let unit = rest.split('#').next()?.split([',', '}']).next()?.trim();
+            let are_numbers = list.split(',').all(|item| parse_number(item).is_some());
+            let is_unit = |dimension: Dimension| parse(dimension, &format!("1 {unit}")).is_ok();
+            if !are_numbers || !Dimension::ALL.into_iter().any(is_unit) {
+                return None;
+            }
+            let items: Vec<String> = list
+                .split(',')
+                .map(|item| format!("{} {unit}", item.trim()))
+                .collect();
+            let message = format!("units belong to each number: [{}]", items.join(", "));
+            let mut fault = Fault::at_key(Rule::NotYaml, "", message);
+            let from = line.len() - rest.trim_start().len();
+            let before = text.split_inclusive('\n').take(number - 1);
+            let line_start: usize = before.map(str::len).sum();
+            fault.at = Some(Span {
+                line: number,
+                column: line[..from].chars().count() + 1,
+                start: line_start + from,
+                end: line_start + from + unit.len(),
+            });
+            Some(fault)
+        })
 }
 
 /// A complaint about the syntax alone, for people who write YAML twice a year.

@@ -18,7 +18,7 @@ use crate::record::{
 };
 use crate::report::number::{count, share_asked, significant};
 
-const SIZE: (u32, u32) = (2000, 1230);
+const SIZE: (u32, u32) = (2000, 1250);
 /// Upper left corners of maps and histograms, px, and their sizes.
 const LEFT: [i32; 3] = [130, 760, 1450];
 const TOP: [i32; 2] = [250, 810];
@@ -137,11 +137,13 @@ fn extent(points: &mut dyn Iterator<Item = [f64; 2]>) -> [Range<f64>; 2] {
 }
 
 /// A value that is marked by name.
-struct Mark {
+pub(super) struct Mark {
     /// In the unit of what it is marked on.
-    value: f64,
-    name: String,
-    is_dashed: bool,
+    pub value: f64,
+    /// Its name.
+    pub name: String,
+    /// Whether its line is dashed.
+    pub is_dashed: bool,
 }
 
 /// What is wanted of N* and the ends of its tolerance, uN.s.
@@ -159,7 +161,7 @@ fn tolerance_marks(goals: &GoalsRecord) -> Vec<Mark> {
             name: "wanted".into(),
             is_dashed: false,
         },
-        end('-', 1.0 - tolerance),
+        end('\u{2212}', 1.0 - tolerance),
         end('+', 1.0 + tolerance),
     ]
 }

@@ -2,9 +2,13 @@
 
 use std::ops::Range;
 
+use plotters::coord::ranged1d::Ranged;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::hits::Mark;
+use super::marks::{Marked, arrange};
 use super::sheet::{self, Area, Drawn, Fault, Place, styled};
 use super::style::{GHOST, GRID, HEADING, INK, LABEL, bold, letters};
 use crate::report::number::plain;
@@ -35,6 +39,10 @@ pub struct Plot<'a, 'b> {
 /// Room for the labels of the axes, px.
 const LABELS_LEFT: u32 = 70;
 const LABELS_BELOW: u32 = 40;
+/// Labels of an axis, at most.
+const MOST_LABELS: usize = 6;
+/// Height of a row of names, px.
+const ROW: i32 = 30;
 /// Where names of axes stand, px from them.
 const NAME_BELOW: i32 = 44;
 const NAME_BESIDE: i32 = 96;
@@ -63,8 +71,8 @@ impl<'a, 'b> Plot<'a, 'b> {
             .light_line_style(TRANSPARENT)
             .axis_style(GHOST.stroke_width(2))
             .label_style(styled(&letters(LABEL), INK, Pos::default()))
-            .x_labels(6)
-            .y_labels(6)
+            .x_labels(labels_that_fit(&axes.x, right - left))
+            .y_labels(MOST_LABELS)
             .x_label_formatter(&|value| plain(*value))
             .y_label_formatter(&|value| plain(*value))
             .draw()?;
@@ -148,25 +156,59 @@ impl<'a, 'b> Plot<'a, 'b> {
         (start < end).then(|| [at(start), at(end)])
     }
 
-    /// A line over the whole height with a name at its upper end.
-    pub fn mark(&self, x: f64, name: &str, is_dashed: bool) -> Drawn {
-        if !(self.x.start..=self.x.end).contains(&x) {
-            return Ok(());
+    /// Lines over the whole height of the values that lie between the axes, with their names at the
+    /// upper end, off each other.
+    pub fn marks(&self, marks: &[Mark]) -> Drawn {
+        let [(left, _), (right, top)] = self.corners;
+        let is_inside = |mark: &&Mark| self.x.contains(&mark.value) || mark.value == self.x.end;
+        let inside: Vec<&Mark> = marks.iter().filter(is_inside).collect();
+        let marked = inside.iter().map(|mark| Marked {
+            x: self.place((mark.value, self.y.end)).0,
+            name: &mark.name,
+        });
+        let marked: Vec<Marked> = marked.collect();
+        for mark in &inside {
+            self.line_at(mark.value, mark.is_dashed)?;
         }
+        for (mark, standing) in marked.iter().zip(arrange(&marked, (left, right))) {
+            let y = top + 6 + ROW * standing.row as i32;
+            let corners = [(standing.left - 2, y), (standing.right + 2, y + ROW)];
+            self.sheet
+                .draw(&Rectangle::new(corners, WHITE.mix(0.75).filled()))?;
+            let (side, x) = if standing.left < mark.x {
+                (HPos::Right, standing.right)
+            } else {
+                (HPos::Left, standing.left)
+            };
+            sheet::text(self.sheet, mark.name, (x, y), side, &letters(LABEL), INK)?;
+        }
+        Ok(())
+    }
+
+    fn line_at(&self, x: f64, is_dashed: bool) -> Drawn {
         let ends = [(x, self.y.start), (x, self.y.end)].map(|end| self.place(end));
         let style = INK.stroke_width(3);
         if is_dashed {
-            sheet::dashes(self.sheet, ends.to_vec(), style)?;
+            sheet::dashes(self.sheet, ends.to_vec(), style)
         } else {
-            self.sheet.draw(&PathElement::new(ends.to_vec(), style))?;
+            self.sheet.draw(&PathElement::new(ends.to_vec(), style))
         }
-        let [(left, _), (right, top)] = self.corners;
-        let (side, shift) = if ends[1].0 < (left + right) / 2 {
-            (HPos::Right, -8)
-        } else {
-            (HPos::Left, 8)
-        };
-        let place = (ends[1].0 + shift, top + 6);
-        sheet::text(self.sheet, name, place, side, &letters(LABEL), INK)
     }
+}
+
+/// How many labels fit side by side on a lower axis of this length, px.
+fn labels_that_fit(range: &Range<f64>, length: i32) -> usize {
+    const APART: i32 = 14;
+    let coordinate: RangedCoordf64 = range.clone().into();
+    let fits = |count: &usize| {
+        let values = coordinate.key_points(*count);
+        let widths = values.iter().map(|it| sheet::width(&plain(*it), LABEL));
+        let (number, widest) = (values.len() as f64, widths.max().unwrap_or(0));
+        let step = match values[..] {
+            [first, second, ..] => (second - first) / (range.end - range.start),
+            _ => 1.0 / number.max(1.0),
+        };
+        step * f64::from(length) >= f64::from(widest + APART)
+    };
+    (2..=MOST_LABELS).rev().find(fits).unwrap_or(2)
 }

@@ -11,6 +11,7 @@ mod labels;
 mod levels;
 mod linear;
 mod map;
+mod marks;
 mod plot;
 mod png;
 mod pose;

@@ -1,11 +1,12 @@
 //! Plain text in columns.
 
+mod widths;
+
 use super::{INDENT, WIDTH, length, wrap};
+use widths::Widths;
 
 /// Spaces between columns.
 const GAP: usize = 2;
-/// The first column gives way to this when a table is too wide; longer names get a line of their own.
-const NARROW_FIRST: usize = 24;
 
 /// How a column stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +17,8 @@ pub enum Align {
     Right,
 }
 
-/// Rows under a heading. The first column holds names; the last may hold texts that are wrapped.
+/// Rows under a heading. The first column holds names; the others hold numbers, or texts that are
+/// wrapped where a line has no room for them.
 #[derive(Debug)]
 pub struct Table {
     head: Vec<String>,
@@ -71,83 +73,107 @@ impl Table {
     }
 
     pub(super) fn render(&self) -> String {
-        let widths = self.widths();
-        let mut text = String::new();
-        // The heading may begin where names do not.
-        let mut head = self.head.clone();
-        let first = head[0].clone();
-        head[0] = String::new();
-        let line = self.lines(&widths, &head).concat();
-        let rest: String = line.chars().skip(length(&first)).collect();
-        text += &format!("{first}{rest}");
-        if !text.ends_with('\n') {
-            text.push('\n');
-        }
-        for row in &self.rows {
-            text += &self.lines(&widths, row).concat();
-        }
-        text
+        self.render_in(WIDTH)
     }
 
-    fn widths(&self) -> Vec<usize> {
-        let last = self.head.len() - 1;
-        let mut widths: Vec<usize> = (0..=last)
-            .map(|column| {
-                let cells = self.rows.iter().map(|row| length(&row[column]));
-                let head = length(&self.head[column]);
-                let head = if column == 0 {
-                    head.saturating_sub(INDENT)
-                } else {
-                    head
-                };
-                cells.fold(head, usize::max)
-            })
-            .collect();
-        let total = |widths: &[usize]| INDENT + widths.iter().sum::<usize>() + GAP * last;
-        if total(&widths) > WIDTH {
-            let excess = total(&widths) - WIDTH;
-            let least = NARROW_FIRST.max(length(&self.head[0]).saturating_sub(INDENT));
-            widths[0] = widths[0].saturating_sub(excess).max(least).min(widths[0]);
-        }
-        if total(&widths) > WIDTH && last > 0 {
-            let excess = total(&widths) - WIDTH;
-            widths[last] = widths[last].saturating_sub(excess).max(1);
-        }
-        widths
+    /// The table in lines of at most `width` characters.
+    fn render_in(&self, width: usize) -> String {
+        let widths = Widths::of(self, width);
+        let rows = self.rows.iter();
+        let lines = rows.flat_map(|row| self.row_lines(&widths, row, width));
+        let lines = self.head_lines(&widths, width).into_iter().chain(lines);
+        lines.map(|line| line + "\n").collect()
     }
 
-    fn lines(&self, widths: &[usize], row: &[String]) -> Vec<String> {
-        let last = widths.len() - 1;
+    /// The heading of the block with those of the columns: beside it where there is room, else below.
+    fn head_lines(&self, widths: &Widths, width: usize) -> Vec<String> {
+        let mut cells = self.head.clone();
+        cells[0].clear();
+        let title = &self.head[0];
+        let start = INDENT + widths.columns[0];
+        if length(title) <= start {
+            let mut lines = self.grid(widths, &cells, Side::Bottom);
+            lines[0] = beside(title, &lines[0]);
+            return lines;
+        }
+        let mut lines = wrap(title, width);
+        let below = self.grid(widths, &cells, Side::Bottom);
+        lines.extend(below.into_iter().filter(|line| !line.is_empty()));
+        lines
+    }
+
+    fn row_lines(&self, widths: &Widths, row: &[String], width: usize) -> Vec<String> {
+        let mut cells = row.to_vec();
         let mut lines: Vec<String> = Vec::new();
-        let mut name = row[0].as_str();
-        if length(name) > widths[0] {
-            lines.extend(
-                wrap(name, WIDTH - INDENT)
-                    .iter()
-                    .map(|line| format!("{:INDENT$}{line}\n", "")),
-            );
-            name = "";
+        if length(&row[0]) > widths.columns[0] {
+            let name = wrap(&row[0], width.saturating_sub(INDENT));
+            lines.extend(name.iter().map(|line| format!("{:INDENT$}{line}", "")));
+            cells[0].clear();
         }
-        let mut line = format!("{:INDENT$}{}", "", pad(name, widths[0], self.align[0]));
-        for column in 1..last {
-            line += &" ".repeat(GAP);
-            line += &pad(&row[column], widths[column], self.align[column]);
-        }
-        let start = length(&line) + GAP;
-        let end = if last == 0 {
-            Vec::new()
-        } else {
-            wrap(&row[last], widths[last])
-        };
-        let first = end.first().map_or_else(String::new, |end| {
-            " ".repeat(GAP) + &pad(end, widths[last], self.align[last])
-        });
-        lines.push(format!("{}\n", (line + &first).trim_end()));
-        for more in end.iter().skip(1) {
-            lines.push(format!("{:start$}{more}\n", ""));
+        let grid = self.grid(widths, &cells, Side::Top);
+        lines.extend(grid.into_iter().filter(|line| !line.is_empty()));
+        for &column in &widths.below {
+            lines.extend(self.below(column, &row[column], width));
         }
         lines
     }
+
+    /// The cells that stand side by side, each wrapped to the width of its column.
+    fn grid(&self, widths: &Widths, cells: &[String], side: Side) -> Vec<String> {
+        let columns: Vec<usize> = (0..cells.len())
+            .filter(|column| !widths.below.contains(column))
+            .collect();
+        let wrapped: Vec<Vec<String>> = columns
+            .iter()
+            .map(|&column| wrap(&cells[column], widths.columns[column]))
+            .collect();
+        let height = wrapped.iter().map(Vec::len).max().unwrap_or(0).max(1);
+        let line = |index: usize| {
+            let mut line = " ".repeat(INDENT);
+            for (&column, texts) in columns.iter().zip(&wrapped) {
+                if column > 0 {
+                    line += &" ".repeat(GAP);
+                }
+                let above = match side {
+                    Side::Top => 0,
+                    Side::Bottom => height - texts.len(),
+                };
+                let text = index.checked_sub(above).and_then(|at| texts.get(at));
+                let text = text.map_or("", String::as_str);
+                line += &pad(text, widths.columns[column], self.align[column]);
+            }
+            line.trim_end().to_owned()
+        };
+        (0..height).map(line).collect()
+    }
+
+    /// A cell for which no line has room beside the others, with its heading.
+    fn below(&self, column: usize, cell: &str, width: usize) -> Vec<String> {
+        const FURTHER_IN: usize = 2 * INDENT;
+        if cell.is_empty() {
+            return Vec::new();
+        }
+        let text = match self.head[column].as_str() {
+            "" => cell.to_owned(),
+            head => format!("{head}: {cell}"),
+        };
+        let lines = wrap(&text, width.saturating_sub(FURTHER_IN));
+        let indented = |line: &String| format!("{:FURTHER_IN$}{line}", "");
+        lines.iter().map(indented).collect()
+    }
+}
+
+/// Where cells of one line stand in a row of several.
+#[derive(Clone, Copy)]
+enum Side {
+    Top,
+    Bottom,
+}
+
+/// A heading with what stands to the right of it in its line.
+fn beside(title: &str, line: &str) -> String {
+    let rest: String = line.chars().skip(length(title)).collect();
+    format!("{title}{rest}")
 }
 
 fn pad(text: &str, width: usize, align: Align) -> String {
@@ -158,29 +184,4 @@ fn pad(text: &str, width: usize, align: Align) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_names_get_a_line_of_their_own() {
-        let mut table = Table::new(&[("NAMES", Align::Left), ("value", Align::Right)]);
-        let long = "part.".repeat(25);
-        table.row([long.clone(), "1".into()]);
-        table.row(["short".into(), "12".into()]);
-        let text = table.render();
-        assert!(text.lines().all(|line| length(line) <= WIDTH), "{text}");
-        assert!(text.lines().all(|line| line.trim_end() == line));
-        assert_eq!(text.matches("part.").count(), 25);
-    }
-
-    #[test]
-    fn columns_are_aligned_below_their_headings() {
-        let mut table = Table::new(&[("NAMES", Align::Left), ("value", Align::Right)]);
-        table.row(["a".into(), "1.0".into()]);
-        table.row(["bcdef".into(), "12.0".into()]);
-        assert_eq!(
-            table.render(),
-            "NAMES    value\n  a        1.0\n  bcdef   12.0\n"
-        );
-    }
-}
+mod tests;

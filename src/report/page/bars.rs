@@ -5,6 +5,7 @@ use crate::report::number::{Scale, fixed, impulse, plain, share, significant};
 use crate::report::sheet::objective;
 use crate::report::sheet::received::{mainly, shown_name};
 use crate::report::sheet::setting::{SETTINGS, Setting};
+use crate::report::typeset::{typeset, unit_behind};
 
 /// A piece of a bar, in percent of its track.
 pub struct Span {
@@ -39,8 +40,10 @@ fn percent_of(value: f64, (low, high): (f64, f64)) -> f64 {
 pub struct WindowBar {
     /// The setting.
     pub name: &'static str,
-    /// Its unit.
-    pub unit: &'static str,
+    /// The unit behind the recommended value.
+    pub unit: String,
+    /// The unit behind the ends of its range.
+    pub range_unit: String,
     /// The recommended value.
     pub value: String,
     /// How exactly it is set; empty for exactly.
@@ -94,9 +97,10 @@ impl WindowBar {
         };
         Some(Self {
             name: setting.name,
-            unit: setting.unit,
+            unit: unit_behind(setting.unit_of(record)),
+            range_unit: unit_behind(setting.unit),
             value: shown.value,
-            tolerance: setting.tolerance(record).unwrap_or_default(),
+            tolerance: typeset(&setting.tolerance(record).unwrap_or_default()),
             range: [ends.0, ends.1].map(plain),
             window_in_range: Span::new(low, high, ends),
             value_in_range: fixed(percent_of(value, ends), 2),
@@ -235,7 +239,7 @@ impl ChoiceBar {
         let bars = fitting().zip(scale.iter().cycle());
         bars.map(|((contact, objective), scale)| Self {
             contact: contact.clone(),
-            total: scale.with_error(objective.total, objective.standard_error),
+            total: typeset(&scale.with_error(objective.total, objective.standard_error)),
             terms: objective::terms(objective)
                 .map(|(_, value, _)| TermBar {
                     value: scale.text(value),

@@ -1,6 +1,7 @@
 //! Blocks of the sheet as elements of a page.
 
 use crate::report::layout::{Align, Block, Part, Table};
+use crate::report::typeset::typeset;
 
 /// An element of a page.
 pub enum Element {
@@ -46,13 +47,16 @@ impl Element {
                     Some(Self::Verbatim(lines)) => *lines += &format!("\n{line}"),
                     _ => elements.push(Self::Verbatim(line)),
                 },
-                Part::Paragraph { label, text } => match (label.trim(), elements.last_mut()) {
-                    ("", _) => elements.push(Self::Paragraph(text)),
-                    ("-", Some(Self::List(items))) => items.push(text),
-                    ("-", _) => elements.push(Self::List(vec![text])),
-                    (name, Some(Self::Terms(terms))) => terms.push((name.into(), text)),
-                    (name, _) => elements.push(Self::Terms(vec![(name.into(), text)])),
-                },
+                Part::Paragraph { label, text } => {
+                    let text = typeset(&text);
+                    match (label.trim(), elements.last_mut()) {
+                        ("", _) => elements.push(Self::Paragraph(text)),
+                        ("-", Some(Self::List(items))) => items.push(text),
+                        ("-", _) => elements.push(Self::List(vec![text])),
+                        (name, Some(Self::Terms(terms))) => terms.push((name.into(), text)),
+                        (name, _) => elements.push(Self::Terms(vec![(name.into(), text)])),
+                    }
+                }
             }
         }
         elements
@@ -75,19 +79,21 @@ impl TableView {
             text: if column == 0 {
                 String::new()
             } else {
-                text.clone()
+                typeset(text)
             },
             class: class(column),
         });
         let row = |row: &Vec<String>| {
             let cells = row.iter().enumerate().map(|(column, text)| Cell {
                 class: verdict_class(text).unwrap_or(class(column)),
-                text: text.clone(),
+                text: typeset(text),
             });
             cells.collect()
         };
         Self {
-            caption: sentence_case(table.head().first().map_or("", String::as_str)),
+            caption: typeset(&sentence_case(
+                table.head().first().map_or("", String::as_str),
+            )),
             head: head.collect(),
             rows: table.rows().iter().map(row).collect(),
         }

@@ -18,7 +18,8 @@ use self::still::Still;
 use super::figure::{Figure, FigureFault};
 use super::number::{count, fixed};
 use super::sheet;
-use super::sheet::setting::SETTINGS;
+use super::sheet::setting::{SETTINGS, Setting};
+use super::typeset::{typeset, unit_behind};
 use crate::record::{EvidenceRecord, PlaceRecord, Record, StatusRecord};
 
 const STYLE: &str = include_str!("page.css");
@@ -135,6 +136,8 @@ struct Page<'a> {
 struct Head {
     passes: bool,
     verdict: Vec<String>,
+    /// What takes the ground from under all figures; empty where nothing does.
+    beware: String,
     limited_by: String,
     search: String,
     /// What the settings are: to be set, given, or the best that failed.
@@ -146,7 +149,7 @@ struct Head {
 struct Card {
     name: &'static str,
     value: String,
-    unit: &'static str,
+    unit: String,
     remark: String,
 }
 
@@ -159,23 +162,22 @@ impl Head {
             .map(|setting| Card {
                 name: setting.name,
                 value: setting.shown(record).value,
-                unit: setting.unit,
-                remark: setting
-                    .tolerance(record)
-                    .map_or_else(String::new, |tolerance| format!("set within {tolerance}")),
+                unit: unit_behind(setting.unit_of(record)),
+                remark: typeset(&remark(record, setting)),
             })
             .collect();
         cards.push(Card {
             name: "contact",
             value: best.contact.clone(),
-            unit: "",
+            unit: String::new(),
             remark: sheet::settings::coefficients(&best.contact_values),
         });
         Self {
             passes: best.passes && best.feasible,
-            verdict: sheet::headline::verdict(record),
-            limited_by: sheet::cause::headline(record),
-            search: sheet::headline::status(record),
+            verdict: typeset_all(sheet::headline::verdict(record)),
+            beware: typeset(sheet::headline::beware(record).unwrap_or_default()),
+            limited_by: typeset(&sheet::cause::headline(record)),
+            search: typeset(&sheet::headline::status(record)),
             settings_are: match record.status {
                 StatusRecord::Evaluated => "Settings given",
                 StatusRecord::NoFeasiblePose => "Nearest miss",
@@ -185,6 +187,19 @@ impl Head {
             cards,
         }
     }
+}
+
+fn typeset_all(lines: Vec<String>) -> Vec<String> {
+    lines.iter().map(|line| typeset(line)).collect()
+}
+
+/// What stands below a setting.
+fn remark(record: &Record, setting: &Setting) -> String {
+    if setting.is_any(record) {
+        return "makes no difference at 90 deg".into();
+    }
+    let tolerance = setting.tolerance(record);
+    tolerance.map_or_else(String::new, |tolerance| format!("set within {tolerance}"))
 }
 
 /// The blocks of the sheet.
@@ -212,7 +227,7 @@ impl Parts {
         let best = &record.best;
         Self {
             settings: Element::of_block(sheet::settings::settings(record)),
-            pose: Element::of(sheet::settings::pose(best)),
+            pose: Element::of(sheet::settings::pose(best, &record.problem.lengths_in)),
             cures: Element::of(sheet::blocked::cures(record)),
             target: Element::of(sheet::received::target(record)),
             verdicts: Element::of(sheet::verdicts::block(best, &record.problem.goals)),
@@ -306,7 +321,7 @@ impl Strip {
     fn new((index, place): (usize, &PlaceRecord)) -> Self {
         Self {
             number: index + 1,
-            what: place.text.clone(),
+            what: typeset(&place.text),
             surface: place.surface.clone(),
             place: place.point_m.map(|metres| fixed(metres * 1e3, 2)),
             normal: place.normal.map(|part| fixed(part, 3)),

@@ -5,7 +5,7 @@ use super::setting::{Edge, SETTINGS};
 use super::{objective, subject};
 use crate::record::{Record, VerdictRecord};
 use crate::report::layout::Block;
-use crate::report::number::{fixed, impulse, impulse_asked, significant};
+use crate::report::number::{fixed, impulse, impulse_asked, share, significant};
 
 /// A verdict that passes limits the answer from this part of what is allowed on.
 const LOADED: f64 = 0.1;
@@ -34,11 +34,7 @@ impl<'a> Cause<'a> {
         let verdicts = record.best.verdicts.iter();
         let worst = verdicts
             .filter(|verdict| !verdict.passes || subject::load(verdict) >= LOADED)
-            .max_by(|a, b| {
-                let key = |verdict: &VerdictRecord| (!verdict.passes, subject::load(verdict));
-                let ((a_fails, a_load), (b_fails, b_load)) = (key(a), key(b));
-                a_fails.cmp(&b_fails).then(a_load.total_cmp(&b_load))
-            });
+            .max_by(|a, b| subject::by_urgency(a, b));
         match (worst, nearest_edge(record, |_| true)) {
             (Some(verdict), _) => Self::Verdict(verdict),
             (None, Some(edge)) => Self::Window(edge),
@@ -59,14 +55,12 @@ fn nearest_edge<'a>(record: &'a Record, counts: impl Fn(&Edge) -> bool) -> Optio
 /// One line for the head of the sheet.
 pub fn headline(record: &Record) -> String {
     match Cause::of(record) {
-        Cause::Clearance => format!(
-            "room for the nozzle body at {}",
-            record
-                .best
-                .clearance_surface
-                .as_deref()
-                .unwrap_or("the part")
-        ),
+        Cause::Clearance => super::blocked::limit(&record.best),
+        Cause::Verdict(verdict)
+            if !verdict.passes && subject::missed_target(&record.best).is_some() =>
+        {
+            format!("{}: no shot hits the target first", verdict.subject)
+        }
         Cause::Verdict(verdict) => {
             let driver = nearest_edge(record, |edge| edge.turns == verdict.subject).map_or_else(
                 || reason(record, verdict),
@@ -110,8 +104,10 @@ fn aside(deviation: &Deviation) -> String {
 /// How much of what is allowed is used up.
 fn used(verdict: &VerdictRecord) -> String {
     let load = subject::load(verdict);
-    if !load.is_finite() {
-        "nothing is allowed".into()
+    if verdict.counted == 0 {
+        "nothing was counted".into()
+    } else if !load.is_finite() {
+        format!("{} where none is allowed", share(verdict.share))
     } else if load >= 2.0 {
         format!("{} times its allowance", significant(load, 2))
     } else {

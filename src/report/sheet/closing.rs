@@ -3,14 +3,17 @@
 use crate::record::{Record, StatusRecord};
 use crate::report::layout::{Block, WIDTH};
 use crate::report::number::{count, fixed, plural};
+use crate::validity::STRONG_INTERFERENCE;
 
-/// The notes on validity.
+/// The notes on validity, but for the one that stands in the head.
 pub fn validity(record: &Record) -> Option<Block> {
-    if record.notes.is_empty() {
-        return None;
-    }
+    let notes = record.notes.iter();
+    let mut notes = notes
+        .filter(|note| note.name != STRONG_INTERFERENCE)
+        .peekable();
+    notes.peek()?;
     let mut block = Block::titled("VALIDITY");
-    for note in &record.notes {
+    for note in notes {
         block.hanging("- ", &note.text);
     }
     Some(block)

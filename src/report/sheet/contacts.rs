@@ -6,6 +6,7 @@ use crate::elementary::hypot;
 use crate::record::{AnswerRecord, Record};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{Scale, impulse, share, share_asked, significant};
+use crate::solve::is_tie;
 
 /// A row for each contact, best first, and what ties; nothing when there was no choice.
 pub fn block(record: &Record) -> Option<Block> {
@@ -29,12 +30,9 @@ pub fn block(record: &Record) -> Option<Block> {
     for choice in choices {
         let mut cells = vec![choice.contact.clone(), verdict(choice)];
         cells.extend(SETTINGS[..4].iter().map(|s| s.text(&choice.settings)));
-        cells.push(
-            choice
-                .target
-                .as_ref()
-                .map_or_else(|| "-".into(), |target| share(target.share_sticking)),
-        );
+        let hit = choice.target.as_ref();
+        let hit = hit.filter(|target| target.share_on_target > 0.0);
+        cells.push(hit.map_or_else(|| "-".into(), |target| share(target.share_sticking)));
         cells.push(choice.objective.map_or_else(
             || "-".into(),
             |objective| {
@@ -107,17 +105,21 @@ fn sentences(record: &Record) -> Vec<String> {
     else {
         return sentences;
     };
+    let totals = feasible.iter().filter_map(|choice| total(choice));
+    let least = totals.fold(best_total, |a, b| if b.0 < a.0 { b } else { a });
     let accuracy = record.problem.accuracy;
-    let ties = |choice: &AnswerRecord| {
-        total(choice).is_some_and(|other| {
-            equal(best_total, other) || (other.0 - best_total.0).abs() <= accuracy * best_total.0
-        })
-    };
+    let ties =
+        |choice: &AnswerRecord| total(choice).is_some_and(|other| is_tie(least, other, accuracy));
     let (tied, behind): (Vec<&AnswerRecord>, Vec<&AnswerRecord>) =
         feasible.into_iter().partition(|choice| ties(choice));
     if tied.len() > 1 {
+        let first = if best_total.0 > least.0 {
+            format!(" {} stands first as the file names it first.", best.contact)
+        } else {
+            String::new()
+        };
         sentences.push(format!(
-            "{} tie: J is equal within its standard error or the accuracy asked for ({}).",
+            "{} tie: J is equal within its standard error or the accuracy asked for ({}).{first}",
             names(&tied),
             share_asked(accuracy)
         ));

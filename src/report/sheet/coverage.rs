@@ -1,8 +1,8 @@
 //! How densely first hits fall on the target, and how long it takes until it is dented.
 
-use crate::record::{CoverageRecord, DensityRecord, Record};
+use crate::record::{CoverageRecord, DensityRecord, DentedRecord, Record};
 use crate::report::layout::{Align, Block, Table};
-use crate::report::number::{plain, share, significant};
+use crate::report::number::{count, plain, share, significant};
 
 /// Densities with what it takes to the wanted coverage, and what that assumes.
 pub fn block(record: &Record) -> Option<Block> {
@@ -20,23 +20,60 @@ pub fn block(record: &Record) -> Option<Block> {
     table.row(row("at least, on 95 % of it", coverage, &coverage.lowest_5));
     let mut block = Block::default();
     block.table(table.without_empty_columns());
-    let mut spread = format!(
-        "Over cells of {} mm the density of first hits varies by {} (standard deviation)",
+    if let Some(dented) = &coverage.dented {
+        block.paragraph(&of_the_target(coverage, dented));
+    }
+    block.paragraph(&format!(
+        "Over cells of {} mm the density of first hits varies by {} (standard deviation).",
         significant(coverage.cell_side_m * 1e3, 2),
         share(coverage.variation),
-    );
-    if coverage.share_not_hit > 0.0 {
-        spread += &format!(
-            "; {} of the target's area is not hit: only a nozzle that moves gets there",
-            share(coverage.share_not_hit)
-        );
-    }
-    block.paragraph(&format!("{spread}."));
+    ));
     block.paragraph(&format!(
         "Dents of {} mm that fall at random (Avrami): n hits per area cover 1 - exp(-n pi d2 / 4).",
         plain(coverage.dent_diameter_m * 1e3),
     ));
     Some(block)
+}
+
+/// How much of the target is dented and when, each number with its errors.
+fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord) -> String {
+    let wanted = plain(coverage.wanted * 100.0);
+    let takes = |kilograms: f64| match coverage.mass_flow_kg_s {
+        Some(flow) => format!("{} ({})", duration(kilograms / flow), mass(kilograms)),
+        None => mass(kilograms),
+    };
+    let bare = format!(
+        "{} of it is not reached (none of {} shots falls there; cell size at most {} more)",
+        share(coverage.share_not_hit),
+        count(coverage.shots),
+        share(dented.not_hit_resolution),
+    );
+    let reached = match dented.mass_kg {
+        Some(needed) => format!(
+            "{wanted} % of the target is dented after {} (std. error {}, cell size at most {})",
+            takes(needed.value),
+            mass(needed.standard_error),
+            mass(needed.resolution),
+        ),
+        None => format!("{wanted} % of the target is dented never: {bare}"),
+    };
+    let mut sentences = vec![reached];
+    if dented.mass_kg.is_some() && coverage.share_not_hit > 0.0 {
+        sentences.push(bare);
+    }
+    if let (Some(even), Some(by_even)) = (dented.even_mass_kg, dented.by_even_mass) {
+        sentences.push(format!(
+            "After {}, which were enough if hits fell evenly, {} of it is dented (std. error {}, cell size at most {})",
+            takes(even),
+            share(by_even.value),
+            share(by_even.standard_error),
+            share(by_even.resolution),
+        ));
+    }
+    if coverage.share_not_hit > 0.0 {
+        sentences.push("Only a nozzle that moves gets everywhere".into());
+    }
+    sentences.join(". ") + "."
 }
 
 fn hits_unit(coverage: &CoverageRecord) -> &'static str {

@@ -1,9 +1,11 @@
-//! The head of the sheet: what it is about, the overall verdict, what limits it.
+//! The head of the sheet: what it is about, the overall verdict, what takes the ground from under it, what
+//! limits it.
 
 use super::{blocked, cause, subject};
-use crate::record::{AnswerRecord, Record, StatusRecord};
+use crate::record::{AnswerRecord, Record, StatusRecord, VerdictRecord};
 use crate::report::layout::Block;
 use crate::report::number::{plural, share_asked, significant};
+use crate::validity::STRONG_INTERFERENCE;
 
 /// Failing verdicts that the headline spells out.
 const SPELT_OUT: usize = 3;
@@ -21,6 +23,9 @@ pub fn block(record: &Record) -> Block {
             "             "
         };
         block.hanging(label, line);
+    }
+    if let Some(reason) = beware(record) {
+        block.hanging("beware       ", reason);
     }
     block.hanging("limited by   ", &cause::headline(record));
     block.hanging("search       ", &status(record));
@@ -40,8 +45,13 @@ pub fn verdict(record: &Record) -> Vec<String> {
     if !best.feasible {
         lines.push(format!("FAIL: {}", blocked::conflict(best)));
     }
-    let failing = subject::failing(best);
-    if let [only] = failing[..] {
+    let mut failing = subject::failing(best);
+    if let (true, Some(surface)) = (best.feasible, subject::missed_target(best)) {
+        lines.push(format!("FAIL: no shot hits {surface} first"));
+        // What follows from that is not said again.
+        failing.retain(|verdict| verdict.counted > 0 && verdict.subject != "miss");
+        lines.extend(spelt_out(record, &failing));
+    } else if let [only] = failing[..] {
         lines.push(format!("FAIL: {}", failure(record, &only.subject)));
     } else if !failing.is_empty() {
         lines.push(format!(
@@ -49,12 +59,7 @@ pub fn verdict(record: &Record) -> Vec<String> {
             failing.len(),
             plural(best.verdicts.len(), "verdict")
         ));
-        for verdict in failing.iter().take(SPELT_OUT) {
-            lines.push(format!("- {}", failure(record, &verdict.subject)));
-        }
-        if failing.len() > SPELT_OUT {
-            lines.push(format!("- and {} more", failing.len() - SPELT_OUT));
-        }
+        lines.extend(spelt_out(record, &failing));
     }
     if lines.is_empty() {
         lines.push(pass(best));
@@ -65,6 +70,13 @@ pub fn verdict(record: &Record) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// What takes the ground from under all figures: shots that meet each other in flight.
+pub fn beware(record: &Record) -> Option<&str> {
+    let mut notes = record.notes.iter();
+    let note = notes.find(|note| note.name == STRONG_INTERFERENCE)?;
+    Some(&note.text)
 }
 
 fn pass(best: &AnswerRecord) -> String {
@@ -84,6 +96,18 @@ fn pass(best: &AnswerRecord) -> String {
     } else {
         format!("{all}, but too near to be certain: {}", near.join(", "))
     }
+}
+
+/// A line for each of the worst that fail.
+fn spelt_out(record: &Record, failing: &[&VerdictRecord]) -> Vec<String> {
+    let worst = failing.iter().take(SPELT_OUT);
+    let mut lines: Vec<String> = worst
+        .map(|verdict| format!("- {}", failure(record, &verdict.subject)))
+        .collect();
+    if failing.len() > SPELT_OUT {
+        lines.push(format!("- and {} more", failing.len() - SPELT_OUT));
+    }
+    lines
 }
 
 /// What fails and by how much.

@@ -17,7 +17,7 @@ pub fn block(record: &Record) -> Option<Block> {
         ("J", Align::Right),
         ("best settings move", Align::Left),
         ("costing", Align::Right),
-        ("time", Align::Right),
+        ("rays", Align::Right),
         ("turns", Align::Left),
         ("search", Align::Left),
     ]);
@@ -31,7 +31,7 @@ pub fn block(record: &Record) -> Option<Block> {
             } else {
                 "0".into()
             },
-            format!("{} %", fixed(effect.relative_time * 100.0, 0)),
+            format!("{} %", fixed(effect.relative_rays * 100.0, 0)),
             turns(effect),
             if effect.left_out { "without" } else { "with" }.into(),
         ]);
@@ -67,9 +67,10 @@ fn change(change: f64) -> String {
 
 /// The setting that moves most.
 fn moves(effect: &RungRecord) -> String {
-    let moves = SETTINGS.iter().filter_map(|setting| {
-        let [from, to] = [&effect.settings_with, &effect.settings_without]
-            .map(|settings| setting.value(settings));
+    let both = [&effect.settings_with, &effect.settings_without];
+    let matters = |setting: &&Setting| !both.iter().any(|it| setting.is_any_at(it));
+    let moves = SETTINGS.iter().filter(matters).filter_map(|setting| {
+        let [from, to] = both.map(|settings| setting.value(settings));
         let shown = fixed((to - from).abs(), setting.decimals);
         let is_seen = shown.chars().any(|digit| ('1'..='9').contains(&digit));
         let sign = if to < from { '-' } else { '+' };

@@ -55,6 +55,7 @@ fn taken(record: &Record) -> Vec<(String, Numbers<'_>)> {
                 ("mu_s", &known.mu_s),
                 ("mu_d", &known.mu_d),
                 ("restitution", &known.restitution),
+                ("exponent of restitution", &known.restitution_exponent),
             ];
             (known.contact.clone(), numbers)
         });

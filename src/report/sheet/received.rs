@@ -10,6 +10,13 @@ use crate::report::number::{
 pub fn target(record: &Record) -> Option<Block> {
     let (best, goals) = (&record.best, &record.problem.goals);
     let target = best.target.as_ref()?;
+    let hit = target.share_on_target > 0.0;
+    if !hit {
+        let mut block = Block::titled("TARGET");
+        block.paragraph(&missed(best, &target.surface));
+        block.paragraph_if(!best.feasible, AS_IF_FREE);
+        return Some(block);
+    }
     let mut block = Block::default();
     let mut table = Table::new(&[
         ("TARGET", Align::Left),
@@ -29,26 +36,23 @@ pub fn target(record: &Record) -> Option<Block> {
             wanted,
         ]
     };
-    let hit = target.share_on_target > 0.0;
-    if hit {
-        let wanted = format!(
-            "{} +- {}",
-            impulse_asked(goals.normal_impulse),
-            share_asked(goals.normal_impulse_tolerance)
-        );
-        table.row(row("N* normal, uN.s", &target.normal_impulse, wanted));
-        let limit = goals.tangential_impulse.map_or_else(
-            || "no limit".into(),
-            |limit| format!("at most {}", impulse_asked(limit)),
-        );
-        table.row(row(
-            "f* tangential, uN.s",
-            &target.tangential_impulse,
-            limit,
-        ));
-    }
+    let wanted = format!(
+        "{} +- {}",
+        impulse_asked(goals.normal_impulse),
+        share_asked(goals.normal_impulse_tolerance)
+    );
+    table.row(row("N* normal, uN.s", &target.normal_impulse, wanted));
+    let limit = goals.tangential_impulse.map_or_else(
+        || "no limit".into(),
+        |limit| format!("at most {}", impulse_asked(limit)),
+    );
+    table.row(row(
+        "f* tangential, uN.s",
+        &target.tangential_impulse,
+        limit,
+    ));
     block.table(table);
-    if hit && best.shots == 1 {
+    if best.shots == 1 {
         let sticking = if target.share_sticking == 0.0 {
             "slide"
         } else {
@@ -58,7 +62,7 @@ pub fn target(record: &Record) -> Option<Block> {
             "All shots are the same: they hit {} first and {sticking}.",
             target.surface
         ));
-    } else if hit {
+    } else {
         block.paragraph(&format!(
             "{} of {} hit {} first; {}.",
             share(target.share_on_target),
@@ -70,19 +74,21 @@ pub fn target(record: &Record) -> Option<Block> {
                 sticking => format!("{} of these stick, the others slide", share(sticking)),
             }
         ));
-    } else {
-        block.paragraph(&format!(
-            "NONE of {} hits {} first.",
-            plural(best.shots, "shot"),
-            target.surface
-        ));
     }
-    if !best.feasible {
-        block.paragraph(
-            "Figures here and below are those of a jet from there, as if the body were not in the way.",
-        );
-    }
+    block.paragraph_if(!best.feasible, AS_IF_FREE);
     Some(block)
+}
+
+const AS_IF_FREE: &str =
+    "Figures here and below are those of a jet from there, as if the body were not in the way.";
+
+/// That no shot hits the target.
+fn missed(best: &AnswerRecord, surface: &str) -> String {
+    match best.shots {
+        0 => "No shot was traced.".into(),
+        1 => format!("All shots are the same, and none hits {surface} first."),
+        shots => format!("NONE of {} hits {surface} first.", plural(shots, "shot")),
+    }
 }
 
 /// What every secondary surface receives; those that are never hit in one line.
@@ -145,7 +151,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
     if !never.is_empty() {
         block.hanging(
             "never hit:  ",
-            &format!("{} ({})", never.join(", "), never_means(best)),
+            &format!("{} ({})", never.join(", "), never_means(best, never.len())),
         );
     }
     if hit.iter().any(|(_, receipt, _)| receipt.allow.is_some()) {
@@ -165,15 +171,16 @@ pub fn shown_name(record: &Record, name: &str) -> String {
 }
 
 /// What zero hits among so many shots mean.
-fn never_means(best: &AnswerRecord) -> String {
+fn never_means(best: &AnswerRecord, surfaces: usize) -> String {
     if best.shots == 0 {
         return "no shot was traced".into();
     }
     if best.shots == 1 {
         return "all shots are the same, and none does".into();
     }
+    let each = if surfaces == 1 { "" } else { "each " };
     format!(
-        "each by less than {} % of the shots",
+        "{each}by less than {} % of the shots",
         significant((300.0 / best.shots as f64).min(100.0), 2)
     )
 }

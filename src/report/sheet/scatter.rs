@@ -1,7 +1,8 @@
 //! Where the scatter of N* comes from, to first order.
 
-use crate::elementary::tan;
-use crate::record::{Record, TargetRecord};
+use super::unknowns::where_measured;
+use crate::elementary::{power, sin, tan};
+use crate::record::{AnswerRecord, Record, TargetRecord};
 use crate::report::number::{fixed, plain, share_asked};
 
 /// Standard deviation of a normal distribution that is cut at two, relative to the uncut one.
@@ -65,6 +66,44 @@ pub fn sentence(record: &Record) -> Option<String> {
     ))
 }
 
+/// E of shots as they arrive.
+struct Arriving {
+    value: f64,
+    /// By how much it shifts when E shifts by 1 where it was measured.
+    per_reference: f64,
+    /// The relative change of N* with a relative change of the normal speed: less than 1 where E falls.
+    of_speed: f64,
+}
+
+impl Arriving {
+    fn of(best: &AnswerRecord) -> Self {
+        let contact = &best.contact_values;
+        let normal_speed = best.settings.speed_m_s * sin(best.settings.incidence_deg.to_radians());
+        let falls = contact.restitution_at_m_s.zip(contact.restitution_exponent);
+        let Some((at, exponent)) = falls.filter(|_| normal_speed > 0.0) else {
+            return Self {
+                value: contact.restitution,
+                per_reference: 1.0,
+                of_speed: 1.0,
+            };
+        };
+        let factor = power(normal_speed / at, -exponent);
+        let value = contact.restitution * factor;
+        if value >= 1.0 {
+            return Self {
+                value: 1.0,
+                per_reference: 0.0,
+                of_speed: 1.0,
+            };
+        }
+        Self {
+            value,
+            per_reference: factor,
+            of_speed: 1.0 - exponent * value / (1.0 + value),
+        }
+    }
+}
+
 /// N* goes with (1 + e) v sin(incidence) and the cube of the radius; largest source first.
 fn sources(record: &Record) -> Vec<Source> {
     let (problem, best) = (&record.problem, &record.best);
@@ -76,31 +115,35 @@ fn sources(record: &Record) -> Vec<Source> {
         0.0 => 0.0,
         angle => tan(angle.to_radians()).recip(),
     };
-    let restitution = best.contact_values.restitution;
+    let restitution = Arriving::of(best);
     let mut sources = vec![
         (
-            format!("restitution +-{}", plain(tolerance.restitution)),
-            tolerance.restitution / (1.0 + restitution) * uniform,
+            format!(
+                "restitution +-{}{}",
+                plain(tolerance.restitution),
+                where_measured(&best.contact_values)
+            ),
+            tolerance.restitution * restitution.per_reference / (1.0 + restitution.value) * uniform,
         ),
         (
             format!("speed scatter {}", share_asked(problem.speed_spread)),
-            CUT_AT_TWO * problem.speed_spread,
+            CUT_AT_TWO * problem.speed_spread * restitution.of_speed,
         ),
         (
             format!("speed set within {}", share_asked(tolerance.speed)),
-            tolerance.speed * uniform,
+            tolerance.speed * uniform * restitution.of_speed,
         ),
         (
             format!(
                 "incidence set within {} deg",
                 plain(tolerance.incidence_deg)
             ),
-            tolerance.incidence_deg.to_radians() * uniform * cotangent,
+            tolerance.incidence_deg.to_radians() * uniform * cotangent * restitution.of_speed,
         ),
         (
             // One component of a direction uniform in a narrow cone has half its half-angle.
             format!("jet cone {} deg", plain(problem.divergence_deg)),
-            problem.divergence_deg.to_radians() * 0.5 * cotangent,
+            problem.divergence_deg.to_radians() * 0.5 * cotangent * restitution.of_speed,
         ),
         (
             format!("shot size {}", share_asked(problem.size_spread)),

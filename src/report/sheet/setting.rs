@@ -1,8 +1,9 @@
 //! One setting: what it is called, its unit, and how it is rounded.
 
+use crate::digits;
 use crate::elementary::whole_power;
 use crate::record::{DriftRecord, RangeRecord, Record, SettingsRecord, WindowRecord};
-use crate::report::number::{fixed, plain};
+use crate::report::number::{coordinate, decimals_for, fixed, plain};
 
 /// A setting that is a number.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +16,7 @@ pub struct Setting {
     pub unit: &'static str,
     /// Units on the sheet for one in the record.
     scale: f64,
-    /// Fewest decimals shown.
+    /// Fewest decimals shown, where five digits allow them.
     pub decimals: usize,
     /// Its value in a record.
     of: fn(&SettingsRecord) -> f64,
@@ -81,19 +82,35 @@ pub const SETTINGS: [Setting; 7] = [
     },
 ];
 
-/// Most decimals shown.
-const MOST_DECIMALS: usize = 4;
 /// A step of the last decimal is no larger than this part of the window.
 const ROUNDING: f64 = 0.1;
+/// Digits beyond the usual five for a window that is narrower than these show.
+const FURTHER: usize = 4;
+
+/// What a setting shows for its value where that makes no difference.
+const ANY: &str = "any";
+/// From here on the jet is perpendicular to the target, deg.
+const PERPENDICULAR: f64 = 90.0 - 1e-7;
 
 /// A setting and its window in the unit of the sheet, all with the same decimals.
 pub struct Shown {
-    /// The value.
+    /// The value; `any` where it makes no difference.
     pub value: String,
-    /// Lower end of the window, rounded inwards.
+    /// Lower end of the window, rounded inwards; empty without a window.
     pub low: String,
-    /// Upper end of the window, rounded inwards.
+    /// Upper end of the window, rounded inwards; empty without a window.
     pub high: String,
+}
+
+impl Shown {
+    /// The window with its unit: `10 to 20 mm`, or `exactly 12 mm` where it has no width.
+    pub fn window(&self, unit: &str) -> String {
+        if self.low == self.high {
+            format!("exactly {} {unit}", self.low)
+        } else {
+            format!("{} to {} {unit}", self.low, self.high)
+        }
+    }
 }
 
 impl Setting {
@@ -107,9 +124,25 @@ impl Setting {
         (self.of)(settings) * self.scale
     }
 
-    /// Its value as text, without its unit.
+    /// Its value as text, without its unit; `any` where it makes no difference.
     pub fn text(&self, settings: &SettingsRecord) -> String {
+        if self.is_any_at(settings) {
+            return ANY.into();
+        }
         fixed(self.value(settings), self.decimals)
+    }
+
+    /// The same with its unit.
+    pub fn text_with_unit(&self, settings: &SettingsRecord) -> String {
+        match self.text(settings) {
+            text if text == ANY => text,
+            text => format!("{text} {}", self.unit),
+        }
+    }
+
+    /// The unit behind its value.
+    pub fn unit_of(&self, record: &Record) -> &'static str {
+        if self.is_any(record) { "" } else { self.unit }
     }
 
     /// The range that was asked for.
@@ -160,40 +193,86 @@ impl Setting {
         !is_aim || is_open || self.value(&record.best.settings) != 0.0
     }
 
-    /// Value and window as texts; the ends are rounded inwards, with as many decimals as it takes
-    /// to keep the rounded value between them.
+    /// Whether its value makes no difference: the azimuth of a jet that is perpendicular to the
+    /// target, unless the window says otherwise.
+    pub fn is_any(&self, record: &Record) -> bool {
+        let turns =
+            |window: &WindowRecord| window.down.turns.is_some() || window.up.turns.is_some();
+        self.is_any_at(&record.best.settings) && !self.window(record).is_some_and(turns)
+    }
+
+    /// The same by the settings alone.
+    pub fn is_any_at(&self, settings: &SettingsRecord) -> bool {
+        self.key == "azimuth_deg" && settings.incidence_deg >= PERPENDICULAR
+    }
+
+    /// Value and window as texts. The ends are rounded inwards, with as many decimals as it takes
+    /// for the value to stand between them; a window without width is the value itself.
     pub fn shown(&self, record: &Record) -> Shown {
-        let value = self.value(&record.best.settings);
+        let settings = &record.best.settings;
         let Some(window) = self.window(record) else {
             return Shown {
-                value: self.text(&record.best.settings),
+                value: self.text(settings),
                 low: String::new(),
                 high: String::new(),
             };
         };
-        let (low, high) = (window.down.to * self.scale, window.up.to * self.scale);
-        let end = |drift: &DriftRecord, inwards: f64, decimals: usize| match drift.turns {
-            Some(_) => fixed(inwards, decimals),
-            None => plain(drift.to * self.scale),
-        };
-        let mut decimals = self.decimals;
-        loop {
-            let step = whole_power(0.1, decimals as i32);
-            let [shown, down, up] = [
-                (value / step).round(),
-                (low / step - 1e-6).ceil(),
-                (high / step + 1e-6).floor(),
-            ];
-            let fine = step <= (high - low) * ROUNDING && down <= shown && shown <= up;
-            if fine || decimals >= MOST_DECIMALS {
-                return Shown {
-                    value: fixed(value, decimals),
-                    low: end(&window.down, down * step, decimals),
-                    high: end(&window.up, up * step, decimals),
-                };
-            }
-            decimals += 1;
+        let mut shown = self.shown_in(self.value(settings), window);
+        if self.is_any(record) {
+            shown.value = ANY.into();
         }
+        shown
+    }
+
+    fn shown_in(&self, value: f64, window: &WindowRecord) -> Shown {
+        let [low, high] = [&window.down, &window.up].map(|end| end.to * self.scale);
+        let largest = value.abs().max(low.abs()).max(high.abs());
+        let usual = decimals_for(largest, digits::MOST);
+        let least = self.decimals.min(usual);
+        let is_fine = |&decimals: &usize| step(decimals) <= (high - low) * ROUNDING;
+        let first = (least..=usual).find(is_fine).unwrap_or(usual);
+        let mut each = first..=usual;
+        let nearest = each.find_map(|decimals| self.rounded_in(value, window, decimals, false));
+        let mut further = usual..=usual + FURTHER;
+        nearest
+            .or_else(|| further.find_map(|decimals| self.rounded_in(value, window, decimals, true)))
+            .unwrap_or_else(|| Shown {
+                value: plain(value),
+                low: plain(value),
+                high: plain(value),
+            })
+    }
+
+    /// Value and window with this many decimals; nothing where the value as rounded does not stand
+    /// between the ends. Where it may be moved it is brought between them.
+    fn rounded_in(
+        &self,
+        value: f64,
+        window: &WindowRecord,
+        decimals: usize,
+        may_be_moved: bool,
+    ) -> Option<Shown> {
+        // What is a rounding error off a step stands on it.
+        const ON_IT: f64 = 1e-6;
+        let step = step(decimals);
+        let end = |drift: &DriftRecord, inwards: fn(f64) -> f64| {
+            let to = drift.to * self.scale;
+            match drift.turns {
+                Some(_) => coordinate(inwards(to / step) * step, decimals),
+                None => plain(to),
+            }
+        };
+        let low = end(&window.down, |steps| (steps - ON_IT).ceil());
+        let high = end(&window.up, |steps| (steps + ON_IT).floor());
+        let (from, to): (f64, f64) = (low.parse().ok()?, high.parse().ok()?);
+        let between = if may_be_moved {
+            value.max(from).min(to)
+        } else {
+            value
+        };
+        let value = coordinate(between, decimals);
+        let shown: f64 = value.parse().ok()?;
+        (from < to && from <= shown && shown <= to).then_some(Shown { value, low, high })
     }
 
     /// The ends of the window at which something turns.
@@ -225,6 +304,10 @@ impl Setting {
         .flatten()
         .collect()
     }
+}
+
+fn step(decimals: usize) -> f64 {
+    whole_power(0.1, decimals as i32)
 }
 
 fn fraction_digits(text: &str) -> usize {

@@ -2,9 +2,12 @@
 
 use super::origins::origins;
 use super::setting::{SETTINGS, Setting};
-use crate::record::{AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord};
+use crate::problem::part::decimals_of;
+use crate::record::{
+    AnswerRecord, CalibrationRecord, ContactRecord, LengthsIn, Record, StatusRecord,
+};
 use crate::report::layout::{Align, Block, Table};
-use crate::report::number::{fixed, plain, share_asked, significant};
+use crate::report::number::{coordinate, fixed, plain, share_asked, significant};
 
 /// Settings with their windows, then what is loaded.
 pub fn settings(record: &Record) -> Block {
@@ -43,6 +46,7 @@ pub fn settings(record: &Record) -> Block {
 fn row(record: &Record, setting: &Setting) -> [String; 6] {
     let shown = setting.shown(record);
     let (window, until) = match setting.window(record) {
+        _ if setting.is_any(record) => (String::new(), "(makes no difference at 90 deg)".into()),
         Some(window) => {
             let until = match (&window.down.turns, &window.up.turns) {
                 (None, None) => "(whole range)".into(),
@@ -51,8 +55,7 @@ fn row(record: &Record, setting: &Setting) -> [String; 6] {
                 (Some(down), None) => format!("{down} below"),
                 (None, Some(up)) => format!("{up} above"),
             };
-            let window = format!("{} to {} {}", shown.low, shown.high, setting.unit);
-            (window, until)
+            (shown.window(setting.unit), until)
         }
         None if setting
             .range(record)
@@ -66,7 +69,7 @@ fn row(record: &Record, setting: &Setting) -> [String; 6] {
     [
         setting.name.into(),
         shown.value,
-        setting.unit.into(),
+        setting.unit_of(record).into(),
         tolerance,
         window,
         until,
@@ -197,17 +200,21 @@ fn remarks(record: &Record) -> Vec<String> {
 }
 
 /// The pose for a robot, and the clearance.
-pub fn pose(best: &AnswerRecord) -> Option<Block> {
+pub fn pose(best: &AnswerRecord, unit: &LengthsIn) -> Option<Block> {
     let mut block = Block::titled("POSE IN THE COORDINATES OF THE FILE");
     let vector = |values: &[f64], scale: f64, decimals: usize| {
         let texts: Vec<String> = values
             .iter()
-            .map(|value| format!("{:>9}", fixed(value * scale, decimals)))
+            .map(|value| format!("{:>9}", coordinate(value * scale, decimals)))
             .collect();
         texts.join(" ")
     };
     let pose = &best.pose;
-    block.verbatim(&format!("exit point   {} mm", vector(&pose.exit_m, 1e3, 3)));
+    block.verbatim(&format!(
+        "exit point   {} {}",
+        vector(&pose.exit_m, 1.0 / unit.metres, decimals_of(unit.metres)),
+        unit.name
+    ));
     block.verbatim(&format!("jet axis     {}", vector(&pose.direction, 1.0, 5)));
     block.verbatim(&format!(
         "quaternion   {}   (x y z w; takes z to the jet axis)",
@@ -222,14 +229,27 @@ fn clearance(best: &AnswerRecord) -> String {
         "at least {} mm wanted",
         plain(best.clearance_wanted_m * 1e3)
     );
-    match (best.clearance_m, &best.clearance_surface) {
-        (Some(gap), Some(surface)) if gap >= 0.0 => {
-            format!("{} mm to {surface}, {wanted}", fixed(gap * 1e3, 2))
+    let gap = |gap: f64, surface: &str| {
+        if gap >= 0.0 {
+            format!("{} mm to {surface}", fixed(gap * 1e3, 2))
+        } else {
+            format!(
+                "NONE: it reaches {} mm into {surface}",
+                fixed(-gap * 1e3, 2)
+            )
         }
-        (Some(gap), Some(surface)) => format!(
-            "NONE: the body reaches {} mm into {surface}, {wanted}",
-            fixed(-gap * 1e3, 2)
+    };
+    let set = best.clearance_m.zip(best.clearance_surface.as_deref());
+    let worst = best
+        .clearance_within_tolerance_m
+        .zip(best.clearance_within_tolerance_surface.as_deref());
+    match (set, worst) {
+        (Some((set, surface)), Some((worst, nearest))) if set >= 0.0 => format!(
+            "{} as set, {} with the worst errors, {wanted}",
+            gap(set, surface),
+            gap(worst, nearest)
         ),
-        _ => "not checked: the nozzle has no body in the file".into(),
+        (Some((set, surface)), _) => format!("{}, {wanted}", gap(set, surface)),
+        _ => "unlimited: nothing is near".into(),
     }
 }

@@ -1,12 +1,30 @@
 //! What a verdict is about, in words.
 
+use std::cmp::Ordering;
+
 use crate::record::{AnswerRecord, GoalsRecord, VerdictRecord};
-use crate::report::number::{impulse_asked, share, share_asked};
+use crate::report::number::{impulse_asked, plain, share, share_asked};
+
+/// The verdict on the distance of the nozzle from every surface.
+pub const CLEARANCE: &str = "clearance";
+/// The verdict on the side of every surface on which the nozzle is.
+const FREE_SPACE: &str = "free_space";
+
+/// Whether a verdict is about the pose of the nozzle: then it counts no shots.
+pub fn is_of_pose(subject: &str) -> bool {
+    matches!(subject, CLEARANCE | FREE_SPACE)
+}
 
 /// What breaks a goal, as it stands behind its name: `N* off 40 uN.s by > 15 %`.
 pub fn broken_when(subject: &str, goals: &GoalsRecord, answer: &AnswerRecord) -> String {
     match subject {
         "miss" => "first hit off target".into(),
+        CLEARANCE if answer.clearance_wanted_m == 0.0 => "nozzle meets a wall".into(),
+        CLEARANCE => format!(
+            "nozzle within {} mm of a wall",
+            plain(answer.clearance_wanted_m * 1e3)
+        ),
+        FREE_SPACE => "nozzle in material".into(),
         "normal_impulse" => format!(
             "N* off {} +- {}",
             impulse_asked(goals.normal_impulse),
@@ -42,15 +60,25 @@ pub fn counted(subject: &str) -> &'static str {
 /// `2.01 % of the hits on target break it, 5 % may`.
 pub fn share_against_allowed(verdict: &VerdictRecord) -> String {
     let counted = counted(&verdict.subject);
-    let allowed = share_asked(verdict.allowed);
+    let allowed = match verdict.allowed {
+        0.0 => "none".into(),
+        allowed => share_asked(allowed),
+    };
     if verdict.counted == 0 {
-        return format!("there is nothing to count, so it is not met ({allowed} may break it)");
+        return "no shot hits the target first, so it is not met".into();
     }
     if verdict.share > 0.0 {
         format!("{} {counted} break it, {allowed} may", share(verdict.share))
     } else {
         format!("none {counted} breaks it, {allowed} may")
     }
+}
+
+/// The target that no shot hits first, where there were any.
+pub fn missed_target(answer: &AnswerRecord) -> Option<&str> {
+    let target = answer.target.as_ref()?;
+    let is_missed = answer.shots > 0 && target.share_on_target <= 0.0;
+    is_missed.then_some(target.surface.as_str())
 }
 
 /// How much of what is allowed is used up; 1 is the limit.
@@ -66,13 +94,21 @@ pub fn load(verdict: &VerdictRecord) -> f64 {
     }
 }
 
-/// The verdicts that fail, worst first.
+/// Orders verdicts by how urgent they are: those that fail are more so than those that pass, then
+/// by how much of what is allowed is used up. What had nothing to count fails for the reason of
+/// another.
+pub fn by_urgency(a: &VerdictRecord, b: &VerdictRecord) -> Ordering {
+    let kind = |verdict: &VerdictRecord| (!verdict.passes, verdict.counted > 0);
+    kind(a).cmp(&kind(b)).then(load(a).total_cmp(&load(b)))
+}
+
+/// The verdicts on shots that fail, worst first.
 pub fn failing(answer: &AnswerRecord) -> Vec<&VerdictRecord> {
     let mut failing: Vec<&VerdictRecord> = answer
         .verdicts
         .iter()
-        .filter(|verdict| !verdict.passes)
+        .filter(|verdict| !verdict.passes && !is_of_pose(&verdict.subject))
         .collect();
-    failing.sort_by(|a, b| load(b).total_cmp(&load(a)));
+    failing.sort_by(|a, b| by_urgency(b, a));
     failing
 }

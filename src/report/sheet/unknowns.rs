@@ -1,7 +1,8 @@
 //! Restitution and friction at the ends of their ranges: which of them moves the result most.
 
 use crate::record::{
-    OutcomeRecord, QuantityRecord, Record, UnknownRangeRecord, UnknownsRecord, VerdictRecord,
+    ContactRecord, OutcomeRecord, QuantityRecord, Record, UnknownRangeRecord, UnknownsRecord,
+    VerdictRecord,
 };
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{decimals_for, fixed, impulse, plain, share, significant};
@@ -14,7 +15,7 @@ pub fn block(record: &Record) -> Option<Block> {
     let unknowns = record.unknowns.as_ref()?;
     let mut table = Table::new(&[
         ("UNKNOWNS, one at a time", Align::Left),
-        ("rebound deg", Align::Right),
+        ("rebound, deg", Align::Right),
         ("mean N*, uN.s", Align::Right),
         ("J", Align::Right),
         ("breaks most", Align::Left),
@@ -35,7 +36,11 @@ pub fn block(record: &Record) -> Option<Block> {
     row("both as given".into(), &unknowns.nominal);
     for range in &unknowns.ranges {
         for (value, effect) in [(range.low, &range.at_low), (range.high, &range.at_high)] {
-            let label = format!("{} {}", name(range.quantity), plain(value));
+            let at = match range.quantity {
+                QuantityRecord::Restitution => where_measured(&record.best.contact_values),
+                QuantityRecord::Friction => String::new(),
+            };
+            let label = format!("{} {}{at}", name(range.quantity), plain(value));
             row(label, effect);
         }
     }
@@ -48,6 +53,12 @@ pub fn block(record: &Record) -> Option<Block> {
         "Every shot of a row has the same restitution and friction; in OBJECTIVE each draws its own.",
     );
     Some(block)
+}
+
+/// At which speed a restitution that falls with speed was measured: a tolerance shifts it there.
+pub(super) fn where_measured(contact: &ContactRecord) -> String {
+    let speed = contact.restitution_at_m_s;
+    speed.map_or_else(String::new, |speed| format!(" at {} m/s", plain(speed)))
 }
 
 /// The largest J of the table.

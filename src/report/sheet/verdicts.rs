@@ -20,6 +20,20 @@ pub fn block(best: &AnswerRecord, goals: &GoalsRecord) -> Option<Block> {
         ("broken by", Align::Left),
     ]);
     for verdict in &best.verdicts {
+        let broken_by = subject::broken_when(&verdict.subject, goals, best);
+        if subject::is_of_pose(&verdict.subject) {
+            let nothing = || "-".to_owned();
+            table.row([
+                verdict.subject.clone(),
+                word(verdict).into(),
+                nothing(),
+                nothing(),
+                nothing(),
+                nothing(),
+                broken_by,
+            ]);
+            continue;
+        }
         let (share, interval) = if verdict.counted == 0 {
             ("-".into(), "nothing counted".into())
         } else {
@@ -32,7 +46,7 @@ pub fn block(best: &AnswerRecord, goals: &GoalsRecord) -> Option<Block> {
             interval,
             plain(verdict.allowed * 100.0),
             margin(verdict),
-            subject::broken_when(&verdict.subject, goals, best),
+            broken_by,
         ]);
     }
     let mut block = Block::default();

@@ -10,6 +10,7 @@ use std::fmt::Display;
 use std::io;
 
 use crate::chart::Chart;
+use crate::printable;
 use crate::record::{MapRecord, Record};
 
 /// A table as text.
@@ -64,7 +65,7 @@ impl Rows {
     }
 
     fn row(&mut self, cells: &[&dyn Display]) -> io::Result<()> {
-        let cells = cells.iter().map(|cell| cell.to_string());
+        let cells = cells.iter().map(|cell| as_text(cell.to_string()));
         Ok(self.writer.write_record(cells.map(String::into_bytes))?)
     }
 
@@ -79,6 +80,24 @@ impl Rows {
         })
     }
 }
+
+/// What a programme for spreadsheets takes for a formula gets an apostrophe before it, as OWASP has it; numbers
+/// stay, and nothing acts on a terminal.
+fn as_text(cell: String) -> String {
+    let is_formula = cell.starts_with(FORMULA) && cell.parse::<f64>().is_err();
+    let shown = printable::line(&cell);
+    if is_formula {
+        format!("{QUOTE}{shown}")
+    } else {
+        shown.into_owned()
+    }
+}
+
+/// With these a formula begins; the last ones look like the first in wide letters.
+const FORMULA: [char; 10] = [
+    '=', '+', '-', '@', '\t', '\r', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}',
+];
+const QUOTE: char = '\'';
 
 /// A cell that is empty where there is no value.
 fn or_empty(value: Option<impl Display>) -> String {

@@ -23,7 +23,7 @@ impl Facets {
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
-        let start = Start::of(leaving, on_this_part);
+        let start = Start::of(leaving, on_this_part).with_free_side(self.fronts_are_free);
         let sight = self.sight(ray);
         let entered = self.tree.entered(&sight.flat, limit);
         let nearest = self.nearest(ray, &sight, &entered, &start, limit)?;

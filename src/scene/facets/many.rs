@@ -50,7 +50,7 @@ pub fn cross<R: Real>(facets: &Facets, part: u32, rays: &Rays<R>, hits: &mut Hit
         let mut met = ArrayVec::<(&Flight, Nearest), GROUP>::new();
         for (flight, entered) in flights.iter().zip(&entered) {
             let (leaving, on_it) = leaving(rays, flight.index, part);
-            let start = Start::of(leaving, on_it);
+            let start = Start::of(leaving, on_it).with_free_side(facets.fronts_are_free);
             let Flight { ray, sight, .. } = flight;
             if let Some(nearest) = facets.nearest(ray, sight, entered, &start, flight.limit) {
                 met.push((flight, nearest));

@@ -47,7 +47,7 @@ impl<R: Real> Cylinder<R> {
 
     /// Unit normal on the front, at an offset from the centre.
     #[inline(always)]
-    fn front(&self, offset: [R; 2]) -> [R; 2] {
+    pub(super) fn front(&self, offset: [R; 2]) -> [R; 2] {
         let scale = -self.side / self.radius;
         [offset[0] * scale, offset[1] * scale]
     }

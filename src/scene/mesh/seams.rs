@@ -21,8 +21,20 @@ pub(in crate::scene) struct Rims {
 
 /// Tells the open edges of a mesh apart.
 pub(in crate::scene) fn rims(mesh: &Mesh) -> Rims {
-    let ends = |edge: [u32; 2]| edge.map(|corner| mesh.vertices[corner as usize]);
-    let edges: Vec<[Point3<f64>; 2]> = open_edges(mesh).into_iter().map(ends).collect();
+    let edges = open_edges(mesh);
+    let is_seam = are_seams(mesh, &edges);
+    let (mut seams, mut holes) = (Vec::new(), Vec::new());
+    for (edge, is_seam) in edges.into_iter().zip(is_seam) {
+        let ends = edge.map(|corner| mesh.vertices[corner as usize]);
+        if is_seam { &mut seams } else { &mut holes }.push(ends);
+    }
+    Rims { seams, holes }
+}
+
+/// Which of some edges are seams: others of them go on there.
+pub(super) fn are_seams(mesh: &Mesh, edges: &[[u32; 2]]) -> Vec<bool> {
+    let ends = |edge: &[u32; 2]| edge.map(|corner| mesh.vertices[corner as usize]);
+    let edges: Vec<[Point3<f64>; 2]> = edges.iter().map(ends).collect();
     let slack = SEAM * mesh.bounds().map_or(0.0, |(low, high)| (high - low).max());
     let bounds = |points: &[Point3<f64>]| {
         let points = points.iter().map(|point| point.coords.into());
@@ -37,15 +49,10 @@ pub(in crate::scene) fn rims(mesh: &Mesh) -> Rims {
         let mut others = others.filter(|&other| other as usize != number);
         others.any(|other| distance(&middle, &edges[other as usize]) <= slack)
     };
-    let (mut seams, mut holes) = (Vec::new(), Vec::new());
-    for (number, edge) in edges.iter().enumerate() {
-        if goes_on(number, edge) {
-            seams.push(*edge);
-        } else {
-            holes.push(*edge);
-        }
-    }
-    Rims { seams, holes }
+    let numbered = edges.iter().enumerate();
+    numbered
+        .map(|(number, edge)| goes_on(number, edge))
+        .collect()
 }
 
 /// The distance of a point from a line between two others.

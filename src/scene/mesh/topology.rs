@@ -122,7 +122,7 @@ pub(in crate::scene) fn examine(mesh: &Mesh) -> Findings {
 }
 
 /// The edges of one triangle only.
-pub(super) fn open_edges(mesh: &Mesh) -> Vec<[u32; 2]> {
+pub(in crate::scene) fn open_edges(mesh: &Mesh) -> Vec<[u32; 2]> {
     let edges = sorted_edges(mesh);
     let uses = edges.chunk_by(DirectedEdge::joins_the_same);
     let open = uses.filter(|uses| uses.len() == 1);

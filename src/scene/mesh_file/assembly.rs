@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use super::defect::Defect;
+use super::fault::MeshFault;
+use super::mending::Mending;
 use super::polygon::{MOST_LOOKS, Polygon};
 use super::vertex_index::VertexIndex;
 use super::{LARGEST_COORDINATE, MOST_CORNERS, MOST_TRIANGLES};
@@ -21,6 +23,18 @@ pub(super) struct Assembly {
     surface_numbers: HashMap<String, u32>,
     polygon: Polygon,
     most_triangles: usize,
+    mendings: Vec<Mending>,
+    open_fault: Option<MeshFault>,
+}
+
+/// What a file gave.
+pub(super) struct Assembled {
+    /// Not yet cleaned.
+    pub mesh: Mesh,
+    /// What was put right.
+    pub mendings: Vec<Mending>,
+    /// What is wrong with the file, unless the mesh is closed.
+    pub open_fault: Option<MeshFault>,
 }
 
 impl Assembly {
@@ -32,6 +46,8 @@ impl Assembly {
             surface_numbers: HashMap::new(),
             polygon: Polygon::new(MOST_LOOKS),
             most_triangles: MOST_TRIANGLES,
+            mendings: Vec::new(),
+            open_fault: None,
         }
     }
 
@@ -66,20 +82,37 @@ impl Assembly {
         number
     }
 
-    /// Takes every triangle so far away from its surface and gives it to [`ALL`].
-    pub fn forget_surfaces(&mut self) {
-        self.mesh.surfaces.clear();
-        self.surface_numbers.clear();
-        let all = self.surface(ALL);
-        for triangle in &mut self.mesh.triangles {
-            triangle.surface = all;
-        }
+    /// Notes what was put right.
+    pub fn mended(&mut self, mending: Mending) {
+        self.mendings.push(mending);
     }
 
-    /// Gives the surfaces, in the order of their numbers, their final names.
-    pub fn rename_surfaces(&mut self, names: Vec<String>) {
-        self.surface_numbers = names.iter().cloned().zip(0..).collect();
-        self.mesh.surfaces = names;
+    /// Notes that the file is cut short if the mesh turns out to be open.
+    pub fn must_close(&mut self, fault: MeshFault) {
+        self.open_fault = Some(fault);
+    }
+
+    /// How many triangles there are so far.
+    pub fn triangle_count(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    /// The names of the surfaces so far.
+    pub fn surface_names(&self) -> &[String] {
+        &self.mesh.surfaces
+    }
+
+    /// Gives the surfaces other names; those that come to have the same become one.
+    pub fn rename_surfaces(&mut self, mut name_of: impl FnMut(&str) -> String) {
+        self.surface_numbers.clear();
+        let before = std::mem::take(&mut self.mesh.surfaces);
+        let numbers: Vec<u32> = before
+            .iter()
+            .map(|name| self.surface(&name_of(name)))
+            .collect();
+        for triangle in &mut self.mesh.triangles {
+            triangle.surface = numbers[triangle.surface as usize];
+        }
     }
 
     /// Adds a triangle.
@@ -111,12 +144,16 @@ impl Assembly {
         Ok(())
     }
 
-    /// The mesh as read, not yet cleaned.
-    pub fn finish(self) -> Result<Mesh, Defect> {
+    /// The mesh, and what was noticed on the way.
+    pub fn finish(self) -> Result<Assembled, Defect> {
         if self.mesh.triangles.is_empty() {
             return Err(Defect::NoTriangles);
         }
-        Ok(self.mesh)
+        Ok(Assembled {
+            mesh: self.mesh,
+            mendings: self.mendings,
+            open_fault: self.open_fault,
+        })
     }
 }
 
@@ -147,7 +184,7 @@ mod tests {
         assert_eq!(assembly.face(&square, 0), full);
         assert_eq!(assembly.face(&square[..3], 0), Ok(()));
         assert_eq!(assembly.face(&square[..3], 0), full);
-        assert_eq!(assembly.finish().map(|mesh| mesh.triangles.len()), Ok(6));
+        assert_eq!(assembly.finish().map(|it| it.mesh.triangles.len()), Ok(6));
         // The last places may be filled by a square.
         let (mut assembly, square) = polygon(4);
         assembly.most_triangles = 5;
@@ -161,7 +198,7 @@ mod tests {
     fn faces_have_as_many_corners_as_is_bearable() {
         let (mut assembly, face) = polygon(MOST_CORNERS);
         assert_eq!(assembly.face(&face, 0), Ok(()));
-        let count = assembly.finish().map(|mesh| mesh.triangles.len());
+        let count = assembly.finish().map(|it| it.mesh.triangles.len());
         assert_eq!(count, Ok(MOST_CORNERS - 2));
         let (mut assembly, face) = polygon(MOST_CORNERS + 1);
         let corners = MOST_CORNERS + 1;

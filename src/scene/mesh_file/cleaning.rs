@@ -4,7 +4,8 @@ use nalgebra::{Point3, center, distance};
 
 use super::defect::Defect;
 use super::warning::MeshWarning;
-use crate::scene::mesh::{Mesh, Triangle, duplicates, examine, rims, tiny_pieces, unify};
+use super::weld::weld;
+use crate::scene::mesh::{Mesh, Shells, Triangle, duplicates, examine, rims, tiny_pieces, unify};
 
 /// Height over longest edge below which a triangle has no area: some thousand roundings.
 const NO_HEIGHT: f64 = 1e-12;
@@ -16,9 +17,13 @@ const UNUSED: u32 = u32::MAX;
 /// to a closed mesh.
 const SMALL_HOLES: f64 = 0.1;
 
-/// Drops triangles without area, duplicates and unused vertices, turns triangles that disagree with
-/// their neighbours; gives the warnings.
-pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWarning>, Defect> {
+/// Joins corners that are one within the file's precision, drops triangles without area, duplicates and
+/// unused vertices, turns triangles that disagree with their neighbours and shells that are inside out; gives
+/// the warnings and the shells.
+pub(super) fn clean(
+    mesh: &mut Mesh,
+    metres_per_unit: f64,
+) -> Result<(Vec<MeshWarning>, Shells), Defect> {
     let read = mesh.triangles.len();
     let mut degenerate = Noticed::default();
     degenerate.drop_where(mesh, |_, triangle| {
@@ -29,7 +34,17 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
     duplicate.drop_duplicates(mesh);
     // Edges are examined before flat triangles go: those join their neighbours all the same.
     let mut turned = Noticed::default();
-    if !examine(mesh).topology.is_consistently_wound() {
+    let mut topology = examine(mesh).topology;
+    let welded = if topology.open_edges > 0 {
+        weld(mesh, metres_per_unit)
+    } else {
+        None
+    };
+    if welded.is_some() {
+        duplicate.drop_duplicates(mesh);
+        topology = examine(mesh).topology;
+    }
+    if !topology.is_consistently_wound() {
         turned.turn(mesh);
     }
     let edges = edge_warnings(mesh);
@@ -40,8 +55,15 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
     drop_unused(mesh);
     mesh.triangles.shrink_to_fit();
     mesh.vertices.shrink_to_fit();
+    let mut shells = Shells::of(mesh);
+    let inside_out = shells.turn_inside_out(mesh);
 
     let mut warnings = Vec::new();
+    warnings.extend(welded.map(|weld| MeshWarning::WeldedCorners {
+        count: weld.corners,
+        apart: weld.apart / metres_per_unit,
+        near: weld.near,
+    }));
     let mut warn = |finding: Option<(usize, Point3<f64>)>, warning: fn(_, _) -> MeshWarning| {
         warnings.extend(finding.map(|(count, near)| warning(count, near)));
     };
@@ -55,20 +77,26 @@ pub(super) fn clean(mesh: &mut Mesh, metres_per_unit: f64) -> Result<Vec<MeshWar
         MeshWarning::TurnedTriangles { count, near }
     });
     warnings.extend(edges);
+    if !inside_out.is_empty() {
+        let volume = |shell: &u32| shells.list[*shell as usize].volume;
+        warnings.push(MeshWarning::InsideOut {
+            bodies: inside_out.len(),
+            signed_volume: -inside_out.iter().map(volume).sum::<f64>(),
+        });
+    }
     let pieces = tiny_pieces(mesh);
     warnings.extend(pieces.map(|(count, near)| MeshWarning::TinyPieces { count, near }));
     for warning in &mut warnings {
         warning.put_in_unit(metres_per_unit);
     }
-    Ok(warnings)
+    Ok((warnings, shells))
 }
 
-/// What is odd about the edges of a mesh, and about the side to which its fronts look.
+/// What is odd about the edges of a mesh.
 fn edge_warnings(mesh: &Mesh) -> Vec<MeshWarning> {
     let findings = examine(mesh);
     let topology = findings.topology;
     let mut warnings = Vec::new();
-    let mut is_closed = topology.non_manifold_edges == 0 && topology.is_consistently_wound();
     if topology.open_edges > 0 {
         let rims = rims(mesh);
         if let Some(&[from, to]) = rims.holes.first() {
@@ -77,7 +105,6 @@ fn edge_warnings(mesh: &Mesh) -> Vec<MeshWarning> {
                 .bounds()
                 .map_or(0.0, |(low, high)| distance(&low, &high));
             let small = lengths.sum::<f64>() < SMALL_HOLES * diagonal;
-            is_closed &= small;
             warnings.push(MeshWarning::OpenEdges {
                 count: rims.holes.len(),
                 near: center(&from, &to),
@@ -101,11 +128,6 @@ fn edge_warnings(mesh: &Mesh) -> Vec<MeshWarning> {
         warnings.push(MeshWarning::InconsistentWinding {
             count: findings.inconsistent.count,
             near,
-        });
-    }
-    if is_closed && topology.signed_volume < 0.0 {
-        warnings.push(MeshWarning::InsideOut {
-            signed_volume: topology.signed_volume,
         });
     }
     warnings

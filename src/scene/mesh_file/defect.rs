@@ -87,6 +87,15 @@ pub enum Defect {
         promised: u64,
         /// Whole triangles that the file holds.
         held: u64,
+        /// Bytes behind the last whole triangle.
+        rest: u64,
+    },
+    /// A binary STL file with bytes of unknown number between its triangles.
+    VendorData,
+    /// A file of another kind that bears the name of a mesh.
+    Foreign {
+        /// What it is and what to do with it.
+        told: String,
     },
     /// Something else was expected here.
     Unexpected {
@@ -174,6 +183,8 @@ impl Defect {
             Self::TooFarOut { .. } => Rule::MeshTooFarOut,
             Self::NoSuchVertex { .. } => Rule::MeshNoSuchVertex,
             Self::WrongCount { .. } => Rule::MeshWrongCount,
+            Self::VendorData => Rule::MeshVendorData,
+            Self::Foreign { .. } => Rule::MeshForeign,
             Self::Unexpected { .. } => Rule::MeshUnexpected,
             Self::EndsEarly { .. } => Rule::MeshEndsEarly,
             Self::NotInHeader { .. } => Rule::MeshNotInHeader,
@@ -282,17 +293,28 @@ impl fmt::Display for Defect {
                 "the face uses vertex {index}, counted from {first}, but only {vertices} vertices stand before it; the \
                  file is damaged or cut short"
             ),
-            Self::WrongCount { promised, held } => {
+            Self::WrongCount {
+                promised,
+                held,
+                rest,
+            } => {
                 write!(
                     f,
                     "the header promises {promised} triangles, the file holds {held}"
                 )?;
-                f.write_str(if held < promised {
-                    "; it was cut short, copy or export it again"
-                } else {
-                    "; it is damaged, export it again"
-                })
+                if held < promised {
+                    return f.write_str("; it was cut short, copy or export it again");
+                }
+                if *rest > 0 {
+                    write!(f, " and {rest} bytes more")?;
+                }
+                f.write_str("; it is damaged, export it again")
             }
+            Self::VendorData => f.write_str(
+                "the facets carry vendor data, bytes between the triangles that are in no standard; \
+                 export the mesh without",
+            ),
+            Self::Foreign { told } => f.write_str(told),
             Self::Unexpected { expected, found } => match found.as_str() {
                 "" => write!(f, "expected {expected}, found nothing"),
                 found => write!(f, "expected {expected}, found `{found}`"),

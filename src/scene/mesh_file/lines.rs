@@ -1,6 +1,6 @@
 //! The lines and words of a text mesh.
 
-use std::io::{BufRead, Read};
+use std::io::BufRead;
 
 use super::defect::{Defect, LONGEST_LINE};
 use super::fault::{MeshFault, Place};
@@ -8,11 +8,20 @@ use super::fault::{MeshFault, Place};
 /// What some editors put before the first line.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Reads a file line by line through one buffer.
+/// What fills the rest of a block on old media, and what ended a text on old systems.
+const PADDING: [u8; 2] = [0, 0x1a];
+
+/// Reads a file line by line through one buffer. A line ends in LF, CR LF or CR.
 pub(super) struct Lines<R> {
     source: R,
     buffer: Vec<u8>,
+    /// A line that was read but not yet wanted.
+    ahead: Option<Vec<u8>>,
     number: u64,
+    /// Whether the last line ended in CR, so that an LF behind it belongs to its end.
+    after_cr: bool,
+    /// Whether the end of the first line was CR and no more.
+    has_cr_ends: bool,
 }
 
 /// One line of a file.
@@ -28,29 +37,42 @@ impl<R: BufRead> Lines<R> {
         Self {
             source,
             buffer: Vec::new(),
+            ahead: None,
             number: 0,
+            after_cr: false,
+            has_cr_ends: false,
         }
     }
 
-    /// The next line, without its end; `None` at the end of the file.
-    pub fn next(&mut self) -> Result<Option<Line<'_>>, MeshFault> {
-        self.buffer.clear();
-        let more = self.append()?;
-        Ok(more.then_some(Line {
-            text: &self.buffer,
-            number: self.number,
-        }))
-    }
-
-    /// As [`Lines::next`]; a line that ends in `\` goes on in the next one, unless it is a comment.
-    pub fn next_continued(&mut self) -> Result<Option<Line<'_>>, MeshFault> {
-        self.buffer.clear();
-        let more = self.append()?;
+    /// The next line, without its end; `None` at the end of the file. A line that ends in `\` goes on
+    /// in the next one, provided that it is one of numbers and that the next one begins with a number:
+    /// names and paths may end in `\`, too.
+    pub fn next_continued(
+        &mut self,
+        is_of_numbers: impl Fn(&[u8]) -> bool,
+    ) -> Result<Option<Line<'_>>, MeshFault> {
+        let more = self.advance()?;
         let number = self.number;
-        while self.buffer.last() == Some(&b'\\') && self.buffer[0] != b'#' {
-            self.buffer.pop();
+        while let Some(before) = self.buffer.trim_ascii_end().strip_suffix(b"\\")
+            && is_of_numbers(before)
+        {
+            let kept = before.len();
+            let mut ahead = Vec::new();
+            if !self.append(&mut ahead)? {
+                self.buffer.truncate(kept);
+                break;
+            }
+            if !goes_on(&ahead) {
+                self.buffer.truncate(kept);
+                self.ahead = Some(ahead);
+                break;
+            }
+            self.buffer.truncate(kept);
             self.buffer.push(b' ');
-            self.append()?;
+            self.buffer.extend(ahead);
+            if self.buffer.len() > LONGEST_LINE {
+                return Err(Defect::LineTooLong.at(Place::Line(self.number)));
+            }
         }
         Ok(more.then_some(Line {
             text: &self.buffer,
@@ -60,18 +82,39 @@ impl<R: BufRead> Lines<R> {
 
     /// The next line that is not blank; a fault if there is none.
     pub fn next_filled(&mut self, expected: &'static str) -> Result<Line<'_>, MeshFault> {
+        if !self.skip_blank()? {
+            return Err(self.ends_early(expected));
+        }
+        Ok(Line {
+            text: &self.buffer,
+            number: self.number,
+        })
+    }
+
+    /// Goes to the next line that is not blank, which [`Lines::current`] then gives; false if there
+    /// is none.
+    pub fn skip_blank(&mut self) -> Result<bool, MeshFault> {
         loop {
-            self.buffer.clear();
-            if !self.append()? {
-                return Err(Defect::EndsEarly { expected }.at(Place::Line(self.number.max(1))));
+            if !self.advance()? {
+                return Ok(false);
             }
             if !self.buffer.trim_ascii().is_empty() {
-                return Ok(Line {
-                    text: &self.buffer,
-                    number: self.number,
-                });
+                return Ok(true);
             }
         }
+    }
+
+    /// The line that was read last.
+    pub fn current(&self) -> Line<'_> {
+        Line {
+            text: &self.buffer,
+            number: self.number,
+        }
+    }
+
+    /// The fault of a file that ends here.
+    pub fn ends_early(&self, expected: &'static str) -> MeshFault {
+        Defect::EndsEarly { expected }.at(Place::Line(self.number.max(1)))
     }
 
     /// Number of lines read.
@@ -80,34 +123,92 @@ impl<R: BufRead> Lines<R> {
     }
 
     /// The source, just behind the last line that was read.
-    pub fn into_source(self) -> R {
-        self.source
+    pub fn into_source(mut self) -> Result<R, MeshFault> {
+        // In a file whose lines end in CR, an LF is the first byte of what follows.
+        if self.after_cr && !self.has_cr_ends {
+            self.pass_over_lf()?;
+        }
+        Ok(self.source)
     }
 
-    /// Appends a line to the buffer; false at the end of the file.
-    fn append(&mut self) -> Result<bool, MeshFault> {
+    /// Reads the next line into the buffer; false at the end of the file.
+    fn advance(&mut self) -> Result<bool, MeshFault> {
+        if let Some(ahead) = self.ahead.take() {
+            self.buffer = ahead;
+            return Ok(true);
+        }
+        let mut buffer = std::mem::take(&mut self.buffer);
+        buffer.clear();
+        let more = self.append(&mut buffer);
+        self.buffer = buffer;
+        more
+    }
+
+    /// Appends a line to a buffer; false at the end of the file.
+    fn append(&mut self, line: &mut Vec<u8>) -> Result<bool, MeshFault> {
         let here = Place::Line(self.number + 1);
-        let room = (LONGEST_LINE + 1).saturating_sub(self.buffer.len());
-        let read = (&mut self.source)
-            .take(room as u64)
-            .read_until(b'\n', &mut self.buffer)
-            .map_err(|error| Defect::from(error).at(here))?;
-        if self.buffer.len() > LONGEST_LINE {
-            return Err(Defect::LineTooLong.at(here));
+        let had_cr = self.after_cr;
+        let has_lf = self.pass_over_lf()?;
+        if self.number == 1 && had_cr {
+            self.has_cr_ends = !has_lf;
+        }
+        let mut read = 0;
+        loop {
+            let bytes = self.source.fill_buf();
+            let bytes = bytes.map_err(|error| Defect::from(error).at(here))?;
+            if bytes.is_empty() {
+                break;
+            }
+            let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+            let text = &bytes[..end.unwrap_or(bytes.len())];
+            let padding = match line.is_empty() {
+                true => text.iter().take_while(|it| PADDING.contains(it)).count(),
+                false => 0,
+            };
+            line.extend_from_slice(&text[padding..]);
+            self.after_cr = end.is_some_and(|end| bytes[end] == b'\r');
+            let used = text.len() + usize::from(end.is_some());
+            self.source.consume(used);
+            read += used;
+            let ends = line.len() + usize::from(end.is_some());
+            if ends > LONGEST_LINE {
+                return Err(Defect::LineTooLong.at(here));
+            }
+            if end.is_some() {
+                break;
+            }
         }
         if read == 0 {
             return Ok(false);
         }
         self.number += 1;
-        for end in [b'\n', b'\r'] {
-            if self.buffer.last() == Some(&end) {
-                self.buffer.pop();
-            }
-        }
-        if self.number == 1 && self.buffer.starts_with(BYTE_ORDER_MARK) {
-            self.buffer.drain(..BYTE_ORDER_MARK.len());
+        if self.number == 1 && line.starts_with(BYTE_ORDER_MARK) {
+            line.drain(..BYTE_ORDER_MARK.len());
         }
         Ok(true)
+    }
+
+    /// Whether the rest of a line end that began with CR stood here.
+    fn pass_over_lf(&mut self) -> Result<bool, MeshFault> {
+        if !std::mem::take(&mut self.after_cr) {
+            return Ok(false);
+        }
+        let here = Place::Line(self.number + 1);
+        let bytes = self.source.fill_buf();
+        let bytes = bytes.map_err(|error| Defect::from(error).at(here))?;
+        let is_lf = bytes.first() == Some(&b'\n');
+        if is_lf {
+            self.source.consume(1);
+        }
+        Ok(is_lf)
+    }
+}
+
+/// Whether a line begins with more numbers, or is blank.
+fn goes_on(line: &[u8]) -> bool {
+    match line.trim_ascii_start().first() {
+        Some(first) => first.is_ascii_digit() || b"+-.\\#".contains(first),
+        None => true,
     }
 }
 
@@ -132,15 +233,23 @@ pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
         .filter(|word| !word.is_empty())
 }
 
-/// A name, with something visible where it would move the cursor of a terminal.
+/// A name, with something visible where it would move the cursor of a terminal. Bytes that are not
+/// UTF-8 are letters of Western Europe, as old programs write them.
 pub(super) fn name(text: &[u8]) -> String {
-    let text = String::from_utf8_lossy(text.trim_ascii());
+    let text = text.trim_ascii();
+    let text = match std::str::from_utf8(text) {
+        Ok(text) => text.to_owned(),
+        Err(_) => text.iter().map(|byte| char::from(*byte)).collect(),
+    };
     text.replace(char::is_control, "\u{fffd}")
 }
 
-/// A number in Rust's notation, which includes `nan` and `inf`: what it is worth is checked later.
+/// A number in Rust's notation, which includes `nan` and `inf`, or in that of Fortran (`1.0D+00`): what
+/// it is worth is checked later.
 pub(super) fn number(word: &[u8]) -> Option<f64> {
-    std::str::from_utf8(word).ok()?.parse().ok()
+    let word = std::str::from_utf8(word).ok()?;
+    let of_fortran = || word.replace(['d', 'D'], "e").parse().ok();
+    word.parse().ok().or_else(of_fortran)
 }
 
 /// The next three words as coordinates.
@@ -164,7 +273,7 @@ mod tests {
     fn lengths(text: &[u8]) -> Result<Vec<usize>, MeshFault> {
         let mut lines = Lines::new(text);
         let mut lengths = Vec::new();
-        while let Some(line) = lines.next()? {
+        while let Some(line) = lines.next_continued(|_| false)? {
             lengths.push(line.text.len());
         }
         Ok(lengths)
@@ -172,14 +281,14 @@ mod tests {
 
     #[test]
     fn lines_are_as_long_as_is_bearable() {
-        // Their ends count.
+        // Their ends count as one letter.
         let line = |letters: usize, end: &str| {
             let mut text = vec![b'#'; letters];
             text.extend(end.bytes());
             text
         };
-        for end in ["", "\n", "\r\n"] {
-            let letters = LONGEST_LINE - end.len();
+        for end in ["", "\n", "\r\n", "\r"] {
+            let letters = LONGEST_LINE - usize::from(!end.is_empty());
             assert_eq!(lengths(&line(letters, end)).ok(), Some(vec![letters]));
             let fault = lengths(&line(letters + 1, end)).expect_err("it is too long");
             assert_eq!(fault.defect, Defect::LineTooLong, "{end:?}");
@@ -198,13 +307,106 @@ mod tests {
         let continued = |letters: usize| {
             let text = format!("f\\\n{}\n", "1".repeat(letters));
             let mut lines = Lines::new(text.as_bytes());
-            let length = lines.next_continued()?.map(|line| line.text.len());
+            let length = lines.next_continued(|_| true)?.map(|line| line.text.len());
             Ok::<_, MeshFault>(length)
         };
         // The first gives two, a letter and the blank between the two.
-        let room = LONGEST_LINE - 3;
-        assert_eq!(continued(room).ok(), Some(Some(LONGEST_LINE - 1)));
+        let room = LONGEST_LINE - 2;
+        assert_eq!(continued(room).ok(), Some(Some(LONGEST_LINE)));
         let fault = continued(room + 1).expect_err("it is too long");
         assert_eq!(fault.defect, Defect::LineTooLong);
+    }
+
+    #[test]
+    fn lines_end_in_whatever_editors_write() {
+        let texts = |bytes: &[u8]| {
+            // Every place for the end of a buffer.
+            (1..=bytes.len().max(1))
+                .map(|size| {
+                    let mut lines = Lines::new(std::io::BufReader::with_capacity(size, bytes));
+                    let mut texts = Vec::new();
+                    while let Some(line) = lines.next_continued(|_| false).expect("it can be read")
+                    {
+                        texts.push((line.number, String::from_utf8_lossy(line.text).into_owned()));
+                    }
+                    texts
+                })
+                .reduce(|one, other| {
+                    assert_eq!(one, other, "{bytes:?}");
+                    one
+                })
+        };
+        let expected = ["a", "b", "", "c"].map(str::to_owned);
+        let expected: Vec<(u64, String)> = (1..).zip(expected).collect();
+        for bytes in [
+            "a\nb\n\nc",
+            "a\r\nb\r\n\r\nc\r\n",
+            "a\rb\r\rc\r",
+            "a\rb\n\r\nc\n",
+        ] {
+            assert_eq!(
+                texts(bytes.as_bytes()).as_ref(),
+                Some(&expected),
+                "{bytes:?}"
+            );
+        }
+        let marked = texts(b"\xef\xbb\xbfa\nb\n\nc\n\0\0\0\x1a\0").expect("it has bytes");
+        assert_eq!(marked[..4], expected);
+        assert_eq!(marked[4..], [(5, String::new())]);
+    }
+
+    #[test]
+    fn what_follows_a_line_keeps_its_first_byte() {
+        for (bytes, rest) in [
+            (&b"a\nb\n\nrest"[..], &b"\nrest"[..]),
+            (b"a\r\nb\r\n\nrest", b"\nrest"),
+            (b"a\rb\r\nrest", b"\nrest"),
+            (b"a\rb\rrest", b"rest"),
+        ] {
+            let mut lines = Lines::new(bytes);
+            for _ in 0..2 {
+                lines.next_continued(|_| false).expect("it can be read");
+            }
+            assert_eq!(lines.into_source().ok(), Some(rest), "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn only_numbers_go_on_in_the_next_line() {
+        let texts = |text: &str| {
+            let mut lines = Lines::new(text.as_bytes());
+            let mut texts = Vec::new();
+            let of_numbers = |line: &[u8]| line.starts_with(b"f");
+            while let Some(line) = lines.next_continued(of_numbers).expect("it can be read") {
+                texts.push((line.number, String::from_utf8_lossy(line.text).into_owned()));
+            }
+            texts
+        };
+        let line = |number: u64, text: &str| (number, text.to_owned());
+        assert_eq!(
+            texts("f 1 \\\n2 \\ \n 3\nf"),
+            [line(1, "f 1  2   3"), line(4, "f")]
+        );
+        assert_eq!(texts("g a\\\n1\n"), [line(1, "g a\\"), line(2, "1")]);
+        assert_eq!(
+            texts("f 1 2 3\\\nf 4\n"),
+            [line(1, "f 1 2 3"), line(2, "f 4")]
+        );
+        assert_eq!(texts("f 1 2 3\\"), [line(1, "f 1 2 3")]);
+    }
+
+    #[test]
+    fn numbers_are_those_of_rust_and_fortran() {
+        for (word, value) in [
+            ("1.5e-3", 1.5e-3),
+            ("1.5D-03", 1.5e-3),
+            ("-2d0", -2.0),
+            ("+.5", 0.5),
+        ] {
+            assert_eq!(number(word.as_bytes()), Some(value), "{word}");
+        }
+        for word in ["", "d", "1,5", "1.5-3", "0x10", "1_000"] {
+            assert_eq!(number(word.as_bytes()), None, "{word}");
+        }
     }
 }

@@ -1,39 +1,49 @@
 //! Reads triangle meshes from STL, OBJ and PLY files, and refuses or reports what is wrong with them.
 //!
 //! Coordinates keep all digits that the file has (f64 in text, f32 in binary STL). Vertices at
-//! exactly the same point become one, in every format. Surfaces come from the groups of an OBJ file
-//! (`g`, or `o` where the file has no `g`) or the solids of a text STL file, provided that there are
-//! several with different names; everything else belongs to the surface `all`.
+//! exactly the same point become one, in every format; at open edges also those that the file's
+//! precision does not tell apart. Surfaces come from the solids of a text STL file, or from the level
+//! of an OBJ file that tells its faces apart: the groups (`g`), else the objects (`o`), else the
+//! materials (`usemtl`). Everything else belongs to the surface `all`.
 
 mod assembly;
 mod cleaning;
+mod clusters;
 mod defect;
 mod fault;
 mod lines;
+mod mending;
 mod obj;
+mod obj_names;
 mod ply;
 mod ply_header;
 mod ply_numbers;
 mod polygon;
+mod precision;
 mod region;
 mod stl;
+mod stl_layout;
 mod stl_text;
 mod vertex_index;
 mod warning;
+mod weld;
 
 pub use defect::Defect;
 pub use fault::{MeshFault, Place};
+pub use mending::Mending;
 pub use warning::MeshWarning;
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 
-use assembly::Assembly;
+use assembly::{Assembled, Assembly};
 
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Shells};
+use crate::content::{Content, HEAD, Utf16};
 use crate::problem::fault::nearest_name;
 use crate::problem::part::Region;
+use crate::problem::sha256;
 
 /// Bytes of the largest file that is read.
 pub const LARGEST_FILE: u64 = 1_000_000_000;
@@ -76,13 +86,48 @@ pub fn read(
     metres_per_unit: f64,
     regions: &[Region],
 ) -> Result<(Mesh, Vec<MeshWarning>), MeshFault> {
+    let loaded = load(path, metres_per_unit, regions)?;
+    Ok((loaded.mesh, loaded.warnings))
+}
+
+/// A mesh with what its reader found out about it.
+pub(super) struct Loaded {
+    pub mesh: Mesh,
+    pub warnings: Vec<MeshWarning>,
+    pub shells: Shells,
+    /// SHA-256 of the very bytes that the mesh was made of, in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// The same with the shells of the mesh and the checksum of the file.
+pub(super) fn load(
+    path: &Path,
+    metres_per_unit: f64,
+    regions: &[Region],
+) -> Result<Loaded, MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
     let found = || {
-        let mut mesh = parse(path, metres_per_unit)?;
-        let warnings = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
+        let (assembled, sha256) = parse(path, metres_per_unit)?;
+        let Assembled {
+            mut mesh,
+            mendings,
+            open_fault,
+        } = assembled;
+        let mut warnings: Vec<_> = mendings.into_iter().map(MeshWarning::Mended).collect();
+        let (odd, shells) = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
+        let is_open = |warning: &MeshWarning| matches!(warning, MeshWarning::OpenEdges { .. });
+        if let Some(fault) = open_fault.filter(|_| odd.iter().any(is_open)) {
+            return Err(fault);
+        }
+        warnings.extend(odd);
         check_surfaces(&mesh.surfaces).map_err(whole)?;
         region::name_triangles(&mut mesh, metres_per_unit, regions).map_err(whole)?;
-        Ok((mesh, warnings))
+        Ok(Loaded {
+            mesh,
+            warnings,
+            shells,
+            sha256,
+        })
     };
     found().map_err(|fault: MeshFault| fault.in_file(path))
 }
@@ -103,22 +148,44 @@ fn check_surfaces(names: &[String]) -> Result<(), Defect> {
     }
 }
 
-fn parse(path: &Path, metres_per_unit: f64) -> Result<Mesh, MeshFault> {
+fn parse(path: &Path, metres_per_unit: f64) -> Result<(Assembled, String), MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
-    let (file, bytes) = open(path).map_err(whole)?;
+    let mut source = open(path).map_err(whole)?;
     let format = Format::of(path).map_err(whole)?;
-    let source = BufReader::with_capacity(1 << 16, file);
+    let bytes = source.get_ref().len() as u64;
+    let sha256 = sha256(source.get_ref());
+    let head = source.get_ref()[..source.get_ref().len().min(HEAD)].to_vec();
     let mut assembly = Assembly::new(metres_per_unit);
-    match format {
-        Format::Stl => stl::read(source, bytes, &mut assembly),
-        Format::Obj => obj::read(source, &mut assembly),
-        Format::Ply => ply::read(source, &mut assembly),
+    match Content::of(&head) {
+        _ if matches!(format, Format::Stl) && stl::is_binary(&head, bytes) => {
+            stl::read(&mut source, &head, bytes, &mut assembly)
+        }
+        Content::Foreign(foreign) => {
+            let told = foreign.to_string();
+            Err(whole(Defect::Foreign { told }))
+        }
+        Content::Plain if format.misnamed(&head, bytes).is_some() => {
+            let other = format.misnamed(&head, bytes).unwrap_or_default();
+            let told = format!("this is {other} file: give its name that ending");
+            Err(whole(Defect::Foreign { told }))
+        }
+        Content::Utf16(order) => {
+            assembly.mended(Mending::Utf16);
+            let mut source = BufReader::new(Utf16::new(source, order));
+            format.read_text(&mut source, &mut assembly)
+        }
+        Content::Plain if matches!(format, Format::Stl) && !stl::is_text(&head) => {
+            stl::read(&mut source, &head, bytes, &mut assembly)
+        }
+        Content::Plain => format.read_text(&mut source, &mut assembly),
     }?;
-    assembly.finish().map_err(whole)
+    let assembled = assembly.finish().map_err(whole)?;
+    Ok((assembled, sha256))
 }
 
-/// Opens a file of a bearable size.
-fn open(path: &Path) -> Result<(File, u64), Defect> {
+/// Reads a file of a bearable size, once: what is parsed is what the checksum is of, whoever writes to the
+/// file meanwhile.
+fn open(path: &Path) -> Result<Cursor<Vec<u8>>, Defect> {
     let about = std::fs::metadata(path)?;
     if !about.is_file() {
         return Err(Defect::Unreadable {
@@ -128,11 +195,43 @@ fn open(path: &Path) -> Result<(File, u64), Defect> {
     match about.len() {
         0 => Err(Defect::Empty),
         bytes if bytes > LARGEST_FILE => Err(Defect::TooLarge { bytes }),
-        bytes => Ok((File::open(path)?, bytes)),
+        bytes => {
+            let mut contents = Vec::with_capacity(bytes as usize);
+            let file = File::open(path)?;
+            match file.take(LARGEST_FILE + 1).read_to_end(&mut contents)? {
+                0 => Err(Defect::Empty),
+                read if read as u64 > LARGEST_FILE => Err(Defect::TooLarge { bytes: read as u64 }),
+                _ => Ok(Cursor::new(contents)),
+            }
+        }
     }
 }
 
 impl Format {
+    /// The format of a file that begins like this, where its name has the ending of another.
+    fn misnamed(self, head: &[u8], bytes: u64) -> Option<&'static str> {
+        let is_ply = head.starts_with(b"ply\n") || head.starts_with(b"ply\r");
+        let is_stl = || stl::is_binary(head, bytes) || stl::is_text(head);
+        match self {
+            Self::Stl | Self::Obj if is_ply => Some("a .ply"),
+            Self::Obj | Self::Ply if !is_ply && is_stl() => Some("an .stl"),
+            _ => None,
+        }
+    }
+
+    /// Reads a file that is not binary STL.
+    fn read_text(
+        self,
+        source: &mut impl BufRead,
+        assembly: &mut Assembly,
+    ) -> Result<(), MeshFault> {
+        match self {
+            Self::Stl => stl_text::read(source, assembly),
+            Self::Obj => obj::read(source, assembly),
+            Self::Ply => ply::read(source, assembly),
+        }
+    }
+
     fn of(path: &Path) -> Result<Self, Defect> {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         match ending.to_ascii_lowercase().as_str() {

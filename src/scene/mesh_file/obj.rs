@@ -1,12 +1,13 @@
-//! Wavefront OBJ: `v`, `f`, `g` and `o`; textures, normals, materials, lines and free-form surfaces
-//! are passed over.
+//! Wavefront OBJ: `v` and `f`, and `g`, `o` or `usemtl` for names; textures, normals, lines and
+//! free-form surfaces are passed over.
 
 use std::io::BufRead;
 
-use super::assembly::{ALL, Assembly};
+use super::assembly::Assembly;
 use super::defect::Defect;
 use super::fault::MeshFault;
 use super::lines::{self, Line, Lines, coordinates, words};
+use super::obj_names::{self, Labels};
 
 /// Reads an OBJ file into the assembly.
 pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), MeshFault> {
@@ -15,14 +16,24 @@ pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), 
         vertices: Vec::new(),
         corners: Vec::new(),
         surface: None,
-        name: ALL.to_owned(),
-        grouped: false,
+        labels: Labels::default(),
     };
     let mut lines = Lines::new(source);
-    while let Some(line) = lines.next_continued()? {
+    while let Some(line) = lines.next_continued(is_of_numbers)? {
         reader.statement(line)?;
     }
+    obj_names::name_surfaces(assembly);
     Ok(())
+}
+
+/// Whether a line holds numbers, and neither names nor paths nor a comment.
+fn is_of_numbers(line: &[u8]) -> bool {
+    const KEYWORDS: [&[u8]; 15] = [
+        b"v", b"vn", b"vt", b"vp", b"f", b"fo", b"l", b"p", b"deg", b"bmat", b"curv", b"curv2",
+        b"surf", b"parm", b"trim",
+    ];
+    let keyword = words(line).next().unwrap_or_default();
+    KEYWORDS.contains(&keyword)
 }
 
 struct Reader<'a> {
@@ -33,10 +44,8 @@ struct Reader<'a> {
     corners: Vec<u32>,
     /// Number of the surface that faces go to, once the first does.
     surface: Option<u32>,
-    /// Its name.
-    name: String,
-    /// Whether there was a `g`: then `o` counts no longer.
-    grouped: bool,
+    /// What the file calls these faces.
+    labels: Labels,
 }
 
 impl Reader<'_> {
@@ -48,31 +57,22 @@ impl Reader<'_> {
         };
         match keyword {
             b"v" => self.vertex(line, rest),
-            b"f" => self.face(line, rest),
-            b"g" => {
-                if !self.grouped {
-                    self.grouped = true;
-                    self.assembly.forget_surfaces();
+            // `fo` is the older word.
+            b"f" | b"fo" => self.face(line, rest),
+            b"g" | b"o" | b"usemtl" => {
+                let name = lines::name(rest);
+                match keyword {
+                    b"g" => self.labels.group = name,
+                    b"o" => self.labels.object = name,
+                    _ => self.labels.material = name,
                 }
-                self.enter(rest);
-                Ok(())
-            }
-            b"o" if !self.grouped => {
-                self.enter(rest);
+                self.surface = None;
                 Ok(())
             }
             [] | [b'#', ..] => Ok(()),
             [b'a'..=b'z' | b'A'..=b'Z' | b'_', ..] if keyword.is_ascii() => Ok(()),
             _ => Err(line.unexpected("an OBJ statement such as `v`, `f` or `g`")),
         }
-    }
-
-    fn enter(&mut self, name: &[u8]) {
-        self.name = match lines::name(name) {
-            name if name.is_empty() => ALL.to_owned(),
-            name => name,
-        };
-        self.surface = None;
     }
 
     fn vertex(&mut self, line: Line, rest: &[u8]) -> Result<(), MeshFault> {
@@ -94,7 +94,9 @@ impl Reader<'_> {
         }
         let surface = match self.surface {
             Some(surface) => surface,
-            None => *self.surface.insert(self.assembly.surface(&self.name)),
+            None => *self
+                .surface
+                .insert(self.assembly.surface(&self.labels.key())),
         };
         self.assembly
             .face(&self.corners, surface)

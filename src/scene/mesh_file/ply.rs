@@ -6,6 +6,7 @@ use super::assembly::{ALL, Assembly};
 use super::defect::Defect;
 use super::fault::{MeshFault, Place};
 use super::lines::Lines;
+use super::mending::Mending;
 use super::ply_header::{self, Element, Encoding, Scalar};
 use super::ply_numbers::{Binary, Numbers, Text};
 use super::{MOST_CORNERS, MOST_TRIANGLES};
@@ -39,11 +40,13 @@ pub(super) fn read(source: impl BufRead, assembly: &mut Assembly) -> Result<(), 
         plan,
     };
     let elements = &header.elements[..=faces];
+    let is_last = faces + 1 == header.elements.len();
     match header.encoding {
-        Encoding::Text => reader.elements(elements, &mut Text::new(lines)),
+        Encoding::Text => reader.all(elements, is_last, &mut Text::new(lines)),
         encoding => {
             let little_endian = encoding == Encoding::LittleEndian;
-            reader.elements(elements, &mut Binary::new(lines, little_endian))
+            let mut numbers = Binary::new(lines, little_endian)?;
+            reader.all(elements, is_last, &mut numbers)
         }
     }
 }
@@ -89,12 +92,54 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn elements(
+    /// Reads the elements up to the faces; `is_last` where no other follows these.
+    fn all(
         &mut self,
         elements: &[Element],
+        is_last: bool,
         numbers: &mut impl Numbers,
     ) -> Result<(), MeshFault> {
         let surface = self.assembly.surface(ALL);
+        self.elements(elements, surface, numbers)?;
+        let Some(faces) = elements.last().filter(|_| is_last) else {
+            return Ok(());
+        };
+        if faces.count == 0 {
+            self.uncounted_faces(faces, surface, numbers)
+        } else {
+            let trailing = numbers.trailing()?;
+            trailing.into_iter().for_each(|it| self.assembly.mended(it));
+            Ok(())
+        }
+    }
+
+    /// Reads faces to the end of a file whose writer left their number at 0.
+    fn uncounted_faces(
+        &mut self,
+        element: &Element,
+        surface: u32,
+        numbers: &mut impl Numbers,
+    ) -> Result<(), MeshFault> {
+        let mut held = 0;
+        while numbers.next_element()? {
+            self.face(element, numbers, surface)
+                .and_then(|()| numbers.end_element())
+                .map_err(|defect| defect.at(numbers.place(&element.name, held)))?;
+            held += 1;
+        }
+        if held > 0 {
+            self.assembly
+                .mended(Mending::Recounted { promised: 0, held });
+        }
+        Ok(())
+    }
+
+    fn elements(
+        &mut self,
+        elements: &[Element],
+        surface: u32,
+        numbers: &mut impl Numbers,
+    ) -> Result<(), MeshFault> {
         for element in elements
             .iter()
             .filter(|element| !element.properties.is_empty())
@@ -107,7 +152,17 @@ impl Reader<'_> {
                         _ => "another element",
                     };
                     let place = numbers.place(&element.name, count);
-                    return Err(Defect::EndsEarly { expected }.at(place));
+                    let fault = Defect::EndsEarly { expected }.at(place);
+                    if element.name != "face" || count == 0 {
+                        return Err(fault);
+                    }
+                    // Faces that make a closed mesh are all there, whatever the header says.
+                    self.assembly.mended(Mending::Recounted {
+                        promised: element.count,
+                        held: count,
+                    });
+                    self.assembly.must_close(fault);
+                    return Ok(());
                 }
                 match element.name.as_str() {
                     "vertex" => self.vertex(element, numbers),

@@ -5,6 +5,7 @@ use std::io::BufRead;
 use super::defect::Defect;
 use super::fault::{MeshFault, Place};
 use super::lines::{Lines, number, words};
+use super::mending::Mending;
 use super::ply_header::Scalar;
 
 /// A stream of numbers behind a header.
@@ -15,6 +16,8 @@ pub(super) trait Numbers {
     fn next(&mut self, scalar: Scalar) -> Result<f64, Defect>;
     /// Checks that nothing is left of the element.
     fn end_element(&self) -> Result<(), Defect>;
+    /// What stands behind the last element.
+    fn trailing(&mut self) -> Result<Option<Mending>, MeshFault>;
     /// Where the element of this number (from 0) stands.
     fn place(&self, kind: &str, number: u64) -> Place;
 }
@@ -40,10 +43,11 @@ impl<R: BufRead> Numbers for Text<R> {
     fn next_element(&mut self) -> Result<bool, MeshFault> {
         self.line.clear();
         self.read = 0;
-        let line = self.lines.next()?;
-        self.line
-            .extend_from_slice(line.map_or(&[], |line| line.text));
-        Ok(line.is_some())
+        let more = self.lines.skip_blank()?;
+        if more {
+            self.line.extend_from_slice(self.lines.current().text);
+        }
+        Ok(more)
     }
 
     fn next(&mut self, scalar: Scalar) -> Result<f64, Defect> {
@@ -66,6 +70,12 @@ impl<R: BufRead> Numbers for Text<R> {
         }
     }
 
+    fn trailing(&mut self) -> Result<Option<Mending>, MeshFault> {
+        let more = self.lines.skip_blank()?;
+        let line = self.lines.number();
+        Ok(more.then_some(Mending::TrailingLines { line }))
+    }
+
     fn place(&self, _kind: &str, _number: u64) -> Place {
         Place::Line(self.lines.number())
     }
@@ -78,11 +88,11 @@ pub(super) struct Binary<R> {
 }
 
 impl<R: BufRead> Binary<R> {
-    pub fn new(lines: Lines<R>, little_endian: bool) -> Self {
-        Self {
-            source: lines.into_source(),
+    pub fn new(lines: Lines<R>, little_endian: bool) -> Result<Self, MeshFault> {
+        Ok(Self {
+            source: lines.into_source()?,
             little_endian,
-        }
+        })
     }
 
     fn bytes<const N: usize>(&mut self) -> Result<[u8; N], Defect> {
@@ -124,6 +134,14 @@ impl<R: BufRead> Numbers for Binary<R> {
 
     fn end_element(&self) -> Result<(), Defect> {
         Ok(())
+    }
+
+    fn trailing(&mut self) -> Result<Option<Mending>, MeshFault> {
+        /// One line end does no harm.
+        const LINE_END: u64 = 2;
+        let bytes = std::io::copy(&mut self.source, &mut std::io::sink());
+        let bytes = bytes.map_err(|error| Defect::from(error).at(Place::File))?;
+        Ok((bytes > LINE_END).then_some(Mending::TrailingBytes { bytes }))
     }
 
     fn place(&self, kind: &str, number: u64) -> Place {

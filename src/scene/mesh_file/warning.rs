@@ -4,9 +4,22 @@ use std::fmt;
 
 use nalgebra::Point3;
 
+use super::mending::Mending;
+
 /// Something odd about a mesh. Places are in the file's own unit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeshWarning {
+    /// What was put right while the file was read.
+    Mended(Mending),
+    /// Corners of neighbours that were apart by less than the file's precision were joined.
+    WeldedCorners {
+        /// How many took the place of another.
+        count: usize,
+        /// The largest distance of one from its new place, in the file's unit.
+        apart: f64,
+        /// Where the first is now.
+        near: Point3<f64>,
+    },
     /// Triangles of zero area, which have no normal, were dropped.
     DegenerateTriangles {
         /// How many.
@@ -66,8 +79,10 @@ pub enum MeshWarning {
         /// A corner of one.
         near: Point3<f64>,
     },
-    /// A closed mesh whose triangles' fronts look inwards.
+    /// Closed bodies whose triangles' fronts looked inwards; they were turned.
     InsideOut {
+        /// How many.
+        bodies: usize,
         /// The enclosed volume, m3; negative.
         signed_volume: f64,
     },
@@ -77,7 +92,8 @@ impl MeshWarning {
     /// Puts its place, in m until then, in the file's unit.
     pub(super) fn put_in_unit(&mut self, metres_per_unit: f64) {
         match self {
-            Self::DegenerateTriangles { near, .. }
+            Self::WeldedCorners { near, .. }
+            | Self::DegenerateTriangles { near, .. }
             | Self::DuplicateTriangles { near, .. }
             | Self::TurnedTriangles { near, .. }
             | Self::OpenEdges { near, .. }
@@ -85,7 +101,7 @@ impl MeshWarning {
             | Self::NonManifoldEdges { near, .. }
             | Self::InconsistentWinding { near, .. }
             | Self::TinyPieces { near, .. } => *near /= metres_per_unit,
-            Self::InsideOut { .. } => {}
+            Self::Mended(_) | Self::InsideOut { .. } => {}
         }
     }
 }
@@ -104,9 +120,34 @@ impl fmt::Display for Coordinates<'_> {
     }
 }
 
+/// A small length with two digits.
+struct Length(f64);
+
+impl fmt::Display for Length {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value: f64 = format!("{:.1e}", self.0).parse().unwrap_or(self.0);
+        if value >= 1e-6 {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
+        }
+    }
+}
+
 impl fmt::Display for MeshWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Mended(mending) => mending.fmt(f),
+            Self::WeldedCorners { count, apart, near } => {
+                let (verb, one) = number(f, *count, "corner", "corners")?;
+                write!(
+                    f,
+                    "{verb} joined with those of neighbouring triangles{one} near {}: they were at most \
+                     {} apart, which is within the precision of the file",
+                    Coordinates(near),
+                    Length(*apart)
+                )
+            }
             Self::DegenerateTriangles { count, near } => {
                 let (verb, one) =
                     number(f, *count, "triangle of zero area", "triangles of zero area")?;
@@ -187,12 +228,20 @@ impl fmt::Display for MeshWarning {
                     Coordinates(near)
                 )
             }
-            Self::InsideOut { signed_volume } => write!(
-                f,
-                "the fronts of the triangles look into the material (signed volume {signed_volume:.3e} \
-                 m3); the free side is taken to be outside all the same: give `facing` for a target \
-                 inside, or flip the normals"
-            ),
+            Self::InsideOut {
+                bodies,
+                signed_volume,
+            } => {
+                let which = match bodies {
+                    1 => "a closed body is inside out: its".into(),
+                    count => format!("{count} closed bodies are inside out: their"),
+                };
+                write!(
+                    f,
+                    "{which} normals point into the material (signed volume {signed_volume:.3e} m3); they \
+                     were turned: give `facing` for a target inside, or flip the normals in the file"
+                )
+            }
         }
     }
 }

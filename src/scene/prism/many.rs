@@ -274,6 +274,7 @@ impl<R: Real> Flights<'_, R> {
         let start = Start {
             piece: (piece >= 0.0).then_some(piece as u32),
             front: leaves.then_some(self.on_front[i]),
+            fronts_are_free: true,
         };
         (ray, start)
     }

@@ -145,7 +145,14 @@ impl Prism {
         nearest: &mut Nearest,
     ) {
         let first = self.first_rim() + end * self.walls.len() as u32;
-        let leaves_it = |wall: u32| start.piece == Some(first + wall);
+        let left = start.piece.and_then(|piece| piece.checked_sub(first));
+        let left = left.filter(|&wall| (wall as usize) < self.walls.len());
+        // At the corner of two walls it leaves the rims of both.
+        let leaves_it = |centre: &Point3<f64>, least: f64| {
+            left.is_some_and(|left| {
+                self.distance_to_wall(left, centre) <= least + self.extent.slack
+            })
+        };
         let settled = 1e-3 * self.extent.slack;
         let last = last.min(nearest.best.rank);
         let begin = ray.origin + ray.direction * distance;
@@ -170,7 +177,8 @@ impl Prism {
             let gap = apart - radius;
             let closing = -offset.dot(&ray.direction) / apart;
             let from_contact = distance == 0.0 && gap <= self.extent.slack;
-            let heads_for_it = closing > SLIDES && !(distance == 0.0 && leaves_it(wall));
+            let leaves_here = distance == 0.0 && leaves_it(&centre, least);
+            let heads_for_it = closing > SLIDES && !leaves_here;
             if heads_for_it && (from_contact || gap.abs() <= settled) {
                 let normal = offset / apart;
                 let meeting = Meeting {
@@ -178,6 +186,10 @@ impl Prism {
                     rank: distance,
                     front: true,
                     normal: [normal.x, normal.y],
+                };
+                let wall = match within_reach {
+                    Reach::One(wall) => wall,
+                    Reach::Several => self.wall_that_faces(&centre, least, meeting.normal),
                 };
                 nearest.take(first + wall, &meeting);
                 nearest.cap = normal.z;
@@ -215,6 +227,22 @@ impl Prism {
             let apart = self.distance_to_wall(wall, to);
             if apart < found.1 {
                 found = (wall, apart);
+            }
+        }
+        found
+    }
+
+    /// Of the walls that are this near in the cross-section, as two are at their corner, the one
+    /// whose normal is nearest to that of the contact, whichever sides are their fronts.
+    fn wall_that_faces(&self, to: &Point3<f64>, least: f64, normal: [f64; 2]) -> u32 {
+        let (mut found, mut most) = (0, -1.0);
+        for wall in 0..self.walls.len() as u32 {
+            if self.distance_to_wall(wall, to) <= least + self.extent.slack {
+                let [x, y] = self.walls[wall as usize].front_nearest([to.x, to.y]);
+                let facing = (x * normal[0] + y * normal[1]).abs();
+                if facing > most {
+                    (found, most) = (wall, facing);
+                }
             }
         }
         found

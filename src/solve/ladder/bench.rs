@@ -1,8 +1,6 @@
 //! Where effects are measured: the leading candidates, with and without them, on the same shots.
 
 use std::borrow::Cow;
-use std::hint::black_box;
-use std::time::Instant;
 
 use rayon::prelude::*;
 
@@ -211,25 +209,19 @@ impl<'a> Bench<'a> {
             best_without,
             best_with,
             regret: self.relative(without - with, with).max(0.0),
-            relative_time: self.relative_time(&reduced, &fewer),
+            relative_rays: self.relative_rays(&reduced, &fewer),
             left_out: false,
         }
     }
 
-    /// Time for a pose of a reduced setup over that of the whole one, in turns, which other threads
-    /// that are busy slow down alike.
-    fn relative_time(&self, reduced: &Setup, fewer: &[Deviate]) -> f64 {
-        let time = |setup: &Setup, shots: &[Deviate]| {
-            let started = Instant::now();
-            black_box(objective(setup, &self.leading[0], shots));
-            started.elapsed().as_secs_f64()
+    /// Rays of a pose of a reduced setup over those of the whole one. Unlike times they are the same on every
+    /// machine.
+    fn relative_rays(&self, reduced: &Setup, fewer: &[Deviate]) -> f64 {
+        let choice = &self.leading[0];
+        let rays = |setup: &Setup, shots: &[Deviate]| {
+            Tally::trace(setup, choice, choice.speed, shots).rays as f64
         };
-        let mut least = [f64::INFINITY; 2];
-        for _ in 0..TIMED_TURNS {
-            least[0] = time(reduced, fewer).min(least[0]);
-            least[1] = time(self.setup, self.few_shots()).min(least[1]);
-        }
-        least[0] / least[1]
+        rays(reduced, fewer) / rays(self.setup, self.few_shots()).max(1.0)
     }
 }
 
@@ -254,7 +246,6 @@ const DESCENT_SHOTS: usize = 128;
 const DESCENT_SIZE: f64 = 0.1;
 /// A descent ends when J differs by less than this share of the accuracy.
 const DESCENT_SETTLED: f64 = 0.3;
-const TIMED_TURNS: usize = 3;
 
 /// Shots that tell whether verdicts pass.
 fn draw_fresh(setup: &Setup) -> Replicates {

@@ -112,6 +112,7 @@ fn can_be_used(scene: &Scene, mesh: &Mesh) {
         }
     }
     let target = Target {
+        lengths_in: Default::default(),
         surface: scene.surfaces()[0].clone(),
         within: None,
         aim: None,

@@ -1,6 +1,6 @@
 //! `peenpose init`: a problem file to start from.
 
-use std::io::{BufRead, IsTerminal, Write};
+use std::io::{BufRead, IsTerminal};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -8,7 +8,8 @@ use clap::ValueEnum;
 use peenpose::problem;
 
 use crate::args::InitArgs;
-use crate::output::{Failure, quoted, text, write};
+use crate::folder::{Staged, folder_of};
+use crate::output::{Failure, aside as note, quoted, text};
 
 /// What editors look for beside the file; its first line says so.
 const SCHEMA: &str = "peenpose.schema.json";
@@ -52,7 +53,7 @@ pub fn run(args: &InitArgs) -> Result<ExitCode, Failure> {
                     MESH.0
                 ));
             }
-            text(template.text().to_owned())
+            text(template.text())
         }
     }
 }
@@ -63,10 +64,7 @@ fn write_all(template: Template, path: &Path, force: bool) -> Result<ExitCode, F
         .file_name()
         .and_then(|name| name.to_str())
         .ok_or_else(|| format!("{} cannot be the name of a file", path.display()))?;
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(path);
     let schema = format!("{:#}\n", problem::schema());
     let mut files = vec![(name, template.text()), (SCHEMA, schema.as_str())];
     if template == Template::Mesh {
@@ -77,9 +75,11 @@ fn write_all(template: Template, path: &Path, force: bool) -> Result<ExitCode, F
             refuse_to_overwrite(&folder.join(name), contents)?;
         }
     }
+    let mut staged = Staged::new(folder);
     for (name, contents) in &files {
-        write(folder, name, contents.as_bytes())?;
+        staged.add(name, contents.as_bytes());
     }
+    staged.put()?;
     let shown = quoted(&path.display().to_string());
     let beside: Vec<&str> = files[1..].iter().map(|(name, _)| *name).collect();
     note(&format!(
@@ -113,10 +113,4 @@ fn ask() -> Result<Template, Failure> {
         answer => Template::from_str(answer, true)
             .map_err(|_| format!("`{answer}` is none of keyway, mesh and plate").into()),
     }
-}
-
-/// Says something that is not the result.
-fn note(message: &str) {
-    // Nothing can be done when stderr is closed.
-    let _ = std::io::stderr().write_all(message.as_bytes());
 }

@@ -3,17 +3,23 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::{HISTOGRAM_HEIGHT, LEFT, Mark, ROOM, TOP, WIDTH, limit_mark, tolerance_marks};
+use super::{HISTOGRAM_HEIGHT, LEFT, Mark, ROOM, SIZE, TOP, WIDTH, limit_mark, tolerance_marks};
 use crate::record::{HitsRecord, Record};
 use crate::report::figure::linear::{Axes, Plot};
 use crate::report::figure::sheet::{self, Area, Drawn};
 use crate::report::figure::style::{FAINT, LABEL, LOOKS, letters};
+use crate::report::layout::wrap;
 use crate::report::number::{decimals_for, fixed, impulse_asked, share, share_asked};
+use crate::report::typeset::typeset;
 
 /// Room beside the marks, relative to the extent of the values.
 const ROOM_FOR_NAMES: f64 = 0.25;
 /// A histogram shows at least this much of its values, relative to them.
 const LEAST_SPAN: f64 = 1e-3;
+/// How far the axis reaches, relative to the highest bar: names stand above it.
+const HEADROOM: f64 = 1.4;
+/// Room between what is said below two histograms, px.
+const BESIDE: i32 = 60;
 /// Bars of a histogram.
 const BARS: usize = 32;
 
@@ -52,7 +58,7 @@ pub fn histograms(record: &Record, hits: &HitsRecord) -> [Histogram; 3] {
     [
         Histogram {
             title: "Angle between flight and surface",
-            name: "angle, deg; 90 is perpendicular",
+            name: "angle, °; 90 is perpendicular",
             remark: format!(
                 "{} of these stick",
                 share(sticking as f64 / hits.sticks.len().max(1) as f64)
@@ -62,7 +68,7 @@ pub fn histograms(record: &Record, hits: &HitsRecord) -> [Histogram; 3] {
         },
         Histogram {
             title: "N*",
-            name: "N*, uN.s",
+            name: "N*, µN·s",
             values: normal,
             remark: format!(
                 "{off} off {} +- {}",
@@ -73,7 +79,7 @@ pub fn histograms(record: &Record, hits: &HitsRecord) -> [Histogram; 3] {
         },
         Histogram {
             title: "f*",
-            name: "f*, uN.s",
+            name: "f*, µN·s",
             remark: goals.tangential_impulse.map_or_else(
                 || "no limit".into(),
                 |limit| {
@@ -119,7 +125,7 @@ impl Histogram {
             title: self.title,
             x: low..high,
             x_name: self.name,
-            y: 0.0..percent(most) * 1.25,
+            y: 0.0..percent(most) * HEADROOM,
             y_name: "hits, %",
         };
         let plot = Plot::new(area, corners, &axes)?;
@@ -132,9 +138,7 @@ impl Histogram {
             let corners = [(from, 0.0), (from + width, percent(number))];
             plot.rectangle(corners, LOOKS[0].colour.filled())?;
         }
-        for mark in &self.marks {
-            plot.mark(mark.value, &mark.name, mark.is_dashed)?;
-        }
+        plot.marks(&self.marks)?;
         let decimals = decimals_for(span, 3);
         let [from, to] = [lowest, highest].map(|value| fixed(value, decimals));
         let extent = if from == to {
@@ -142,8 +146,14 @@ impl Histogram {
         } else {
             format!("{from} to {to}")
         };
-        let remark = format!("{extent}; {}", self.remark);
-        let place = (left, top + HISTOGRAM_HEIGHT + 76);
-        sheet::text(area, &remark, place, HPos::Left, &letters(LABEL), FAINT)
+        let remark = typeset(&format!("{extent}; {}", self.remark));
+        let room = LEFT.get(index + 1).copied().unwrap_or(SIZE.0 as i32) - left - BESIDE;
+        let letters_that_fit = room / sheet::width(&"0".repeat(10), LABEL).max(1) * 10;
+        let lines = wrap(&remark, letters_that_fit.max(1) as usize);
+        for (line, number) in lines.iter().zip(0..) {
+            let place = (left, top + HISTOGRAM_HEIGHT + 76 + 28 * number);
+            sheet::text(area, line, place, HPos::Left, &letters(LABEL), FAINT)?;
+        }
+        Ok(())
     }
 }

@@ -7,17 +7,19 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::grid::Grid;
-use super::{LEFT, MAP_HEIGHT, Mark, TOP, WIDTH, limit_mark, tolerance_marks};
+use super::{LEFT, MAP_HEIGHT, Mark, SIZE, TOP, WIDTH, limit_mark, tolerance_marks};
 use crate::record::{HitsRecord, Record};
 use crate::report::figure::levels::round_step;
 use crate::report::figure::linear::{Axes, Plot};
-use crate::report::figure::sheet::{Area, Drawn, Fault, Place, styled};
+use crate::report::figure::sheet::{self, Area, Drawn, Fault, Place, styled};
 use crate::report::figure::style::{GHOST, INK, LABEL, letters};
 use crate::report::number::{plain, rounded};
 
 /// Where the colour bar stands beside a map, px, and how wide it is.
 const BAR_APART: i32 = 24;
 const BAR_WIDTH: i32 = 26;
+/// Room that labels and name of the next map take on its left, px.
+const BESIDE: i32 = 100;
 /// The colours of N* reach at least so far from what is wanted, relative to it.
 const LEAST_TOLERANCE: f64 = 0.01;
 
@@ -66,14 +68,14 @@ pub fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
             marks: Vec::new(),
         },
         Map {
-            title: "Mean N*, uN.s",
+            title: "Mean N*, µN·s",
             values: normal,
             scale: wanted - half..wanted + half,
             gradient: colorous::PURPLE_ORANGE,
             marks: tolerance_marks(goals),
         },
         Map {
-            title: "Mean f*, uN.s",
+            title: "Mean f*, µN·s",
             scale: 0.0..limit
                 .as_ref()
                 .map(|limit| limit.value)
@@ -105,7 +107,7 @@ impl Map {
             x: grid.x.clone(),
             x_name: "along (azimuth 0), mm",
             y: grid.y.clone(),
-            y_name: "across (azimuth 90 deg), mm",
+            y_name: "across (azimuth 90°), mm",
         };
         let plot = Plot::new(area, corners, &axes)?;
         self.cells(&plot, grid)?;
@@ -155,6 +157,9 @@ impl Map {
         area.draw(&Rectangle::new(frame, GHOST.stroke_width(2)))?;
         let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
         let right = left + BAR_WIDTH;
+        // What is drawn beside it begins there.
+        let next = LEFT.into_iter().find(|start| *start > right);
+        let room = next.map_or(SIZE.0 as i32, |next| next - BESIDE) - right - 10;
         let place = |value: f64| height((value - from) / (to - from));
         let mut taken: Vec<i32> = Vec::new();
         let is_shown = |mark: &&Mark| (from..=to).contains(&mark.value);
@@ -166,8 +171,11 @@ impl Map {
             ))?;
             // On a wide scale the marks are all at one place; the first is the one that counts.
             if taken.iter().all(|other| (other - y).abs() > 28) {
-                let text = format!("{} {}", rounded(mark.value, 3), mark.name);
-                area.draw_text(&text, &style, (right + 10, y))?;
+                let value = rounded(mark.value, 3);
+                let both = format!("{value} {}", mark.name);
+                let fits = sheet::width(&both, LABEL) <= room;
+                let text = if fits { &both } else { &mark.name };
+                area.draw_text(text, &style, (right + 10, y))?;
             }
             taken.push(y);
         }

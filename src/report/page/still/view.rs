@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{Area, Label, PICTURE, Piece, WIDTH};
-use crate::elementary::whole_power;
+use crate::elementary::{cos, whole_power};
 use crate::record::{BodyRecord, EvidenceRecord, Record, RoleRecord, SurfaceShapeRecord};
 use crate::report::page::look::{Colour, LOOK};
 
@@ -64,7 +64,7 @@ impl View {
             middle,
             scale: PICTURE / (2.0 * ROOM * reach.max(1e-6)),
             seen_against: if is_along {
-                "azimuth 90 deg"
+                "azimuth 90°"
             } else {
                 "azimuth 0"
             },
@@ -172,7 +172,7 @@ impl View {
     fn shaded(&self, colour: Colour, [a, b, c]: &[Corner; 3]) -> Colour {
         let normal = (b - a).cross(&(c - a));
         let light = self.out + self.up * 0.5 - self.right * 0.3;
-        let facing = normal.angle(&light).cos().abs();
+        let facing = cos(normal.angle(&light)).abs();
         colour.darker(0.72 + 0.28 * (facing * SHADES).round() / SHADES)
     }
 

@@ -4,7 +4,7 @@ use crate::scene::mesh::Mesh;
 fn mesh(bytes: &[u8]) -> Result<Mesh, Defect> {
     let mut assembly = Assembly::new(1.0);
     read(bytes, &mut assembly).map_err(|fault| fault.defect)?;
-    assembly.finish()
+    assembly.finish().map(|it| it.mesh)
 }
 
 fn header(encoding: &str, kind: &str, faces: usize, indices: &str) -> String {

@@ -204,3 +204,61 @@ fn a_ray_is_between_two_heights_from_its_start_at_the_earliest() {
         assert_eq!(between(z, 0.0), ever, "{z}");
     }
 }
+
+/// At the corner of two walls, at both ends, whichever stands first in the list; for many shots as for one.
+#[test]
+fn a_lip_belongs_to_the_wall_whose_normal_is_nearer() {
+    // A bar seen from outside; each list starts with another wall.
+    let corners = [[5.0, 5.0], [5.0, -5.0], [-5.0, -5.0], [-5.0, 5.0]];
+    for first in 0..4 {
+        let turned = [0, 1, 2, 3].map(|index| corners[(index + first) % 4]);
+        let profile = square(turned);
+        let bar = Prism::new(&profile, 10.0, Ends::default(), &Place::default(), 7, 1e-9);
+        // Over the corner at (5, 5): the walls there look along x and along y.
+        let outwards = |surface: u32| {
+            let index = (surface - 7) as usize;
+            let (a, b) = (turned[index], turned[(index + 1) % 4]);
+            [(a[1] - b[1]) / 10.0, (b[0] - a[0]) / 10.0]
+        };
+        let angles =
+            [0.02, 0.1, 0.2, 0.24, 0.26, 0.3, 0.4, 0.48].map(|turns| turns * std::f64::consts::PI);
+        for (z, direction) in [(-10.0, UP), (20.0, DOWN)] {
+            let flights = angles.map(|angle| {
+                let (sin, cos) = angle.sin_cos();
+                Ray::of([5.0 + 0.3 * cos, 5.0 + 0.3 * sin, z], direction)
+            });
+            let hits = touched_by_many(&bar, &flights);
+            for (i, angle) in angles.iter().enumerate() {
+                let alone = bar.first_touch(&flights[i], RADIUS, None, false, f64::INFINITY);
+                let (crossing, normal) = alone.expect("the lip");
+                assert!((crossing.distance - 9.6).abs() < 1e-9);
+                let [x, y] = outwards(crossing.surface);
+                let faces_x = *angle < 0.25 * std::f64::consts::PI;
+                assert_eq!(
+                    [x.abs() > 0.5, y.abs() > 0.5],
+                    [faces_x, !faces_x],
+                    "{first}, {angle}"
+                );
+                assert!(x * normal.x + y * normal.y > 0.0);
+                assert_eq!(
+                    (hits.surface[i], hits.distance[i]),
+                    (crossing.surface, crossing.distance)
+                );
+                // What has left it goes away from both walls.
+                let spot = Spot {
+                    part: 0,
+                    piece: crossing.piece,
+                    front: true,
+                };
+                let away = Ray {
+                    origin: flights[i].origin + flights[i].direction * crossing.distance,
+                    direction: (normal + Vector3::new(-0.4, 0.3, 0.0)).normalize(),
+                };
+                assert_eq!(
+                    bar.first_touch(&away, RADIUS, Some(spot), true, f64::INFINITY),
+                    None
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! What a nozzle sweeps while its settings err within their tolerance, and how near that comes to a part.
+//!
+//! The exit lies at `aim - standoff d`. Aim points fill a box, standoffs a range, and directions d a patch
+//! of the unit sphere, given by a grid. What the body sweeps is taken to be the convex hull of the bodies at
+//! all of them: exact along the walls of a bore, and too large towards the aim point by no more than a
+//! direction's patch bulges.
+
+use nalgebra::{Point3, Vector3};
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query::gjk::{self, CsoPoint, GJKResult, VoronoiSimplex};
+use parry3d_f64::shape::SupportMap;
+
+use super::Scene;
+use super::facets::Facets;
+
+/// What of the nozzle must not touch a wall, round the exit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Core {
+    /// The centre of the exit.
+    Exit,
+    /// A line from there, m, in a fixed direction or back along the jet.
+    Line {
+        /// m.
+        length: f64,
+        /// Unit vector; back along the jet when absent.
+        direction: Option<Vector3<f64>>,
+    },
+    /// The disc of the exit.
+    Disc {
+        /// m.
+        radius: f64,
+    },
+}
+
+/// All places of the core of a nozzle's body within the tolerance of its settings.
+#[derive(Clone, Debug)]
+pub struct Swept {
+    /// Centre of the aim points, m.
+    pub aim: Point3<f64>,
+    /// Half the edges of their box, m.
+    pub shifts: [Vector3<f64>; 3],
+    /// Directions of the jet: unit vectors.
+    pub directions: Vec<Vector3<f64>>,
+    /// Smallest and largest standoff, m.
+    pub standoff: [f64; 2],
+    /// What is swept.
+    pub core: Core,
+}
+
+impl SupportMap for Swept {
+    fn local_support_point(&self, dir: Vector) -> Vector {
+        let toward: Vector3<f64> = dir.into();
+        let mut farthest = (f64::NEG_INFINITY, Vector3::zeros());
+        for jet in &self.directions {
+            let ahead = jet.dot(&toward);
+            let [near, far] = self.standoff;
+            let exit = jet * -(if ahead > 0.0 { near } else { far });
+            let beyond = match self.core {
+                Core::Exit => Vector3::zeros(),
+                Core::Line { length, direction } => {
+                    let end = direction.unwrap_or(-jet) * length;
+                    if end.dot(&toward) > 0.0 {
+                        end
+                    } else {
+                        Vector3::zeros()
+                    }
+                }
+                Core::Disc { radius } => {
+                    let across = toward - jet * ahead;
+                    let length = across.norm();
+                    if length > 0.0 {
+                        across * (radius / length)
+                    } else {
+                        Vector3::zeros()
+                    }
+                }
+            };
+            let point = exit + beyond;
+            let height = point.dot(&toward);
+            if height > farthest.0 {
+                farthest = (height, point);
+            }
+        }
+        let shifts = self.shifts.iter().map(|shift| {
+            if shift.dot(&toward) < 0.0 {
+                -shift
+            } else {
+                *shift
+            }
+        });
+        (self.aim.coords + farthest.1 + shifts.sum::<Vector3<f64>>()).into()
+    }
+}
+
+impl Scene {
+    /// Distance between all places of a nozzle's core and the nearest surface of the parts that stand in
+    /// the scene, and that surface; 0 where they meet, `None` when everything is farther than `limit`.
+    pub fn distance_to_swept(&self, swept: &Swept, limit: f64) -> Option<(f64, u32)> {
+        let mut nearest: Option<(f64, u32)> = None;
+        for part in self.parts.iter().filter(|part| !part.on_nozzle) {
+            let bound = nearest.map_or(limit, |(gap, _)| gap);
+            if let Some((distance, triangle)) = part.facets.distance_to_swept(swept, bound) {
+                nearest = Some((distance, part.facets.surface(triangle)));
+            }
+        }
+        nearest
+    }
+}
+
+impl Facets {
+    fn distance_to_swept(&self, swept: &Swept, limit: f64) -> Option<(f64, u32)> {
+        let axes = [Vector::X, Vector::Y, Vector::Z];
+        let reach = |sign: f64| axes.map(|axis| swept.local_support_point(axis * sign).dot(axis));
+        let (low, high) = (
+            Vector::from_array(reach(-1.0)),
+            Vector::from_array(reach(1.0)),
+        );
+        self.nearest_triangle(limit, low, high, |index, limit| {
+            distance(swept, &self.triangle(index), limit)
+        })
+    }
+}
+
+/// Distance between what is swept and a triangle, as far as it is below a limit.
+fn distance(swept: &Swept, triangle: &parry3d_f64::shape::Triangle, limit: f64) -> f64 {
+    let there = Pose::IDENTITY;
+    let mut simplex = VoronoiSimplex::new();
+    let towards = triangle.a - swept.local_support_point(Vector::X);
+    let start = if towards == Vector::ZERO {
+        Vector::X
+    } else {
+        towards
+    };
+    simplex.reset(CsoPoint::from_shapes(&there, swept, triangle, start));
+    let found = gjk::closest_points(&there, swept, triangle, limit, true, &mut simplex);
+    match found {
+        GJKResult::ClosestPoints(a, b, _) => (a - b).length(),
+        GJKResult::NoIntersection(_) => f64::INFINITY,
+        GJKResult::Intersection | GJKResult::Proximity(_) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::part::{Part, Place, Shape};
+    use crate::scene::Walls;
+
+    fn block() -> Scene {
+        let part = Part {
+            name: "block".into(),
+            shape: Shape::Box {
+                min: Point3::new(-1.0, -1.0, -1.0),
+                max: Point3::new(1.0, 1.0, 0.0),
+            },
+            place: Place::default(),
+            on_nozzle: false,
+        };
+        Scene::build(&[part], Walls::Exact).expect("it is sound")
+    }
+
+    fn swept(core: Core, direction: Vector3<f64>, shifts: [f64; 3]) -> Swept {
+        let [x, y, z] = shifts;
+        Swept {
+            aim: Point3::origin(),
+            shifts: [Vector3::x() * x, Vector3::y() * y, Vector3::z() * z],
+            directions: vec![direction.normalize()],
+            standoff: [2.0, 3.0],
+            core,
+        }
+    }
+
+    #[test]
+    fn distances_are_those_of_the_nearest_place() {
+        let scene = block();
+        let down = -Vector3::z();
+        for (core, direction, shifts, expected) in [
+            (Core::Exit, down, [0.0; 3], 2.0),
+            (Core::Exit, down, [0.0, 0.0, 0.5], 1.5),
+            (Core::Disc { radius: 0.3 }, down, [0.0; 3], 2.0),
+            // Upright beside the block: the rim is nearest.
+            (
+                Core::Disc { radius: 0.3 },
+                -Vector3::x(),
+                [0.1, 0.0, 0.0],
+                0.9_f64,
+            ),
+            (
+                Core::Line {
+                    length: 1.5,
+                    direction: Some(down),
+                },
+                down,
+                [0.0; 3],
+                0.5,
+            ),
+            (
+                Core::Line {
+                    length: 9.0,
+                    direction: None,
+                },
+                down,
+                [0.0; 3],
+                2.0,
+            ),
+        ] {
+            let swept = swept(core, direction, shifts);
+            let (found, _) = scene.distance_to_swept(&swept, 9.0).expect("it is near");
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{core:?}: {found} {expected}"
+            );
+        }
+    }
+
+    /// The nearest of many places on a grid is never nearer, and hardly farther.
+    #[test]
+    fn the_hull_is_as_near_as_the_nearest_of_many_places() {
+        let scene = block();
+        let tilt = |a: f64, b: f64| Vector3::new(a.sin() * b.cos(), a.sin() * b.sin(), -a.cos());
+        let step = |k: i32, half: f64| half * f64::from(k) / 8.0;
+        for (polar, turn) in [(0.4, 0.3), (0.9, 2.0), (1.4, 4.0)] {
+            let mut directions = Vec::new();
+            for i in -2..=2 {
+                for j in -2..=2 {
+                    directions.push(tilt(
+                        polar + 0.035 * f64::from(i) / 2.0,
+                        turn + 0.035 * f64::from(j) / 2.0,
+                    ));
+                }
+            }
+            let swept = Swept {
+                aim: Point3::new(1.05, 0.0, 0.1),
+                shifts: [Vector3::x() * 0.02, Vector3::y() * 0.02, Vector3::zeros()],
+                directions,
+                standoff: [0.9, 1.1],
+                core: Core::Line {
+                    length: 1.0,
+                    direction: Some(Vector3::new(-0.6, 0.0, 0.8)),
+                },
+            };
+            let (found, _) = scene.distance_to_swept(&swept, 9.0).expect("it is near");
+            let mut least = f64::INFINITY;
+            for i in -8..=8 {
+                for j in -8..=8 {
+                    let jet = tilt(polar + step(i, 0.035), turn + step(j, 0.035));
+                    for standoff in [0.9, 0.95, 1.0, 1.05, 1.1] {
+                        for (x, y) in [(-0.02, -0.02), (-0.02, 0.02), (0.02, -0.02), (0.02, 0.02)] {
+                            let from = swept.aim + Vector3::new(x, y, 0.0) - jet * standoff;
+                            let to = from + Vector3::new(-0.6, 0.0, 0.8);
+                            let facets = &scene.parts[0].facets;
+                            let near = facets.distance_to_segment(&from, &to, 9.0);
+                            least = least.min(near.expect("it is near").0);
+                        }
+                    }
+                }
+            }
+            let bulge = 1.1 * 0.035 * 0.035;
+            assert!(found < least + 0.1 * bulge, "{found} {least}");
+            assert!(found > least - bulge, "{found} {least}");
+        }
+    }
+}

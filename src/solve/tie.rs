@@ -1,0 +1,83 @@
+//! Contacts between which J makes no difference, and which of them is recommended.
+
+use super::answer::Answer;
+use crate::problem::Problem;
+
+/// J with its standard error.
+pub type Measured = (f64, f64);
+
+/// Relative rounding of J.
+const ROUNDING: f64 = 1e-9;
+/// What is left of J where every goal is reached is rounding.
+const NOTHING: f64 = 1e-20;
+
+/// Whether J of a contact ties with the least one: equal within its standard error, or within the
+/// accuracy asked for.
+pub fn is_tie((least, least_error): Measured, (other, error): Measured, accuracy: f64) -> bool {
+    let noise = (least_error * least_error + error * error).sqrt();
+    let tolerated = noise.max(accuracy.max(ROUNDING) * least.abs()).max(NOTHING);
+    (other - least).abs() <= tolerated
+}
+
+/// The answers, best first: by J, but those that tie with the best, and fail no more verdicts nor
+/// fewer than it, stand in the order of the file's contacts.
+pub(super) fn ranked(mut answers: Vec<Answer>, problem: &Problem) -> Vec<Answer> {
+    answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
+    let Some(best) = answers.first().and_then(standing) else {
+        return answers;
+    };
+    let (mut tied, behind): (Vec<Answer>, Vec<Answer>) = answers
+        .into_iter()
+        .partition(|answer| ties(answer, best, problem));
+    tied.sort_by_key(|answer| place_in_file(answer, problem));
+    tied.extend(behind);
+    tied
+}
+
+/// The one that is ranked first.
+pub(super) fn recommended<'a>(answers: &'a [Answer], problem: &Problem) -> Option<&'a Answer> {
+    let all = answers.iter();
+    let least = all.min_by(|a, b| a.order().total_cmp(&b.order()))?;
+    let Some(best) = standing(least) else {
+        return Some(least);
+    };
+    let tied = answers.iter().filter(|answer| ties(answer, best, problem));
+    tied.min_by_key(|answer| place_in_file(answer, problem))
+}
+
+fn ties(answer: &Answer, (least, failing): Standing, problem: &Problem) -> bool {
+    standing(answer).is_some_and(|(measured, fails)| {
+        fails == failing && is_tie(least, measured, problem.accuracy)
+    })
+}
+
+fn place_in_file(answer: &Answer, problem: &Problem) -> Option<usize> {
+    let mut contacts = problem.settings.contact.iter();
+    contacts.position(|&contact| contact == answer.choice.contact)
+}
+
+/// J with its standard error, and how many verdicts fail.
+type Standing = (Measured, usize);
+
+/// Where the nozzle fits.
+fn standing(answer: &Answer) -> Option<Standing> {
+    let failing = answer.verdicts.iter().filter(|verdict| !verdict.passes());
+    let measured = (answer.objective()?, answer.standard_error());
+    Some((measured, failing.count()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_equal_within_its_error_or_the_accuracy_ties() {
+        let accuracy = 0.01;
+        assert!(is_tie((0.1, 0.0), (0.1009, 0.0), accuracy));
+        assert!(!is_tie((0.1, 0.0), (0.1011, 0.0), accuracy));
+        assert!(is_tie((0.1, 0.003), (0.1045, 0.004), accuracy));
+        assert!(!is_tie((0.1, 0.003), (0.1055, 0.004), accuracy));
+        assert!(is_tie((2e-28, 0.0), (9e-27, 0.0), accuracy));
+        assert!(is_tie((0.25, 0.0), (0.25 * (1.0 + 1e-12), 0.0), 0.0));
+    }
+}
