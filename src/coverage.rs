@@ -13,6 +13,7 @@ mod grid;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
+use crate::elementary::{ln_1p, square};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Choice;
@@ -155,8 +156,8 @@ impl Coverage {
 }
 
 fn mass_until(wish: &CoverageWish, density: Density, shots_per_kilogram: f64) -> Option<f64> {
-    let dent = std::f64::consts::PI * wish.dent_diameter.powi(2) / 4.0;
-    let hits_per_area = -(-wish.wanted).ln_1p() / dent;
+    let dent = std::f64::consts::PI * square(wish.dent_diameter) / 4.0;
+    let hits_per_area = -ln_1p(-wish.wanted) / dent;
     let per_kilogram = density.value * shots_per_kilogram;
     (per_kilogram > 0.0).then(|| hits_per_area / per_kilogram)
 }

@@ -2,6 +2,8 @@
 //!
 //! Files for programs (`result.json`, tables) keep every digit; texts use these.
 
+use crate::elementary::whole_power;
+
 /// Significant digits of a number in a text, at most.
 pub const MOST: i32 = 5;
 /// What is shown instead of a number that is not finite.
@@ -78,7 +80,7 @@ fn with_decimals(value: f64, decimals: usize) -> String {
     if exponent >= LARGE {
         return without_end_zeros(&power(value, MOST));
     }
-    let last_digit = 10_f64.powi((exponent + 1 - MOST).max(0));
+    let last_digit = whole_power(10.0, (exponent + 1 - MOST).max(0));
     let value = if decimals == 0 {
         (value / last_digit).round() * last_digit
     } else {

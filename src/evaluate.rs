@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use crate::elementary::{hypot, square};
 use crate::jet::Replicates;
 use crate::objective::{Hits, Sums, Terms};
 use crate::problem::goal::Goals;
@@ -171,10 +172,9 @@ fn jackknife(sums: &[Sums], goals: &Goals, unseen: &Unseen) -> (Terms, Terms, f6
     let count = sums.len() as f64;
     let error = |part: fn(&Terms) -> f64| {
         let mean = left_out.iter().map(part).sum::<f64>() / count;
-        let squares: f64 = left_out.iter().map(|t| (part(t) - mean).powi(2)).sum();
-        ((count - 1.0) / count * squares)
-            .sqrt()
-            .hypot(MORE.sqrt() * part(&more))
+        let squares: f64 = left_out.iter().map(|t| square(part(t) - mean)).sum();
+        let spread = ((count - 1.0) / count * squares).sqrt();
+        hypot(spread, MORE.sqrt() * part(&more))
     };
     let errors = Terms {
         normal_impulse: error(|t| t.normal_impulse),

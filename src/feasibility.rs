@@ -1,6 +1,7 @@
 //! Whether the nozzle can be where settings put it: in free space, clear of every wall, and not in the way
 //! of its own jet, for every pose within the setup tolerance.
 
+use crate::elementary::{cos, hypot, tan};
 use nalgebra::Vector3;
 
 use crate::jet::Pose;
@@ -235,7 +236,7 @@ fn reach(setup: &Setup, choice: &Choice) -> f64 {
 /// No point of the body moves by more than this, m, while settings err within their tolerance.
 fn room_for_errors(setup: &Setup, choice: &Choice) -> f64 {
     let tolerance = &setup.problem.tolerance;
-    let turned = tolerance.incidence.hypot(tolerance.azimuth);
+    let turned = hypot(tolerance.incidence, tolerance.azimuth);
     let shifts = [
         tolerance.aim_along,
         tolerance.aim_across,
@@ -254,9 +255,10 @@ fn through_own_body(setup: &Setup, choice: &Choice, pose: &Pose) -> Option<f64> 
         return None;
     }
     let tolerance = &setup.problem.tolerance;
-    let errors = tolerance
-        .incidence
-        .hypot(tolerance.azimuth * choice.incidence.cos());
+    let errors = hypot(
+        tolerance.incidence,
+        tolerance.azimuth * cos(choice.incidence),
+    );
     let spread = setup.problem.jet.divergence + errors;
     let bodies = setup.problem.nozzle.body.iter();
     let overlaps = bodies.filter_map(|body| match *body {
@@ -266,7 +268,7 @@ fn through_own_body(setup: &Setup, choice: &Choice, pose: &Pose) -> Option<f64> 
             direction: Some(direction),
         } => {
             let angle = (pose.direction.angle(&direction) - spread).max(0.0);
-            let back = (radius / angle.tan()).min(length);
+            let back = (radius / tan(angle)).min(length);
             let is_through = angle < std::f64::consts::FRAC_PI_2 && back > SIDE_EXIT * radius;
             is_through.then_some(back - SIDE_EXIT * radius)
         }

@@ -87,6 +87,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`elementary`] | sines, logarithms, powers with the same bits on every machine |
 //! | [`digits`] | numbers in texts: five significant digits at most |
 //! | [`precision`] | the two precisions that paths can be traced in |
 //! | [`printable`] | text from elsewhere, made safe to show |
@@ -118,11 +119,14 @@
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+// Results have the same bits on every machine.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 // In reading order: a module builds on those above it.
 
 mod content;
 pub mod digits;
+pub mod elementary;
 pub mod precision;
 pub mod printable;
 pub mod units;

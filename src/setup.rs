@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::elementary::sin;
 use crate::impact::Contact;
 use crate::printable;
 use crate::problem::equipment::Role;
@@ -103,7 +104,7 @@ impl Setup {
     #[must_use]
     pub fn without(&self, effects: &[Effect], choice: &Choice) -> Self {
         let mut reduced = self.clone();
-        let normal_speed = choice.speed * choice.incidence.sin();
+        let normal_speed = choice.speed * sin(choice.incidence);
         for effect in effects {
             effect.remove_from(&mut reduced.problem, normal_speed);
         }

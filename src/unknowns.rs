@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use crate::elementary::atan2;
 use crate::evaluate::evaluate;
 use crate::jet::{Deviate, Replicate, Replicates, purpose};
 use crate::problem::setting::Choice;
@@ -174,7 +175,7 @@ fn sum_of_rebound_angles(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> (
                 // What N* tells of the speed of arrival, E tells of the departure.
                 let arriving = restitution.approach_speed(impact.normal_impulse / mass);
                 let leaving = restitution.at(arriving) * arriving;
-                sum += leaving.atan2(tangential_part(impact.velocity.norm(), leaving));
+                sum += atan2(leaving, tangential_part(impact.velocity.norm(), leaving));
                 hits += 1;
             }
         });

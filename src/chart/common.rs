@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::sampling::{SCRAMBLINGS, Sampling};
+use crate::elementary::square;
 use crate::jet::{Replicates, purpose};
 use crate::objective::{Sums, Tally};
 use crate::problem::goal::Goals;
@@ -59,7 +60,7 @@ pub fn jackknife(count: usize, value: impl Fn(&dyn Fn(usize) -> bool) -> f64) ->
         .map(|skip| value(&|index| index != skip))
         .collect();
     let mean = left_out.iter().sum::<f64>() / count as f64;
-    let squares: f64 = left_out.iter().map(|one| (one - mean).powi(2)).sum();
+    let squares: f64 = left_out.iter().map(|one| square(one - mean)).sum();
     let error = ((count as f64 - 1.0) / count as f64 * squares).sqrt();
     (value(&|_| true), error)
 }

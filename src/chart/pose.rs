@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::control::Control;
 use super::sampling::Sampling;
 use super::timing;
+use crate::elementary::square;
 use crate::jet::{Deviate, Replicates, purpose};
 use crate::objective::{Sums, Tally};
 use crate::precision::Precision;
@@ -224,7 +225,7 @@ impl Way<'_> {
         for _ in 0..levels {
             let squares = blocks
                 .iter()
-                .map(|block| (objective(block) / reference - 1.0).powi(2));
+                .map(|block| square(objective(block) / reference - 1.0));
             mean_squares.push(mean(squares).0);
             blocks = blocks.chunks(RISE).map(together).collect();
         }
@@ -257,6 +258,6 @@ impl Way<'_> {
 fn mean(values: impl ExactSizeIterator<Item = f64> + Clone) -> (f64, f64) {
     let count = values.len() as f64;
     let mean = values.clone().sum::<f64>() / count;
-    let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
+    let squares: f64 = values.map(|value| square(value - mean)).sum();
     (mean, (squares / (count * (count - 1.0).max(1.0))).sqrt())
 }

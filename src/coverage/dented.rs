@@ -3,6 +3,7 @@
 //! The mean of what is dented is less than what the mean density of hits would dent: places that are hit
 //! often do not make up for those that are hit seldom.
 
+use crate::elementary::{exp_m1, square};
 use std::f64::consts::PI;
 
 use super::grid::{Cell, Cells};
@@ -127,7 +128,7 @@ impl Sums {
     fn plain(&self, mass: f64) -> f64 {
         let scale = mass * self.per_hit;
         let each = self.cells.iter();
-        each.map(|cell| -cell.share * (-cell.hits * scale / cell.area).exp_m1())
+        each.map(|cell| -cell.share * exp_m1(-cell.hits * scale / cell.area))
             .sum()
     }
 
@@ -139,7 +140,7 @@ impl Sums {
             let each = self.cells.iter();
             each.map(|cell| {
                 let hits = cell.hits - f64::from(cell.by_sample[sample]);
-                -cell.share * (-hits * scale / cell.area).exp_m1()
+                -cell.share * exp_m1(-hits * scale / cell.area)
             })
             .sum()
         };
@@ -154,7 +155,7 @@ impl Sums {
         let left_out = self.left_out(mass);
         let count = self.samples as f64;
         let mean = left_out.iter().sum::<f64>() / count;
-        let squares: f64 = left_out.iter().map(|it| (it - mean).powi(2)).sum();
+        let squares: f64 = left_out.iter().map(|it| square(it - mean)).sum();
         [
             (count - 1.0) * (mean - self.plain(mass)),
             ((count - 1.0) / count * squares).sqrt(),

@@ -1,5 +1,6 @@
 //! The target cut into the cells of a cubic grid.
 
+use crate::elementary::square;
 use std::collections::BTreeMap;
 
 use nalgebra::{Point3, Vector3};
@@ -65,11 +66,7 @@ impl Cell {
     pub fn density(&self, shots: usize) -> Density {
         let samples = self.hits.len() as f64;
         let mean = f64::from(self.all_hits()) / samples;
-        let squares: f64 = self
-            .hits
-            .iter()
-            .map(|&n| (f64::from(n) - mean).powi(2))
-            .sum();
+        let squares: f64 = self.hits.iter().map(|&n| square(f64::from(n) - mean)).sum();
         // Of the sum over all samples; one sample of the only shot there is has no error.
         let error = (squares * samples / (samples - 1.0).max(1.0)).sqrt();
         let per_hit = 1.0 / (shots as f64 * self.area);

@@ -1,5 +1,6 @@
 //! Where the shots that do harm come from.
 
+use crate::elementary::square;
 use crate::jet::{Deviate, Focus, Replicates, Scouts, purpose};
 use crate::objective::Score;
 use crate::problem::goal::TangentialImpulse;
@@ -111,7 +112,7 @@ impl Witness<f64> for Inspector {
             let shot = volley.shot[i] as usize;
             if !self.score.is_on_target(i) {
                 let cost = self.costs[volley.hits.surface[i] as usize];
-                self.in_volley[shot] += cost * volley.impacts.normal[i].powi(2);
+                self.in_volley[shot] += cost * square(volley.impacts.normal[i]);
             } else if volley.number[i] == 1.0 {
                 self.on_target[shot] = true;
                 let excess = |goal: TangentialImpulse| {

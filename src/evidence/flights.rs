@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
 use super::Shape;
+use crate::elementary::asin;
 use crate::jet::{Deviate, Samples};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -74,7 +75,7 @@ impl Flight {
         };
         let first = &self.impacts[index];
         let heading = (first.centre - from).try_normalize(0.0)?;
-        Some(heading.dot(&first.normal).abs().min(1.0).asin())
+        Some(asin(heading.dot(&first.normal).abs().min(1.0)))
     }
 
     /// The goals and limits that it breaks, each once.

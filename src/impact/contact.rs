@@ -1,5 +1,6 @@
 //! A contact: friction and restitution between shot and surface.
 
+use crate::elementary::power;
 use std::fmt;
 
 use super::law::Law;
@@ -92,6 +93,10 @@ impl Contact {
     }
 }
 
+/// Johnson's exponent. Two square roots take a fraction of the time of a power, and it is the exponent that
+/// most contacts fall with.
+const PLASTIC_LIMIT: f64 = 0.25;
+
 /// The normal coefficient of restitution E.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Restitution {
@@ -119,7 +124,15 @@ impl Restitution {
                 reference,
                 speed,
                 exponent,
-            } => (reference * (normal_speed / speed).powf(-exponent)).min(1.0),
+            } => {
+                let ratio = normal_speed / speed;
+                let fall = if exponent == PLASTIC_LIMIT {
+                    ratio.sqrt().sqrt()
+                } else {
+                    power(ratio, exponent)
+                };
+                (reference / fall).min(1.0)
+            }
         }
     }
 

@@ -34,6 +34,7 @@ pub use contact::{Contact, ContactFault, Restitution};
 pub use law::{Law, Regime};
 pub use oblique::{Energy, Oblique, Outcome};
 
+use crate::elementary::cube;
 pub(crate) use collision::{Coefficients, collide};
 pub(crate) use friction::Friction;
 use nalgebra::Vector3;
@@ -50,7 +51,7 @@ pub struct Sphere {
 impl Sphere {
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
-        4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3) * self.density
+        4.0 / 3.0 * std::f64::consts::PI * cube(self.radius) * self.density
     }
 
     /// Moment of inertia about the centre, (2/5) m R^2, kg m2.

@@ -1,5 +1,6 @@
 //! A shot on a flat surface, seen in the plane of its motion.
 
+use crate::elementary::{atan, atan2, sin, sin_cos};
 use nalgebra::Vector3;
 
 use super::{Contact, Impact, Law, Motion, Regime, Sphere, impact};
@@ -81,7 +82,7 @@ impl Oblique {
     /// What the impact does; `None` when the shot does not approach the surface.
     pub fn outcome(&self) -> Option<Outcome> {
         // t is x, n is y and e_o is z.
-        let (sin, cos) = self.angle.sin_cos();
+        let (sin, cos) = sin_cos(self.angle);
         let before = Motion {
             velocity: Vector3::new(self.speed * cos, -self.speed * sin, 0.0),
             spin: Vector3::new(0.0, 0.0, self.spin),
@@ -98,7 +99,7 @@ impl Oblique {
             tangential_impulse,
             normal_velocity: after.velocity.y,
             tangential_velocity: after.velocity.x,
-            angle: after.velocity.y.atan2(after.velocity.x),
+            angle: atan2(after.velocity.y, after.velocity.x),
             spin: after.spin.z,
             before: Energy::of(&self.sphere, &before),
             after: Energy::of(&self.sphere, &after),
@@ -108,7 +109,7 @@ impl Oblique {
     /// The angle (rad) from which the shot would stick if it arrived without spin; `None` when the
     /// contact never sticks.
     pub fn stick_angle(&self) -> Option<f64> {
-        let tangent = self.contact.stick_tangent(self.speed * self.angle.sin());
-        (self.contact.law != Law::AlwaysSlip && tangent.is_finite()).then(|| tangent.atan())
+        let tangent = self.contact.stick_tangent(self.speed * sin(self.angle));
+        (self.contact.law != Law::AlwaysSlip && tangent.is_finite()).then(|| atan(tangent))
     }
 }

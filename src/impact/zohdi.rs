@@ -16,6 +16,7 @@ use super::Sphere;
 use super::contact::{Contact, Restitution};
 use super::law::Law;
 use super::oblique::{Oblique, Outcome};
+use crate::elementary::tan;
 
 /// mu_s of the rows, as printed from top to bottom.
 pub const STATIC_FRICTIONS: [f64; 11] = [
@@ -80,5 +81,5 @@ pub fn case(law: Law, static_friction: f64) -> Oblique {
 
 /// The least mu_s that sticks by Eq. 22: 2 / (7 tan(theta) (1 + E)).
 pub fn least_sticking_friction() -> f64 {
-    2.0 / (7.0 * ANGLE.tan() * (1.0 + RESTITUTION))
+    2.0 / (7.0 * tan(ANGLE) * (1.0 + RESTITUTION))
 }

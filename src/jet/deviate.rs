@@ -1,6 +1,7 @@
 //! How single shots deviate from the jet's axis, each a pure function of a point of the unit cube.
 
 use super::point::{Dimension, Point};
+use crate::elementary::{cube, exp, ln_1p, sin, sin_cos, square};
 use crate::problem::Problem;
 use crate::problem::equipment::Spread;
 use crate::problem::model::Effect;
@@ -98,7 +99,7 @@ impl Deviate {
     /// Factor on the mass.
     #[inline(always)]
     pub fn mass(&self) -> f64 {
-        self.size.powi(3)
+        cube(self.size)
     }
 
     /// Whether the pose is the one that was asked for.
@@ -150,8 +151,8 @@ impl Deviate {
 
 /// Variance of the shots' factors on the speed, whose mean is 1.
 pub fn speed_variance(problem: &Problem) -> f64 {
-    let scatter = problem.jet.speed_spread.powi(2) * VARIANCE_WITHIN_TWO_DEVIATIONS;
-    let setting = problem.tolerance.speed.powi(2) / 3.0;
+    let scatter = square(problem.jet.speed_spread) * VARIANCE_WITHIN_TWO_DEVIATIONS;
+    let setting = square(problem.tolerance.speed) / 3.0;
     // The factors are products of both: 1 + variance is the product of the mean squares.
     scatter + setting + scatter * setting
 }
@@ -165,7 +166,7 @@ fn sine_and_cosine(angle: f64) -> [f64; 2] {
     if angle == 0.0 {
         [0.0, 1.0]
     } else {
-        angle.sin_cos().into()
+        sin_cos(angle).into()
     }
 }
 
@@ -175,7 +176,7 @@ fn exit_offset(radius: f64, point: &mut Point) -> [f64; 2] {
         return [0.0; 2];
     }
     let distance = radius * point.inwards(Dimension::ExitRadius).sqrt();
-    let (sin, cos) = (std::f64::consts::TAU * point.uniform(Dimension::ExitTurn)).sin_cos();
+    let (sin, cos) = sin_cos(std::f64::consts::TAU * point.uniform(Dimension::ExitTurn));
     [distance * cos, distance * sin]
 }
 
@@ -187,16 +188,16 @@ fn cone_direction(half_angle: f64, spread: Spread, point: &mut Point) -> [f64; 3
     let share = point.inwards(Dimension::ConeAngle);
     let versine = match spread {
         // Uniform in solid angle: 1 - cos is uniform. sin^2 of the half avoids cancellation.
-        Spread::Uniform => 2.0 * (half_angle / 2.0).sin().powi(2) * share,
+        Spread::Uniform => 2.0 * square(sin(half_angle / 2.0)) * share,
         Spread::Gaussian => {
             let deviation = half_angle / 2.0;
-            let inside = 1.0 - (-2.0_f64).exp();
-            let angle = deviation * (-2.0 * (-share * inside).ln_1p()).sqrt();
-            2.0 * (angle / 2.0).sin().powi(2)
+            let inside = 1.0 - exp(-2.0);
+            let angle = deviation * (-2.0 * ln_1p(-share * inside)).sqrt();
+            2.0 * square(sin(angle / 2.0))
         }
     };
     let sine = (versine * (2.0 - versine)).sqrt();
-    let (sin, cos) = (std::f64::consts::TAU * point.uniform(Dimension::ConeTurn)).sin_cos();
+    let (sin, cos) = sin_cos(std::f64::consts::TAU * point.uniform(Dimension::ConeTurn));
     [sine * cos, sine * sin, 1.0 - versine]
 }
 

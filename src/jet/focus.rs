@@ -1,6 +1,7 @@
 //! Where the shots come from that do harm, as a density to draw more of them by.
 
 use super::point::{DIMENSIONS, Dimension};
+use crate::elementary::square;
 
 /// How much denser than on the rim shots are drawn, as a product over their dimensions of what is the same
 /// within each of a few cells.
@@ -114,7 +115,7 @@ const SMOOTHED: f64 = 0.375;
 
 /// By how much a density is apart from an expected one: its part in chi squared, per event.
 fn apart((found, expected): (&f64, &f64)) -> f64 {
-    (found - expected).powi(2) / expected
+    square(found - expected) / expected
 }
 
 /// A quarter of each sum goes to either neighbour, or stays where there is none.

@@ -7,6 +7,7 @@ mod mixture;
 mod point;
 mod pose;
 pub mod purpose;
+mod quantile;
 mod replicates;
 mod samples;
 mod scouts;

@@ -1,8 +1,8 @@
 //! Points of the unit cube: each a pure function of (index, dimension, seed).
 
-use statrs::distribution::{ContinuousCDF, Normal};
-
 use super::focus::{Cells, Focus, NO_CELL};
+use super::quantile::deviation;
+use crate::elementary::{ln, sin_cos};
 
 /// An independent sequence of samples under one seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -195,8 +195,8 @@ impl<'a> Point<'a> {
         if spread == 0.0 {
             return 1.0;
         }
-        let share = BELOW_TWO_DEVIATIONS * (1.0 - 2.0 * self.uniform(dimension));
-        1.0 + spread * Normal::standard().inverse_cdf(0.5 - share)
+        let share = BELOW_TWO_DEVIATIONS * (2.0 * self.uniform(dimension) - 1.0);
+        1.0 + spread * deviation(share)
     }
 }
 
@@ -218,8 +218,8 @@ impl Sequence {
 /// Two independent standard normal deviates, a pure function of a number and of a count.
 pub(crate) fn normal_pair(number: f64, count: u32) -> [f64; 2] {
     let seed = mix(number.to_bits() ^ mix(u64::from(count)));
-    let radius = (-2.0 * (1.0 - random(seed, 0)).ln()).sqrt();
-    let (sin, cos) = (std::f64::consts::TAU * random(seed, 1)).sin_cos();
+    let radius = (-2.0 * ln(1.0 - random(seed, 0))).sqrt();
+    let (sin, cos) = sin_cos(std::f64::consts::TAU * random(seed, 1));
     [radius * cos, radius * sin]
 }
 

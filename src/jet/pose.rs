@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
 use super::deviate::Deviate;
+use crate::elementary::sin_cos;
 use crate::problem::setting::Choice;
 use crate::scene::patch::Frame;
 use crate::scene::ray::Ray;
@@ -66,8 +67,8 @@ pub(crate) struct Aim {
 impl Aim {
     pub fn new(choice: &Choice) -> Self {
         Self {
-            incidence: choice.incidence.sin_cos().into(),
-            azimuth: choice.azimuth.sin_cos().into(),
+            incidence: sin_cos(choice.incidence).into(),
+            azimuth: sin_cos(choice.azimuth).into(),
             standoff: choice.standoff,
             along: choice.aim_along,
             across: choice.aim_across,

@@ -1,6 +1,7 @@
 //! The maps of a report: which settings they are drawn over, and how finely.
 
 use super::{Axis, Control, Map, common_shots};
+use crate::elementary::power;
 use crate::evaluate::Survey;
 use crate::problem::part::Shape;
 use crate::problem::setting::{Choice, Range, Setting};
@@ -36,7 +37,7 @@ pub fn standard_maps_until(setup: &Setup, choice: &Choice, control: &Control) ->
     let map = |[x, y]: [(Setting, Range); 2]| {
         let is_free = |setting| setting == Setting::Speed && setup.speed_scales_out(choice.contact);
         let paths = [x, y].into_iter().filter(|(setting, _)| !is_free(*setting));
-        let affordable = (MOST_RAYS / rays).powf(1.0 / paths.count() as f64);
+        let affordable = power(MOST_RAYS / rays, 1.0 / paths.count() as f64);
         let traced = affordable.clamp(FEWEST_STEPS, MOST_STEPS).floor();
         let axis = |(setting, range)| {
             let steps = if is_free(setting) { MOST_STEPS } else { traced };

@@ -1,5 +1,6 @@
 //! The lines and arcs that cross-sections are made of.
 
+use crate::elementary::{atan2, sin_cos};
 use std::f64::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
@@ -40,7 +41,7 @@ impl Curve {
             b.x * c.norm_squared() - c.x * b.norm_squared(),
         ) / (2.0 * twice_area);
         let centre = from + offset;
-        let direction = |p: Point2<f64>| (p.y - centre.y).atan2(p.x - centre.x);
+        let direction = |p: Point2<f64>| atan2(p.y - centre.y, p.x - centre.x);
         let start = direction(from);
         let turn = TAU;
         let forward = (direction(to) - start).rem_euclid(turn);
@@ -76,7 +77,7 @@ impl Curve {
                 start,
                 sweep,
             } => {
-                let (sin, cos) = (start + sweep * fraction).sin_cos();
+                let (sin, cos) = sin_cos(start + sweep * fraction);
                 centre + Vector2::new(cos, sin) * radius
             }
         }
@@ -87,7 +88,7 @@ impl Curve {
         match *self {
             Self::Line { from, to } => (to - from).normalize(),
             Self::Arc { start, sweep, .. } => {
-                let (sin, cos) = (start + sweep * fraction).sin_cos();
+                let (sin, cos) = sin_cos(start + sweep * fraction);
                 Vector2::new(-sin, cos) * sweep.signum()
             }
         }

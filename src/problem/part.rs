@@ -1,5 +1,6 @@
 //! The parts of a scene as the user described them: checked, in metres, not yet built.
 
+use crate::elementary::log10;
 use std::path::PathBuf;
 
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
@@ -173,7 +174,7 @@ impl FileUnit {
 
 /// Decimals with which a unit of this length, m, tells a micrometre.
 pub fn decimals_of(unit: f64) -> usize {
-    (unit * 1e6).log10().ceil().max(0.0) as usize
+    log10(unit * 1e6).ceil().max(0.0) as usize
 }
 
 /// The surface to be peened.

@@ -5,6 +5,7 @@ pub use super::doubt::Doubt;
 use super::fault::Span;
 use super::source::Source;
 use crate::digits::plain;
+use crate::elementary::sin;
 use crate::impact::Contact;
 
 /// Something in a problem file that can hardly be meant.
@@ -117,7 +118,7 @@ fn reachable_impulse(problem: &Problem) -> Option<Warning> {
     // Whatever the angle, the fastest shot gives no more, and the slowest gives this.
     let fastest = speeds.max * (1.0 + 2.0 * problem.jet.speed_spread);
     let most = impulse(fastest).fold(0.0, f64::max);
-    let slowest = speeds.min * problem.settings.incidence.min.sin();
+    let slowest = speeds.min * sin(problem.settings.incidence.min);
     let least = impulse(slowest).fold(f64::INFINITY, f64::min);
     let help = format!(
         "a shot of {} mg gives {} uN.s to {} uN.s at these speeds; compare units, radius and density",

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::answer::{ObjectiveRecord, SettingsRecord, subject_name};
+use crate::elementary::hypot;
 use crate::setup::Setup;
 use crate::solve::{Answer, Front};
 use crate::verdict::Verdict;
@@ -57,7 +58,7 @@ impl FrontRecord {
         let it = &self.objective;
         let [normal, tangential, rebound, miss] = it.term_standard_errors;
         [
-            (it.normal_impulse + it.miss, normal.hypot(miss)),
+            (it.normal_impulse + it.miss, hypot(normal, miss)),
             (it.tangential_impulse, tangential),
             (it.rebound, rebound),
         ]

@@ -1,6 +1,7 @@
 //! What a chart shows, in a sentence each.
 
 use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches, Walls};
+use crate::elementary::{ln, log10, power, whole_power};
 use crate::precision::Precision;
 use crate::report::number::{Scale, count, plain, time};
 use crate::report::series::Series;
@@ -77,7 +78,7 @@ fn savings(many: &PoseCurve, few: &PoseCurve) -> Option<(f64, f64)> {
         let errors = curve.points.iter().map(|point| point.error);
         errors.fold(f64::INFINITY, f64::min)
     };
-    let error = 10_f64.powi(errors(many).max(errors(few)).log10().ceil() as i32);
+    let error = whole_power(10.0, log10(errors(many).max(errors(few))).ceil() as i32);
     Some((error, shots_for(many, error)? / shots_for(few, error)?))
 }
 
@@ -87,8 +88,8 @@ fn shots_for(curve: &PoseCurve, error: f64) -> Option<f64> {
     let mut pairs = curve.points.windows(2);
     let pair = pairs.find(|pair| pair[0].error >= error && pair[1].error <= error)?;
     let [from, to] = [pair[0].shots as f64, pair[1].shots as f64];
-    let fraction = (pair[0].error / error).ln() / (pair[0].error / pair[1].error).ln();
-    Some(from * (to / from).powf(fraction))
+    let fraction = ln(pair[0].error / error) / ln(pair[0].error / pair[1].error);
+    Some(from * power(to / from, fraction))
 }
 
 /// How good the answer is with the accuracy that the file asks for.

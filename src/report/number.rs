@@ -2,6 +2,7 @@
 
 use crate::digits::{MOST, NO_NUMBER};
 pub use crate::digits::{coordinate, decimals_for, fixed, plain, rounded, significant};
+use crate::elementary::whole_power;
 
 /// An impulse in uN.s without its unit, three significant digits.
 pub fn impulse(newton_seconds: f64) -> String {
@@ -36,7 +37,9 @@ fn percent(share: f64, decimals: usize) -> String {
     }
     let text = fixed(share * 100.0, decimals);
     match text.parse() {
-        Ok(0.0) if share > 0.0 => format!("<{}", fixed(0.1_f64.powi(decimals as i32), decimals)),
+        Ok(0.0) if share > 0.0 => {
+            format!("<{}", fixed(whole_power(0.1, decimals as i32), decimals))
+        }
         Ok(100.0) if share < 1.0 => ">99.99".into(),
         _ => text,
     }
@@ -129,7 +132,7 @@ impl Scale {
         match self {
             _ if value == 0.0 => "0".into(),
             Self::Decimals(decimals) => {
-                let least = 0.1_f64.powi(decimals as i32);
+                let least = whole_power(0.1, decimals as i32);
                 if value.abs() < 0.5 * least {
                     format!("<{}", fixed(least, decimals))
                 } else {

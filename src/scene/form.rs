@@ -11,6 +11,7 @@ mod touch;
 
 use std::hint::select_unpredictable;
 
+use crate::elementary::{cos, sin_cos};
 use crate::precision::Real;
 use crate::problem::curve::Curve;
 pub(super) use cylinder::Cylinder;
@@ -129,17 +130,17 @@ impl Form {
                 start,
                 sweep,
             } => {
-                let (sin, cos) = (start + sweep / 2.0).sin_cos();
+                let (sine, cosine) = sin_cos(start + sweep / 2.0);
                 let whole = sweep.abs() >= std::f64::consts::TAU * (1.0 - 1e-15);
                 Self::Cylinder(Cylinder {
                     centre: centre.into(),
                     radius,
                     side: sweep.signum(),
-                    towards: [cos, sin],
+                    towards: [cosine, sine],
                     reach: if whole {
                         f64::MIN
                     } else {
-                        radius * (sweep / 2.0).cos()
+                        radius * cos(sweep / 2.0)
                     },
                 })
             }

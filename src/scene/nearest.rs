@@ -1,5 +1,6 @@
 //! The place on a surface that is nearest to a point.
 
+use crate::elementary::sin_cos;
 use nalgebra::{Point3, Vector3};
 
 use super::Scene;
@@ -74,7 +75,7 @@ impl Scene {
 pub(super) fn spiral_direction(index: usize, count: usize) -> Vector3<f64> {
     const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
     let z = 1.0 - (2.0 * index as f64 + 1.0) / count as f64;
-    let (sin, cos) = (GOLDEN_ANGLE * index as f64).sin_cos();
+    let (sin, cos) = sin_cos(GOLDEN_ANGLE * index as f64);
     let radius = (1.0 - z * z).sqrt();
     Vector3::new(radius * cos, radius * sin, z)
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+use crate::elementary::atan2;
 use crate::problem::curve::Curve;
 use crate::problem::part::{Keyway, Segment};
 
@@ -116,7 +117,7 @@ impl Profile {
             );
         }
         profile.push(line(-half, floor - root, -half, lip), "wall_neg");
-        let start = lip.atan2(-half);
+        let start = atan2(lip, -half);
         let bore = Curve::Arc {
             centre: Point2::origin(),
             radius,
@@ -146,7 +147,7 @@ impl Profile {
             };
             let after = &self.pieces[second].curve;
             let (incoming, outgoing) = (before.tangent(1.0), after.tangent(0.0));
-            let turn = incoming.perp(&outgoing).atan2(incoming.dot(&outgoing));
+            let turn = atan2(incoming.perp(&outgoing), incoming.dot(&outgoing));
             let is_cusp = turn >= std::f64::consts::PI - SMOOTH;
             if is_cusp || turn < -SMOOTH {
                 corners.push(Corner {

@@ -4,6 +4,7 @@
 //! Techniques 2, 2013), in f64: two triangles that share an edge compute the same number for it,
 //! with opposite signs, so no ray slips between them.
 
+use crate::elementary::square;
 use nalgebra::{Point3, Vector3};
 
 use super::ray::Ray;
@@ -36,7 +37,7 @@ pub(super) fn lies_on(point: &Point3<f64>, corners: &[Point3<f64>; 3], slack: f6
         let side = edge.cross(&(point - from)).dot(&area_normal);
         side >= 0.0 || side * side <= margin * edge.norm_squared()
     };
-    (point - a).dot(&area_normal).powi(2) <= margin && inside(a, b) && inside(b, c) && inside(c, a)
+    square((point - a).dot(&area_normal)) <= margin && inside(a, b) && inside(b, c) && inside(c, a)
 }
 
 /// The change of coordinates that turns a ray into the positive z axis.

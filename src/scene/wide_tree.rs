@@ -22,7 +22,7 @@ use body::Body;
 pub(super) use flat::FlatRay;
 use flat::Frame;
 pub(super) use point::Point;
-use slab::Slabs;
+use slab::{Looks, Slabs};
 use sphere::Sphere;
 pub(super) use walk::Walk;
 
@@ -35,6 +35,8 @@ pub(super) struct WideTree {
     nodes: Vec<Node>,
     /// Those of each node, apart: most rays need none.
     slabs: Vec<Slabs>,
+    /// Those across needles, likewise.
+    strips: Vec<Slabs>,
     frame: Frame,
 }
 
@@ -51,6 +53,8 @@ pub(super) struct Node {
 const LEAF: u32 = 1 << 31;
 /// This bit tells nodes whose slabs are worth a look from others.
 const THIN: u32 = 1 << 30;
+/// This bit tells nodes with needles, whose slabs across them are worth a look as well.
+const SLIM: u32 = 1 << 29;
 
 impl Node {
     const EMPTY: Self = Self {
@@ -68,7 +72,7 @@ impl Node {
     /// Where the ray enters each child's box, and a bit for each that it enters within `limit`; after
     /// a closer look, where that costs less than to visit what it may rule out.
     #[inline(always)]
-    fn entered<B: Body>(&self, slabs: Option<&Slabs>, ray: &FlatRay<B>, limit: f32) -> Entered {
+    fn entered<B: Body>(&self, looks: Looks, ray: &FlatRay<B>, limit: f32) -> Entered {
         let sides = ray.sides.map(|axes| axes.map(|side| &self.sides[side]));
         let distance = |end: usize, axis: usize, lane: usize| {
             let origin = ray.origins[if B::HAS_SIZE { end } else { 0 }][axis];
@@ -84,7 +88,7 @@ impl Node {
         let enters = f32x8::new(entries).simd_le(f32x8::new(exits));
         let mut lanes = enters.to_bitmask();
         if lanes.count_ones() > B::NOT_LOOKED_AT {
-            lanes &= ray.body.meets(self, slabs, &mut entries, &exits);
+            lanes &= ray.body.meets(self, looks, &mut entries, &exits);
         }
         Entered {
             entries: f32x8::new(entries),
@@ -120,7 +124,7 @@ impl WideTree {
     /// Where a ray enters the tree within `limit` (m).
     #[inline(always)]
     pub fn entered<B: Body>(&self, ray: &FlatRay<B>, limit: f64) -> Entered {
-        self.nodes[0].entered(None, ray, self.frame.limit(limit, ray))
+        self.nodes[0].entered(Looks::NONE, ray, self.frame.limit(limit, ray))
     }
 
     /// A walk to the leaves that a ray may meet, near ones first, which has yet to

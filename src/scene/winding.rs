@@ -4,6 +4,7 @@
 //! the surface is missing (Jacobson and others 2013). Triangles far away count as one dipole per node of
 //! a tree (Barill and others 2018), so that a query takes the logarithm of their number.
 
+use crate::elementary::atan2;
 use nalgebra::{Point3, Vector3};
 
 /// A node this many times farther away than its radius counts as one dipole: the error of a query then
@@ -182,7 +183,7 @@ pub(super) fn solid_angle(corners: &[Point3<f64>; 3], from: &Point3<f64>) -> f64
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(&c));
     let sum = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-    2.0 * volume.atan2(sum)
+    2.0 * atan2(volume, sum)
 }
 
 #[cfg(test)]

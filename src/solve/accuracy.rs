@@ -2,6 +2,7 @@
 
 use super::answer::Answer;
 use super::search::Search;
+use crate::elementary::square;
 use crate::problem::Problem;
 use crate::problem::goal::Goals;
 
@@ -81,9 +82,7 @@ pub(super) fn is_vague(answers: &[Answer], problem: &Problem) -> bool {
 pub(super) fn is_sharp(objectives: &[f64], problem: &Problem) -> bool {
     let count = objectives.len() as f64;
     let mean = objectives.iter().sum::<f64>() / count;
-    let squares = objectives
-        .iter()
-        .map(|objective| (objective - mean).powi(2));
+    let squares = objectives.iter().map(|objective| square(objective - mean));
     let deviation = (squares.sum::<f64>() / (count - 1.0)).sqrt();
     deviation <= VAGUE * wanted(mean, problem)
 }

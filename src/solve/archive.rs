@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::sync::Mutex;
 
 use super::risks::{Risks, risks};
+use crate::elementary::ln;
 use crate::objective::Terms;
 use crate::problem::setting::{Choice, Setting};
 
@@ -90,7 +91,7 @@ pub(super) fn spread_out(front: Vec<Judged>, most: usize) -> Vec<Judged> {
     // Logarithmic, but not down to nothing.
     let place = |judged: &Judged| -> Risks {
         [0, 1, 2].map(|risk| match scales[risk] {
-            scale if scale > 0.0 => (judged.risks[risk] / scale + NEGLIGIBLE).ln(),
+            scale if scale > 0.0 => ln(judged.risks[risk] / scale + NEGLIGIBLE),
             _ => 0.0,
         })
     };

@@ -14,6 +14,7 @@ use super::control::{Control, Progress};
 use super::judge::{Effort, Judge};
 use super::risks::{Risks, risks};
 use super::search::{STAGES, Search};
+use crate::elementary::hypot;
 use crate::evaluate::evaluate_focused;
 use crate::jet::{Fresh, Samples, Stream, purpose};
 use crate::precision::Precision;
@@ -178,7 +179,7 @@ impl<'a> Measured<'a> {
             answer,
             risks: risks(&evaluation.terms),
             errors: [
-                errors.normal_impulse.hypot(errors.miss),
+                hypot(errors.normal_impulse, errors.miss),
                 errors.tangential_impulse,
                 errors.rebound,
             ],
@@ -189,7 +190,7 @@ impl<'a> Measured<'a> {
     /// Whether it is better than another in something by more than the errors.
     fn beats_somewhere(&self, other: &Self) -> bool {
         (0..3).any(|risk| {
-            let error = self.errors[risk].hypot(other.errors[risk]);
+            let error = hypot(self.errors[risk], other.errors[risk]);
             let rounding = 1e-9 * (self.risks[risk] + other.risks[risk]);
             self.risks[risk] < other.risks[risk] - (CONFIDENCE * error).max(rounding)
         })

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use super::Solution;
+use crate::elementary::whole_power;
 use crate::evaluate::{Counts, Survey};
 use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::{Replicate, Replicates, purpose};
@@ -208,7 +209,7 @@ fn drift(
     let mut good = 0.0;
     let mut bad = None;
     for step in (0..=DOUBLINGS).rev() {
-        let fraction = 0.5_f64.powi(step);
+        let fraction = whole_power(0.5, step);
         match turn(fraction) {
             Some(turn) => {
                 bad = Some((fraction, turn));

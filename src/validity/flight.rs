@@ -2,6 +2,7 @@
 
 use super::Note;
 use crate::digits::{fixed, plain};
+use crate::elementary::{exp, power};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
 
@@ -85,7 +86,7 @@ fn speed_at_end(diameter: f64, density: f64, choice: &Choice, air: Option<f64>) 
 /// The same in air at rest: dv/dx = -decay(v) v, each step with the decay of its middle.
 fn speed_left(diameter: f64, density: f64, choice: &Choice) -> f64 {
     let step = choice.standoff / STEPS as f64;
-    let after = |speed: f64, at: f64, way: f64| speed * (-decay(diameter, density, at) * way).exp();
+    let after = |speed: f64, at: f64, way: f64| speed * exp(-decay(diameter, density, at) * way);
     let mut speed = choice.speed;
     for _ in 0..STEPS {
         let middle = after(speed, speed, 0.5 * step);
@@ -106,7 +107,7 @@ fn speed_in_moving_air(diameter: f64, density: f64, choice: &Choice, air: f64) -
             0.0
         }
     };
-    let after = |speed: f64, at: f64, time: f64| air - (air - speed) * (-rate(at) * time).exp();
+    let after = |speed: f64, at: f64, time: f64| air - (air - speed) * exp(-rate(at) * time);
     let step = choice.standoff / STEPS as f64;
     let mut speed = choice.speed;
     for _ in 0..STEPS {
@@ -127,5 +128,6 @@ fn decay(diameter: f64, density: f64, speed: f64) -> f64 {
     }
     // C_d goes with 1/Re, so the density of the air drops out of the first factor. A shot that has
     // come to rest has an infinite decay, and stays.
-    18.0 * viscosity / (density * diameter * diameter * speed) * (1.0 + 0.15 * reynolds.powf(0.687))
+    18.0 * viscosity / (density * diameter * diameter * speed)
+        * (1.0 + 0.15 * power(reynolds, 0.687))
 }

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::Note;
+use crate::elementary::tan;
 use crate::evaluate::Evaluation;
 use crate::jet::{Deviate, Pose};
 use crate::problem::setting::Choice;
@@ -85,7 +86,7 @@ fn unknown_behind_a_deflector() -> Note {
 impl Stream {
     fn new(setup: &Setup, choice: &Choice, mass_flow: f64) -> Self {
         let (jet, shot) = (&setup.problem.jet, &setup.problem.shot);
-        let spread = choice.standoff * jet.divergence.tan();
+        let spread = choice.standoff * tan(jet.divergence);
         // A jet of no width is as wide as its shots.
         let radius = (jet.exit_diameter / 2.0 + spread).max(shot.radius);
         let area = std::f64::consts::PI * radius * radius;

@@ -4,6 +4,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::Note;
 use crate::digits::{fixed, significant};
+use crate::elementary::cos;
 use crate::jet::Pose;
 use crate::problem::curve::Curve;
 use crate::problem::part::{Part, Shape};
@@ -169,7 +170,7 @@ fn gap_of_outline(profile: &Profile) -> Option<f64> {
             .iter()
             .filter_map(|other| Some((other.met(&middle, &normal)?, other)));
         let (distance, other) = crossings.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (other.normal().dot(&normal) < -FACING.cos()).then_some(distance)
+        (other.normal().dot(&normal) < -cos(FACING)).then_some(distance)
     };
     chords.iter().filter_map(gap).min_by(f64::total_cmp)
 }

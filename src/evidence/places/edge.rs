@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point3, Vector3};
 
 use super::{Place, TargetHit, length};
+use crate::elementary::{atan2, hypot};
 use crate::jet::Pose;
 use crate::scene::ray::Ray;
 use crate::setup::Setup;
@@ -43,9 +44,9 @@ pub(super) fn find(setup: &Setup, pose: &Pose, hits: &[TargetHit], radius: f64) 
             from_middle.dot(&frame.along),
             from_middle.dot(&frame.across),
         );
-        let turn = across.atan2(along).rem_euclid(TAU) / TAU;
+        let turn = atan2(across, along).rem_euclid(TAU) / TAU;
         let sector = (turn * SECTORS as f64) as usize % SECTORS;
-        sectors[sector].push((along.hypot(across), hit.impact));
+        sectors[sector].push((hypot(along, across), hit.impact));
     }
     let mut nearest: Option<Edge> = None;
     for mut sector in sectors.into_iter().filter(|sector| sector.len() >= LEAST) {

@@ -1,5 +1,6 @@
 //! The problem in a record.
 
+use crate::elementary::cube;
 use std::f64::consts::PI;
 
 use super::super::QuestionRecord;
@@ -43,7 +44,7 @@ pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
     ] {
         at.of(key).at_least(value, 0.0)?;
     }
-    let mass = 4.0 / 3.0 * PI * it.shot_radius_m.powi(3) * it.shot_density_kg_m3;
+    let mass = 4.0 / 3.0 * PI * cube(it.shot_radius_m) * it.shot_density_kg_m3;
     let ratio = it.shot_mass_kg / mass;
     at.of("shot_mass_kg").holds(
         is_close(ratio, 1.0),

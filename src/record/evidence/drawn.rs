@@ -6,6 +6,7 @@ use super::{
     BodyRecord, EvidenceRecord, FrameRecord, HitsRecord, PathImpactRecord, PathRecord, PlaceRecord,
     ReboundsRecord, RoleRecord, SurfaceShapeRecord,
 };
+use crate::elementary::{log10, whole_power};
 use crate::evidence::{Evidence, Flight, Place, Shape, Shown, broken_by};
 use crate::impact::Regime;
 use crate::jet::Pose;
@@ -101,9 +102,9 @@ const ANGLE_STEPS: f64 = 1e3;
 
 impl Short {
     fn of(setup: &Setup) -> Self {
-        let magnitude = setup.scene.size().log10().ceil() as i32;
+        let magnitude = log10(setup.scene.size()).ceil() as i32;
         Self {
-            steps_per_metre: 10_f64.powi(6 - magnitude),
+            steps_per_metre: whole_power(10.0, 6 - magnitude),
         }
     }
 
@@ -210,8 +211,11 @@ fn impulse(newton_seconds: f64) -> f32 {
     if newton_seconds < f64::from(f32::MIN_POSITIVE) {
         return 0.0;
     }
-    let magnitude = newton_seconds.log10().floor() as i32;
-    stepped(newton_seconds, 10_f64.powi(IMPULSE_DIGITS - 1 - magnitude))
+    let magnitude = log10(newton_seconds).floor() as i32;
+    stepped(
+        newton_seconds,
+        whole_power(10.0, IMPULSE_DIGITS - 1 - magnitude),
+    )
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! glTF 2.0, binary: a node with a mesh and a material for each piece.
 
+use crate::elementary::power;
 use std::borrow::Cow;
 use std::io;
 use std::mem::size_of;
@@ -192,10 +193,11 @@ fn material(piece: &Piece) -> Material {
 
 /// A component of an sRGB colour as a share of light (IEC 61966-2-1).
 fn linear(component: u8) -> f32 {
-    let share = f32::from(component) / 255.0;
-    if share <= 0.04045 {
+    let share = f64::from(component) / 255.0;
+    let light = if share <= 0.04045 {
         share / 12.92
     } else {
-        ((share + 0.055) / 1.055).powf(2.4)
-    }
+        power((share + 0.055) / 1.055, 2.4)
+    };
+    light as f32
 }

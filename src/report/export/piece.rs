@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Point3, Vector3};
 
+use crate::elementary::sin_cos;
 use crate::record::{
     BodyRecord, EvidenceRecord, HitsRecord, PathRecord, RoleRecord, SurfaceShapeRecord,
 };
@@ -152,10 +153,11 @@ fn nozzle(body: &BodyRecord, number: usize, exit: &Point3<f64>) -> Piece {
     for (end, from) in [(0.0, 0), (length, RINGS)] {
         for ring in from..=from + RINGS {
             let latitude = (f64::from(ring) / f64::from(RINGS) - 1.0) * FRAC_PI_2;
+            let (latitude_sine, latitude_cosine) = sin_cos(latitude);
             for step in 0..ROUND {
-                let (sin, cos) = (TAU * f64::from(step) / f64::from(ROUND)).sin_cos();
-                let outwards = (side * cos + other * sin) * latitude.cos();
-                let point = exit + axis * end + (outwards + axis * latitude.sin()) * radius;
+                let (sin, cos) = sin_cos(TAU * f64::from(step) / f64::from(ROUND));
+                let outwards = (side * cos + other * sin) * latitude_cosine;
+                let point = exit + axis * end + (outwards + axis * latitude_sine) * radius;
                 points.push([point.x as f32, point.y as f32, point.z as f32]);
             }
         }

@@ -2,6 +2,7 @@
 
 use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKeyPoints};
 
+use crate::elementary::{ln, log10, whole_power};
 use crate::report::number::{count, plain};
 
 /// A logarithmic axis.
@@ -42,7 +43,7 @@ impl LogAxis {
     /// Where a value stands between the ends: 0 to 1.
     pub fn fraction(self, value: f64) -> f64 {
         let value = value.clamp(self.from, self.to);
-        (value / self.from).ln() / (self.to / self.from).ln()
+        ln(value / self.from) / ln(self.to / self.from)
     }
 
     /// The ticks that are labelled: powers of ten, fewer or more where they are too many or too few.
@@ -65,12 +66,12 @@ impl LogAxis {
 
     /// Multiples of the powers of ten on the axis.
     fn ticks(self, multiples: &[f64]) -> Vec<f64> {
-        let decades = self.from.log10().floor() as i32..=self.to.log10().ceil() as i32;
+        let decades = log10(self.from).floor() as i32..=log10(self.to).ceil() as i32;
         decades
             .flat_map(|decade| {
                 multiples
                     .iter()
-                    .map(move |multiple| multiple * 10_f64.powi(decade))
+                    .map(move |multiple| multiple * whole_power(10.0, decade))
             })
             .filter(|tick| (self.from..=self.to).contains(tick))
             .collect()

@@ -2,6 +2,7 @@
 
 use plotters::style::RGBColor;
 
+use crate::elementary::{ln, log10, power, whole_power};
 use crate::report::number::{decimals_for, fixed, plain};
 
 /// Round values, and a colour for each band between them.
@@ -29,7 +30,7 @@ impl Levels {
         if lowest >= highest {
             return None;
         }
-        let positive = finite().filter(|value| *value > highest * 0.1_f64.powf(DECADES));
+        let positive = finite().filter(|value| *value > highest * power(0.1, DECADES));
         let least = positive.fold(f64::INFINITY, f64::min);
         let levels = if lowest >= 0.0 && highest > WIDE * least {
             Self {
@@ -49,7 +50,7 @@ impl Levels {
     pub fn scaled(&self, value: f64) -> f64 {
         if self.is_logarithmic {
             // Far below the lowest level it does not matter how far.
-            value.max(self.values[0] * 1e-3).ln()
+            ln(value.max(self.values[0] * 1e-3))
         } else {
             value
         }
@@ -78,9 +79,9 @@ impl Levels {
 /// One to three levels in each decade, between two values.
 fn rounded_powers(from: f64, to: f64) -> Vec<f64> {
     let between = |multiples: &[f64]| -> Vec<f64> {
-        let decades = from.log10().floor() as i32..=to.log10().ceil() as i32;
+        let decades = log10(from).floor() as i32..=log10(to).ceil() as i32;
         decades
-            .flat_map(|decade| multiples.iter().map(move |m| m * 10_f64.powi(decade)))
+            .flat_map(|decade| multiples.iter().map(move |m| m * whole_power(10.0, decade)))
             .filter(|level| from < *level && *level < to)
             .collect()
     };
@@ -105,7 +106,7 @@ fn rounded_steps(from: f64, to: f64) -> Vec<f64> {
 
 /// The smallest of 1, 2 or 5 times a power of ten that is not below a positive value.
 pub fn round_step(least: f64) -> f64 {
-    let power = 10_f64.powf(least.log10().floor());
+    let power = power(10.0, log10(least).floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|multiple| multiple * power);
     let step = steps.into_iter().find(|step| *step >= least);
     step.unwrap_or(10.0 * power)

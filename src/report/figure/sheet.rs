@@ -6,6 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::style::{FAINT, INK, LABEL, Look, TITLE, bold, letters};
+use crate::elementary::hypot;
 use crate::report::layout::wrap;
 
 /// A part of the figure.
@@ -98,7 +99,7 @@ pub fn marker(area: &Area, (x, y): Place, look: Look, radius: f64) -> Drawn {
 /// An arrow, since few fonts have one.
 pub fn arrow(area: &Area, from: Place, to: Place, colour: RGBColor) -> Drawn {
     let (dx, dy) = (f64::from(to.0 - from.0), f64::from(to.1 - from.1));
-    let length = dx.hypot(dy).max(1.0);
+    let length = hypot(dx, dy).max(1.0);
     let (ux, uy) = (dx / length, dy / length);
     let at = |along: f64, across: f64| {
         (

@@ -2,6 +2,7 @@
 
 use super::setting::{SETTINGS, Setting};
 use super::subject;
+use crate::elementary::whole_power;
 use crate::record::{AnswerRecord, Record, StatusRecord};
 use crate::report::layout::Block;
 use crate::report::number::{decimals_for, fixed, plain, significant};
@@ -131,7 +132,7 @@ fn rounded_down(gap: f64) -> String {
     let shown = millimetres(gap);
     let is_more = shown.parse::<f64>().is_ok_and(|shown| shown > gap * 1e3);
     if is_more {
-        let step = 0.1_f64.powi(decimals_for(gap * 1e3, 2) as i32);
+        let step = whole_power(0.1, decimals_for(gap * 1e3, 2) as i32);
         fixed(gap * 1e3 - step / 2.0, decimals_for(gap * 1e3, 2))
     } else {
         shown

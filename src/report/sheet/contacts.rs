@@ -2,6 +2,7 @@
 
 use super::setting::SETTINGS;
 use super::subject;
+use crate::elementary::hypot;
 use crate::record::{AnswerRecord, Record};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{Scale, impulse, share, share_asked, significant};
@@ -63,7 +64,7 @@ fn verdict(choice: &AnswerRecord) -> String {
 
 /// Whether two values are equal within their standard errors.
 fn equal((a, a_error): (f64, f64), (b, b_error): (f64, f64)) -> bool {
-    (a - b).abs() <= a_error.hypot(b_error).max(1e-9 * a.abs())
+    (a - b).abs() <= hypot(a_error, b_error).max(1e-9 * a.abs())
 }
 
 /// J with its standard error.

@@ -1,6 +1,7 @@
 //! The trade-off between target error, tangential risk and rebound.
 
 use super::setting::SETTINGS;
+use crate::elementary::whole_power;
 use crate::record::{FrontRecord, Record};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{Scale, decimals_for, fixed};
@@ -50,7 +51,7 @@ fn with_error((value, error): (f64, f64)) -> String {
     if error <= 0.5e-3 * value.abs() || decimals > 8 {
         return Scale::for_error(value, 0.0).text(value);
     }
-    let digits = (error * 10_f64.powi(decimals as i32)).round();
+    let digits = (error * whole_power(10.0, decimals as i32)).round();
     format!("{}({})", fixed(value, decimals), fixed(digits, 0))
 }
 

@@ -1,6 +1,7 @@
 //! Where the scatter of N* comes from, to first order.
 
 use super::unknowns::where_measured;
+use crate::elementary::{power, sin, tan};
 use crate::record::{AnswerRecord, Record, TargetRecord};
 use crate::report::number::{fixed, plain, share_asked};
 
@@ -77,7 +78,7 @@ struct Arriving {
 impl Arriving {
     fn of(best: &AnswerRecord) -> Self {
         let contact = &best.contact_values;
-        let normal_speed = best.settings.speed_m_s * best.settings.incidence_deg.to_radians().sin();
+        let normal_speed = best.settings.speed_m_s * sin(best.settings.incidence_deg.to_radians());
         let falls = contact.restitution_at_m_s.zip(contact.restitution_exponent);
         let Some((at, exponent)) = falls.filter(|_| normal_speed > 0.0) else {
             return Self {
@@ -86,7 +87,7 @@ impl Arriving {
                 of_speed: 1.0,
             };
         };
-        let factor = (normal_speed / at).powf(-exponent);
+        let factor = power(normal_speed / at, -exponent);
         let value = contact.restitution * factor;
         if value >= 1.0 {
             return Self {
@@ -112,7 +113,7 @@ fn sources(record: &Record) -> Vec<Source> {
     // A jet along the target meets it over a deflector, at an angle that the settings do not tell.
     let cotangent = match best.settings.incidence_deg {
         0.0 => 0.0,
-        angle => angle.to_radians().tan().recip(),
+        angle => tan(angle.to_radians()).recip(),
     };
     let restitution = Arriving::of(best);
     let mut sources = vec![

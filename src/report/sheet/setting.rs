@@ -1,6 +1,7 @@
 //! One setting: what it is called, its unit, and how it is rounded.
 
 use crate::digits;
+use crate::elementary::whole_power;
 use crate::record::{DriftRecord, RangeRecord, Record, SettingsRecord, WindowRecord};
 use crate::report::number::{coordinate, decimals_for, fixed, plain};
 
@@ -306,7 +307,7 @@ impl Setting {
 }
 
 fn step(decimals: usize) -> f64 {
-    0.1_f64.powi(decimals as i32)
+    whole_power(0.1, decimals as i32)
 }
 
 fn fraction_digits(text: &str) -> usize {

@@ -1,6 +1,7 @@
 //! The shells of a mesh: what hangs together along edges, whether it wraps round a volume, and which way
 //! its fronts look.
 
+use crate::elementary::power;
 use nalgebra::{Point3, Vector3};
 
 use super::seams::are_seams;
@@ -84,7 +85,7 @@ impl Shells {
             let only_triangles =
                 shell.missing_triangles == shell.holes && shell.holes <= MOST_MISSING;
             let is_damage = only_triangles || shell.hole_length < SMALL_HOLES * diagonal;
-            let ball = shell.area.powf(1.5) / (6.0 * std::f64::consts::PI.sqrt());
+            let ball = power(shell.area, 1.5) / (6.0 * std::f64::consts::PI.sqrt());
             shell.is_solid = shell.agrees && is_damage && shell.volume.abs() > FLAT * ball;
         }
         shells

@@ -1,5 +1,6 @@
 //! Triangles without shared corners put together, and the angles between neighbours.
 
+use crate::elementary::atan2;
 use std::collections::HashMap;
 
 use nalgebra::{Point3, Vector3};
@@ -75,7 +76,7 @@ impl Mesh {
         } else {
             second
         };
-        first.cross(&second).norm().atan2(first.dot(&second))
+        atan2(first.cross(&second).norm(), first.dot(&second))
     }
 }
 

@@ -1,5 +1,6 @@
 //! How exactly a mesh file says where its corners are.
 
+use crate::elementary::whole_power;
 use nalgebra::distance;
 
 use crate::scene::mesh::Mesh;
@@ -58,7 +59,7 @@ fn last_bit(value: f64) -> f64 {
 /// such: the numbers were computed and written in full.
 fn last_digit(mesh: &Mesh, metres_per_unit: f64, largest: f64) -> Option<f64> {
     let is_written_with = |decimals: &i32| {
-        let scale = 10_f64.powi(*decimals);
+        let scale = whole_power(10.0, *decimals);
         coordinates(mesh, metres_per_unit)
             .filter(|value| value.abs() >= SMALL * largest)
             .all(|value| {
@@ -67,7 +68,7 @@ fn last_digit(mesh: &Mesh, metres_per_unit: f64, largest: f64) -> Option<f64> {
             })
     };
     let decimals = (0..=MOST_DECIMALS).find(is_written_with)?;
-    Some(10_f64.powi(-decimals))
+    Some(whole_power(10.0, -decimals))
 }
 
 /// Every coordinate in the file's unit.

@@ -1,5 +1,6 @@
 //! Where the triangles of a binary STL file stand, told from its size and its header.
 
+use crate::elementary::hypot;
 use std::io::{self, BufRead, Read, Seek, SeekFrom};
 
 use super::defect::Defect;
@@ -196,7 +197,7 @@ impl Record {
     /// Whether what stands in the place of the normal can be one: of length 1, or left out.
     fn has_normal(&self) -> bool {
         let [[x, y, z], ..] = self.vectors();
-        let length = x.hypot(y).hypot(z);
+        let length = hypot(hypot(x, y), z);
         length == 0.0 || length.is_nan() || (0.5..2.0).contains(&length)
     }
 

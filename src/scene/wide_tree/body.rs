@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::slab::Slabs;
+use super::slab::Looks;
 use super::{Node, WIDTH};
 
 /// What flies along a ray.
@@ -21,7 +21,7 @@ pub(in crate::scene) trait Body {
     fn meets(
         &self,
         node: &Node,
-        slabs: Option<&Slabs>,
+        looks: Looks,
         entries: &mut [f32; WIDTH],
         exits: &[f32; WIDTH],
     ) -> u32;

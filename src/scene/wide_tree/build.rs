@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::flat::Frame;
 use super::slab::{Slab, Slabs};
 use super::split::{Bounds, HALVING_DEPTH, Item, Set, eight_sets};
-use super::{LEAF, Node, THIN, WIDTH, WideTree};
+use super::{LEAF, Node, SLIM, THIN, WIDTH, WideTree};
 
 /// Triangles of a leaf.
 pub(super) const LEAF_SIZE: usize = 4;
@@ -26,6 +26,7 @@ pub type Leaf = ArrayVec<u32, LEAF_SIZE>;
 struct Branch {
     nodes: Vec<Node>,
     slabs: Vec<Slabs>,
+    strips: Vec<Slabs>,
     leaves: Vec<Leaf>,
 }
 
@@ -36,9 +37,13 @@ struct Triangles<'a> {
 }
 
 impl Triangles<'_> {
-    fn slab(&self, set: &Set) -> Option<Slab> {
+    /// The slabs along the triangles of a set and across them.
+    fn slabs(&self, set: &Set) -> [Option<Slab>; 2] {
         let corners = set.items.iter().map(|item| (self.corners)(item.triangle));
-        Slab::along(corners, &set.bounds, self.slack)
+        [
+            Slab::along(corners.clone(), &set.bounds, self.slack),
+            Slab::across(corners, &set.bounds, self.slack),
+        ]
     }
 }
 
@@ -83,11 +88,13 @@ impl WideTree {
         let Branch {
             nodes,
             slabs,
+            strips,
             leaves,
         } = tree;
         let tree = Self {
             nodes,
             slabs,
+            strips,
             frame,
         };
         (tree, leaves)
@@ -99,13 +106,14 @@ impl Branch {
     fn add_node(&mut self) -> usize {
         self.nodes.push(Node::EMPTY);
         self.slabs.push(Slabs::ENDLESS);
+        self.strips.push(Slabs::ENDLESS);
         self.nodes.len() - 1
     }
 
     /// Adds a node over the items; returns what its parent holds of it.
     fn grow(&mut self, items: &mut [Item], triangles: &Triangles, depth: usize) -> u32 {
         let index = self.add_node();
-        let mut thin = 0;
+        let mut flags = 0;
         let parallel = items.len() > PARALLEL;
         let sets = eight_sets(items, depth);
         for (lane, set) in sets.iter().enumerate() {
@@ -114,9 +122,14 @@ impl Branch {
                 node.sides[axis][lane] = set.bounds.low[axis];
                 node.sides[axis + 3][lane] = set.bounds.high[axis];
             }
-            if let Some(slab) = triangles.slab(set) {
+            let [slab, strip] = triangles.slabs(set);
+            if let Some(slab) = slab {
                 self.slabs[index].set(lane, &slab);
-                thin = THIN;
+                flags |= THIN;
+            }
+            if let Some(strip) = strip {
+                self.strips[index].set(lane, &strip);
+                flags |= SLIM;
             }
         }
         let children: ArrayVec<u32, WIDTH> = if parallel {
@@ -136,7 +149,7 @@ impl Branch {
             sets.into_iter().map(&mut child).collect()
         };
         self.nodes[index].children[..children.len()].copy_from_slice(&children);
-        thin | index as u32
+        flags | index as u32
     }
 
     /// Adds a set as a leaf or as a node; returns what its parent holds of it.
@@ -162,6 +175,7 @@ impl Branch {
         };
         self.leaves.extend(branch.leaves);
         self.slabs.extend(branch.slabs);
+        self.strips.extend(branch.strips);
         self.nodes.extend(branch.nodes.into_iter().map(|mut node| {
             node.children = node.children.map(moved);
             node

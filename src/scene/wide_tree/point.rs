@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use wide::f32x8;
 
 use super::body::Body;
-use super::slab::{Slabs, UNIT};
+use super::slab::{Looks, Slabs, UNIT};
 use super::{Node, WIDTH};
 use crate::precision::Triple;
 use crate::scene::lanes::{larger, smaller};
@@ -68,12 +68,15 @@ impl Body for Point {
     fn meets(
         &self,
         node: &Node,
-        slabs: Option<&Slabs>,
+        looks: Looks,
         entries: &mut [f32; WIDTH],
         exits: &[f32; WIDTH],
     ) -> u32 {
-        slabs.map_or(u32::MAX, |slabs| {
-            self.meets_slabs(node, slabs, entries, exits)
-        })
+        let met = |slabs: Option<&Slabs>| {
+            slabs.map_or(u32::MAX, |slabs| {
+                self.meets_slabs(node, slabs, entries, exits)
+            })
+        };
+        met(looks.slabs) & met(looks.strips)
     }
 }

@@ -1,12 +1,13 @@
 //! Slabs that hold the triangles of a box more closely than the box does.
 //!
 //! A ray that skims a curved wall passes through the boxes of all facets on its way, of which there
-//! are the more the finer they are, but over their slabs.
+//! are the more the finer they are, but over their slabs. Needles that meet in one corner, or lie side by
+//! side askew, are all in the boxes of each other; slabs across them hold each on its own.
 
 use nalgebra::Vector3;
 
-use super::WIDTH;
 use super::split::Bounds;
+use super::{Node, WIDTH};
 use crate::scene::lanes::{larger, smaller};
 
 /// Relative rounding of a single operation.
@@ -16,6 +17,9 @@ pub(super) const UNIT: f64 = 0.5 * f32::EPSILON as f64;
 const ACROSS_BOX: f64 = 8.0 * UNIT;
 /// Slabs are worth a look up to this share of their boxes in width.
 const WIDEST_SHARE: f64 = 0.5;
+
+/// Slabs across needles, to this one: few triangles but needles lie in so narrow ones.
+const WIDEST_STRIP: f64 = 0.25;
 
 /// What is between two planes.
 pub(super) struct Slab {
@@ -32,9 +36,40 @@ impl Slab {
         bounds: &Bounds,
         slack: f64,
     ) -> Option<Self> {
-        let doubled_area = |[a, b, c]: [Vector3<f64>; 3]| (b - a).cross(&(c - a));
-        let areas: Vector3<f64> = triangles.clone().map(doubled_area).sum();
-        let normal = areas.try_normalize(0.0)?.map(|component| component as f32);
+        let normal = areas(triangles.clone()).try_normalize(0.0)?;
+        Self::between(normal, triangles, bounds, slack, WIDEST_SHARE)
+    }
+
+    /// The slab that holds triangles from both sides within their common plane, likewise: that of needles
+    /// that lie side by side.
+    pub fn across(
+        triangles: impl Iterator<Item = [Vector3<f64>; 3]> + Clone,
+        bounds: &Bounds,
+        slack: f64,
+    ) -> Option<Self> {
+        let upwards = areas(triangles.clone());
+        let needles = triangles.clone().map(longest_edge);
+        let lengthwise: Vector3<f64> = needles.reduce(|sum, edge| {
+            // Whichever way round their corners are.
+            if sum.dot(&edge) < 0.0 {
+                sum - edge
+            } else {
+                sum + edge
+            }
+        })?;
+        let normal = upwards.cross(&lengthwise).try_normalize(0.0)?;
+        Self::between(normal, triangles, bounds, slack, WIDEST_STRIP)
+    }
+
+    /// The slab at right angles to a normal, if it is no wider than a share of the box.
+    fn between(
+        normal: Vector3<f64>,
+        triangles: impl Iterator<Item = [Vector3<f64>; 3]>,
+        bounds: &Bounds,
+        slack: f64,
+        widest_share: f64,
+    ) -> Option<Self> {
+        let normal = normal.map(|component| component as f32);
         let exact = normal.map(f64::from);
         let [corner, opposite] =
             [bounds.low, bounds.high].map(|corner| Vector3::from(corner.map(f64::from)));
@@ -46,12 +81,27 @@ impl Slab {
         }
         let width = exact.abs().dot(&(opposite - corner));
         let margin = 2.0 * slack + ACROSS_BOX * width;
-        (high - low < WIDEST_SHARE * width).then_some(Self {
+        (high - low < widest_share * width).then_some(Self {
             normal,
             low: (low - margin) as f32,
             high: (high + margin) as f32,
         })
     }
+}
+
+fn areas(triangles: impl Iterator<Item = [Vector3<f64>; 3]>) -> Vector3<f64> {
+    triangles.map(|[a, b, c]| (b - a).cross(&(c - a))).sum()
+}
+
+fn longest_edge([a, b, c]: [Vector3<f64>; 3]) -> Vector3<f64> {
+    let longer = |one: Vector3<f64>, other: Vector3<f64>| {
+        if other.norm_squared() > one.norm_squared() {
+            other
+        } else {
+            one
+        }
+    };
+    longer(longer(b - a, c - b), a - c)
 }
 
 /// The slabs of a node's children.
@@ -72,6 +122,23 @@ impl Slabs {
         high: [f32::INFINITY; WIDTH],
     };
 
+    /// Where a body is over the slab of a child, from where it starts and how it rises.
+    #[inline(always)]
+    pub fn start_and_rise(
+        &self,
+        node: &Node,
+        lane: usize,
+        [origin, direction]: [&Vector3<f64>; 2],
+    ) -> [f64; 2] {
+        let (mut start, mut rise) = (0.0, 0.0);
+        for axis in 0..3 {
+            let normal = f64::from(self.normals[axis][lane]);
+            start += normal * (origin[axis] - f64::from(node.sides[axis][lane]));
+            rise += normal * direction[axis];
+        }
+        [start, rise]
+    }
+
     pub(super) fn set(&mut self, lane: usize, slab: &Slab) {
         for axis in 0..3 {
             self.normals[axis][lane] = slab.normal[axis];
@@ -79,4 +146,20 @@ impl Slabs {
         self.low[lane] = slab.low;
         self.high[lane] = slab.high;
     }
+}
+
+/// The slabs of a node that are worth a look.
+#[derive(Clone, Copy)]
+pub(in crate::scene) struct Looks<'a> {
+    /// Along the triangles.
+    pub slabs: Option<&'a Slabs>,
+    /// Across needles.
+    pub strips: Option<&'a Slabs>,
+}
+
+impl Looks<'_> {
+    pub const NONE: Self = Self {
+        slabs: None,
+        strips: None,
+    };
 }

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use wide::f32x8;
 
 use super::body::Body;
-use super::slab::Slabs;
+use super::slab::{Looks, Slabs};
 use super::{Node, WIDTH};
 use crate::scene::lanes::larger;
 
@@ -27,17 +27,20 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Takes more off a distance than its rounding to single precision may add.
 const SHORTER: f64 = 1.0 - f32::EPSILON as f64;
 
+/// Slabs and the slabs across them are at right angles but for the rounding of their normals: bars are by as
+/// much nearer than they seem.
+const OBLIQUE: f64 = 1.0 + 8.0 * f32::EPSILON as f64;
+
 impl Sphere {
+    fn way(&self) -> [&Vector3<f64>; 2] {
+        [&self.origin, &self.direction]
+    }
+
     /// Moves entries on to where the sphere comes to the slabs.
     #[inline(always)]
     fn come_to_slabs(&self, node: &Node, slabs: &Slabs, entries: &mut [f64; WIDTH]) {
         for (lane, entry) in entries.iter_mut().enumerate() {
-            let (mut start, mut rise) = (0.0, 0.0);
-            for axis in 0..3 {
-                let normal = f64::from(slabs.normals[axis][lane]);
-                start += normal * (self.origin[axis] - f64::from(node.sides[axis][lane]));
-                rise += normal * self.direction[axis];
-            }
+            let [start, rise] = slabs.start_and_rise(node, lane, self.way());
             let height = start + rise * *entry;
             let over = height - f64::from(slabs.high[lane]);
             let under = f64::from(slabs.low[lane]) - height;
@@ -45,6 +48,28 @@ impl Sphere {
             let gap = larger(over, under) - self.reach;
             // What it moves away from it does not come to.
             *entry += larger(gap / larger(closing, f64::MIN_POSITIVE), 0.0);
+        }
+    }
+
+    /// Moves entries on to where the sphere, off to one side of needles, comes to the rounded bars that are
+    /// between their slabs and the slabs across them; or not quite, but never beyond.
+    #[inline(always)]
+    fn come_to_bars(&self, node: &Node, slabs: &Slabs, strips: &Slabs, entries: &mut [f64; WIDTH]) {
+        for (lane, entry) in entries.iter_mut().enumerate() {
+            let (mut squares, mut closing) = (0.0, 0.0);
+            for sides in [slabs, strips] {
+                let [start, rise] = sides.start_and_rise(node, lane, self.way());
+                let height = start + rise * *entry;
+                let over = height - f64::from(sides.high[lane]);
+                let under = f64::from(sides.low[lane]) - height;
+                let apart = larger(larger(over, under), 0.0);
+                squares += apart * apart;
+                closing += apart * if over > under { -rise } else { rise };
+            }
+            // How far apart they are is convex along the way: it is no less than on its tangent here.
+            let apart = squares.sqrt();
+            let gap = apart - self.reach * OBLIQUE;
+            *entry += larger(gap * apart / larger(closing, f64::MIN_POSITIVE), 0.0);
         }
     }
 
@@ -83,13 +108,17 @@ impl Body for Sphere {
     fn meets(
         &self,
         node: &Node,
-        slabs: Option<&Slabs>,
+        looks: Looks,
         entries: &mut [f32; WIDTH],
         exits: &[f32; WIDTH],
     ) -> u32 {
         let mut exact = entries.map(f64::from);
-        if let Some(slabs) = slabs {
+        if let Some(slabs) = looks.slabs {
             self.come_to_slabs(node, slabs, &mut exact);
+        }
+        if let Some(strips) = looks.strips {
+            let slabs = looks.slabs.unwrap_or(&Slabs::ENDLESS);
+            self.come_to_bars(node, slabs, strips, &mut exact);
         }
         self.come_to_boxes(node, &mut exact);
         *entries = exact.map(|entry| (entry * SHORTER) as f32);

@@ -165,6 +165,81 @@ fn spheres_much_wider_than_facets_visit_few_leaves() {
     }
 }
 
+/// Needles from a tip to a circle of radius 1 round the z axis.
+fn fan(needles: u32, tip: [f64; 3]) -> Vec<[Point3<f64>; 3]> {
+    let rim = |needle: u32| {
+        let angle = TAU * f64::from(needle) / f64::from(needles);
+        Point3::new(angle.cos(), angle.sin(), 0.0)
+    };
+    let needle = |needle: u32| [tip.into(), rim(needle), rim(needle + 1)];
+    (0..needles).map(needle).collect()
+}
+
+/// A square of slivers that reach from side to side.
+fn sheaf(slivers: u32) -> Vec<[Point3<f64>; 3]> {
+    let at = |sliver: u32, y: f64| {
+        let x = 2.0 * f64::from(sliver) / f64::from(slivers) - 1.0;
+        Point3::new(x, y, 0.0)
+    };
+    let pair = |sliver: u32| {
+        let [a, b] = [at(sliver, -1.0), at(sliver, 1.0)];
+        let [c, d] = [at(sliver + 1, 1.0), at(sliver + 1, -1.0)];
+        [[a, d, c], [a, c, b]]
+    };
+    (0..slivers).flat_map(pair).collect()
+}
+
+/// How many leaves rays and spheres visit on average that come to surfaces of needles anywhere, or leave them.
+#[test]
+fn needles_are_visited_few_at_a_time() {
+    const SHOTS: u32 = 300;
+    const LENGTH: f64 = 0.3;
+    let shapes = [
+        ("disc", fan(30_000, [0.0; 3])),
+        ("disc with its tip aside", fan(30_000, [0.35, 0.1, 0.0])),
+        ("flat cone", fan(30_000, [0.0, 0.0, 1e-3])),
+        ("cone", fan(30_000, [0.0, 0.0, 0.7])),
+        ("sheaf", sheaf(15_000)),
+    ];
+    let lean = Rotation3::from_euler_angles(0.5, 0.3, 0.8);
+    let mut random = Random(11);
+    for (name, shape) in shapes {
+        let triangles: Vec<_> = shape
+            .iter()
+            .map(|it| it.map(|corner| lean * corner))
+            .collect();
+        let (tree, _) = tree(&triangles, 1e-12);
+        for radius in [0.0, 0.005, 0.05] {
+            let (mut coming, mut leaving) = (0, 0);
+            for _ in 0..SHOTS {
+                let [a, b, c] = triangles[random.bits() as usize % triangles.len()];
+                // Uniform over the triangle.
+                let root = random.share().sqrt();
+                let point = a + (b - a) * root + (c - b) * (root * random.share());
+                let normal = (b - a).cross(&(c - a)).normalize();
+                let direction = (random.direction() * 0.9 - normal).normalize();
+                let touch = point + normal * radius;
+                let from = touch - direction * LENGTH;
+                let back = direction - normal * (2.0 * direction.dot(&normal));
+                let count = |origin: Point3<f64>, direction: Vector3<f64>, limit: f64| {
+                    let ray = Ray { origin, direction };
+                    if radius > 0.0 {
+                        visits(&tree, &tree.flat_sphere(&ray, radius), limit).count()
+                    } else {
+                        visits(&tree, &tree.flat(&ray), limit).count()
+                    }
+                };
+                coming += count(from, direction, LENGTH);
+                leaving += count(touch, back, LENGTH);
+            }
+            for (count, way) in [(coming, "coming"), (leaving, "leaving")] {
+                let mean = count as f64 / f64::from(SHOTS);
+                eprintln!("{name}, {radius}: {mean} when {way}");
+            }
+        }
+    }
+}
+
 /// Where a ray only touches the corner of a box, it is in it along one axis no sooner than out of it
 /// along another: rounding must not turn them round.
 #[test]
@@ -217,7 +292,10 @@ fn rays_and_spheres_visit_the_leaf_of_what_they_meet() {
     let lean = Rotation3::from_euler_angles(0.5, 0.3, 0.1);
     let turned = |triangle: [Point3<f64>; 3]| triangle.map(|corner| lean * (corner * 0.2));
     let finer = round_wall(5000, 1.0).into_iter().map(turned);
-    let walls: Vec<_> = round_wall(500, 3.0).into_iter().chain(finer).collect();
+    let needles = [0.0, 0.01, 0.7].map(|height| fan(2000, [0.2, 0.0, height]));
+    let needles = needles.into_iter().flatten().map(turned);
+    let mut walls: Vec<_> = round_wall(500, 3.0).into_iter().chain(finer).collect();
+    walls.extend(needles.chain(sheaf(1000).into_iter().map(turned)));
     for (scale, shift) in [(1.0, 0.0), (1e-6, 0.0), (1e3, 1e6)] {
         let placed = |point: Point3<f64>| point * scale + Vector3::repeat(shift);
         let triangles: Vec<_> = walls.iter().map(|corners| corners.map(placed)).collect();

@@ -4,7 +4,8 @@ use arrayvec::ArrayVec;
 
 use super::body::Body;
 use super::flat::FlatRay;
-use super::{Entered, LEAF, Node, THIN, WIDTH, WideTree, build};
+use super::slab::Looks;
+use super::{Entered, LEAF, Node, SLIM, THIN, WIDTH, WideTree, build};
 
 /// A walk along a ray.
 pub(in crate::scene) struct Walk<'a, B> {
@@ -54,10 +55,13 @@ impl<'a, B: Body> Walk<'a, B> {
                 if stop.child() & LEAF != 0 {
                     return Some((stop.child() & !LEAF, stop.entry() == 0.0));
                 }
-                let index = (stop.child() & !THIN) as usize;
-                let slabs = (stop.child() & THIN != 0).then(|| &self.tree.slabs[index]);
+                let index = (stop.child() & !(THIN | SLIM)) as usize;
+                let looks = Looks {
+                    slabs: (stop.child() & THIN != 0).then(|| &self.tree.slabs[index]),
+                    strips: (stop.child() & SLIM != 0).then(|| &self.tree.strips[index]),
+                };
                 let node = &self.tree.nodes[index];
-                let entered = node.entered(slabs, self.ray, self.limit);
+                let entered = node.entered(looks, self.ray, self.limit);
                 let Some(nearest) = self.enter(node, &entered) else {
                     break;
                 };

@@ -1,5 +1,6 @@
 //! One impact and the tables as JSON.
 
+use peenpose::elementary::{sin, tan};
 use peenpose::impact::zohdi::Row;
 use peenpose::impact::{Oblique, Outcome};
 use serde::Serialize;
@@ -59,7 +60,7 @@ impl ImpactJson {
             density: shot.sphere.density,
             static_friction: contact.static_friction,
             dynamic_friction: contact.dynamic_friction,
-            restitution: contact.restitution.at(shot.speed * shot.angle.sin()),
+            restitution: contact.restitution.at(shot.speed * sin(shot.angle)),
             tangential_restitution: contact.tangential_restitution,
             regime: outcome.regime.name(),
             normal_impulse: outcome.normal_impulse,
@@ -73,7 +74,7 @@ impl ImpactJson {
             rotation_before: outcome.before.rotation,
             rotation_after: outcome.after.rotation,
             energy_ratio: outcome.energy_ratio(),
-            stick_tangent: stick_angle.map(f64::tan),
+            stick_tangent: stick_angle.map(tan),
             stick_angle_rad: stick_angle,
         }
     }

@@ -1,5 +1,6 @@
 //! One impact and the tables as text.
 
+use peenpose::elementary::tan;
 use peenpose::impact::zohdi::{self, Row};
 use peenpose::impact::{Law, Oblique, Outcome};
 
@@ -9,7 +10,7 @@ use super::json::{EnergiesJson, TableJson, VelocitiesJson, to_json};
 pub fn impact_text(shot: &Oblique, outcome: &Outcome) -> String {
     let sticking = match shot.stick_angle() {
         Some(angle) => [
-            decimals(angle.tan(), 5),
+            decimals(tan(angle), 5),
             format!(
                 "so from {} deg without spin",
                 decimals(angle.to_degrees(), 4)

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point2, Vector2};
 
 use super::SAME_POINT;
+use crate::elementary::atan2;
 use crate::problem::curve::Curve;
 
 /// Where two segments meet end to end, coordinates as they are typed make a smooth joint cross itself
@@ -61,7 +62,7 @@ fn lies_beside(curve: &Curve, point: Point2<f64>) -> bool {
             ..
         } => {
             let radial = point - centre;
-            let turn = radial.y.atan2(radial.x) - start;
+            let turn = atan2(radial.y, radial.x) - start;
             (turn * sweep.signum()).rem_euclid(TAU) < sweep.abs()
         }
     }

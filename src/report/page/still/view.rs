@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{Area, Label, PICTURE, Piece, WIDTH};
+use crate::elementary::{cos, whole_power};
 use crate::record::{BodyRecord, EvidenceRecord, Record, RoleRecord, SurfaceShapeRecord};
 use crate::report::page::look::{Colour, LOOK};
 
@@ -171,7 +172,7 @@ impl View {
     fn shaded(&self, colour: Colour, [a, b, c]: &[Corner; 3]) -> Colour {
         let normal = (b - a).cross(&(c - a));
         let light = self.out + self.up * 0.5 - self.right * 0.3;
-        let facing = normal.angle(&light).cos().abs();
+        let facing = cos(normal.angle(&light)).abs();
         colour.darker(0.72 + 0.28 * (facing * SHADES).round() / SHADES)
     }
 
@@ -257,7 +258,8 @@ impl View {
     /// A round length in the drawing, and in mm.
     pub fn scale_bar(&self) -> (f64, f64) {
         let per_millimetre = self.scale * 1e-3;
-        let lengths = (-3..5).flat_map(|power| [1.0, 2.0, 5.0].map(|m| m * 10_f64.powi(power)));
+        let lengths =
+            (-3..5).flat_map(|power| [1.0, 2.0, 5.0].map(|m| m * whole_power(10.0, power)));
         let fits = |length: &f64| length * per_millimetre <= WIDTH / 6.0;
         let length = lengths.filter(fits).fold(1e-3, f64::max);
         (length * per_millimetre, length)
