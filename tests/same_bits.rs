@@ -62,10 +62,6 @@ fn record(problem: &str, on: &On) -> String {
     let text = output(env!("CARGO_BIN_EXE_peenpose"), &arguments, on);
     let mut record: Value = serde_json::from_str(&text).expect("JSON on stdout");
     record["work"]["seconds"].take();
-    let effects = record["model"]["effects"].as_array_mut();
-    for effect in effects.into_iter().flatten() {
-        effect["relative_time"].take();
-    }
     assert!(record["best"]["objective"]["total"].is_f64(), "{problem}");
     // Text of all digits: equal means bit for bit.
     record.to_string()
@@ -116,7 +112,8 @@ fn other_processors_give_the_same_bits() {
     let processor = |model| told("what_the_processor_is", &On::Processor(model));
     assert_eq!(processor(OLD), "avx2 false");
     assert_eq!(processor(NEW), "avx2 true");
-    for problem in PROBLEMS {
+    // The mesh takes an emulator as long as the other two.
+    for problem in PROBLEMS.iter().filter(|name| !name.contains("blind")) {
         for model in [OLD, NEW] {
             assert_same(problem, &On::Processor(model));
         }

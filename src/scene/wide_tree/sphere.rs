@@ -31,6 +31,13 @@ const SHORTER: f64 = 1.0 - f32::EPSILON as f64;
 /// much nearer than they seem.
 const OBLIQUE: f64 = 1.0 + 8.0 * f32::EPSILON as f64;
 
+/// A sphere that dips into a slab by less than a thousandth of its radius touches what is there with
+/// normals within 0.0448 rad of the slab's. Where its way rises more steeply, it heads towards none of that:
+/// it comes from there, and never meets it. So a shot that leaves a wall looks at no facet beside it.
+const STILL_CLEAR: f64 = 1.0 - 1e-3;
+/// Sine of that slope, and some more.
+const LEAVES: f64 = 0.05;
+
 impl Sphere {
     fn way(&self) -> [&Vector3<f64>; 2] {
         [&self.origin, &self.direction]
@@ -44,6 +51,15 @@ impl Sphere {
             let height = start + rise * *entry;
             let over = height - f64::from(slabs.high[lane]);
             let under = f64::from(slabs.low[lane]) - height;
+            let (apart, parting) = if over > under {
+                (over, rise)
+            } else {
+                (under, -rise)
+            };
+            if apart >= STILL_CLEAR * self.reach && parting >= LEAVES {
+                *entry = f64::INFINITY;
+                continue;
+            }
             let closing = if over > under { -rise } else { rise };
             let gap = larger(over, under) - self.reach;
             // What it moves away from it does not come to.
