@@ -79,9 +79,8 @@ impl Winding {
             index += 1;
             if node.next as usize == index {
                 let range = node.triangles.start as usize..node.triangles.end as usize;
-                for &triangle in &self.order[range] {
-                    angle += solid_angle(&corners(triangle), at);
-                }
+                let seen = self.order[range].iter();
+                angle += solid_angles(seen.map(|&triangle| half_angle(&corners(triangle), at)));
             }
         }
         angle / (4.0 * std::f64::consts::PI)
@@ -179,11 +178,38 @@ fn summed(
 /// The solid angle under which a triangle is seen from a point, positive from behind its front (Van
 /// Oosterom and Strackee 1983).
 pub(super) fn solid_angle(corners: &[Point3<f64>; 3], from: &Point3<f64>) -> f64 {
+    let [sum, volume] = half_angle(corners, from);
+    2.0 * atan2(volume, sum)
+}
+
+/// The sum of the solid angles of a leaf, from their halves: small ones are multiplied as complex numbers,
+/// and take one arctangent together.
+fn solid_angles(halves: impl Iterator<Item = [f64; 2]>) -> f64 {
+    /// The tangent of the largest that is multiplied: all of a leaf stay below half a turn.
+    const SMALL: f64 = 0.4;
+    let mut product = [1.0, 0.0];
+    let mut large = 0.0;
+    for [sum, volume] in halves {
+        if sum > 0.0 && volume.abs() <= SMALL * sum {
+            let [real, imaginary] = product;
+            product = [
+                real * sum - imaginary * volume,
+                real * volume + imaginary * sum,
+            ];
+        } else {
+            large += atan2(volume, sum);
+        }
+    }
+    2.0 * (large + atan2(product[1], product[0]))
+}
+
+/// Half of the solid angle of a triangle, as that of a complex number.
+fn half_angle(corners: &[Point3<f64>; 3], from: &Point3<f64>) -> [f64; 2] {
     let [a, b, c] = corners.map(|corner| corner - from);
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(&b.cross(&c));
     let sum = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-    2.0 * atan2(volume, sum)
+    [sum, volume]
 }
 
 #[cfg(test)]
