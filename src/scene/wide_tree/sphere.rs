@@ -31,13 +31,6 @@ const SHORTER: f64 = 1.0 - f32::EPSILON as f64;
 /// much nearer than they seem.
 const OBLIQUE: f64 = 1.0 + 8.0 * f32::EPSILON as f64;
 
-/// A sphere that dips into a slab by less than a thousandth of its radius touches what is there with
-/// normals within 0.0448 rad of the slab's. Where its way rises more steeply, it heads towards none of that:
-/// it comes from there, and never meets it. So a shot that leaves a wall looks at no facet beside it.
-const STILL_CLEAR: f64 = 1.0 - 1e-3;
-/// Sine of that slope, and some more.
-const LEAVES: f64 = 0.05;
-
 impl Sphere {
     fn way(&self) -> [&Vector3<f64>; 2] {
         [&self.origin, &self.direction]
