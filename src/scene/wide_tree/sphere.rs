@@ -44,15 +44,6 @@ impl Sphere {
             let height = start + rise * *entry;
             let over = height - f64::from(slabs.high[lane]);
             let under = f64::from(slabs.low[lane]) - height;
-            let (apart, parting) = if over > under {
-                (over, rise)
-            } else {
-                (under, -rise)
-            };
-            if apart >= STILL_CLEAR * self.reach && parting >= LEAVES {
-                *entry = f64::INFINITY;
-                continue;
-            }
             let closing = if over > under { -rise } else { rise };
             let gap = larger(over, under) - self.reach;
             // What it moves away from it does not come to.
