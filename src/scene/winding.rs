@@ -175,13 +175,6 @@ fn summed(
     }
 }
 
-/// The solid angle under which a triangle is seen from a point, positive from behind its front (Van
-/// Oosterom and Strackee 1983).
-pub(super) fn solid_angle(corners: &[Point3<f64>; 3], from: &Point3<f64>) -> f64 {
-    let [sum, volume] = half_angle(corners, from);
-    2.0 * atan2(volume, sum)
-}
-
 /// The sum of the solid angles of a leaf, from their halves: small ones are multiplied as complex numbers,
 /// and take one arctangent together.
 fn solid_angles(halves: impl Iterator<Item = [f64; 2]>) -> f64 {
@@ -203,7 +196,8 @@ fn solid_angles(halves: impl Iterator<Item = [f64; 2]>) -> f64 {
     2.0 * (large + atan2(product[1], product[0]))
 }
 
-/// Half of the solid angle of a triangle, as that of a complex number.
+/// Half of the solid angle under which a triangle is seen from a point, as that of a complex number, positive from
+/// behind its front (Van Oosterom and Strackee 1983).
 fn half_angle(corners: &[Point3<f64>; 3], from: &Point3<f64>) -> [f64; 2] {
     let [a, b, c] = corners.map(|corner| corner - from);
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
@@ -216,6 +210,10 @@ fn half_angle(corners: &[Point3<f64>; 3], from: &Point3<f64>) -> [f64; 2] {
 mod tests {
     use super::*;
     use crate::scene::tessellate;
+
+    fn solid_angle(corners: &[Point3<f64>; 3], from: &Point3<f64>) -> f64 {
+        solid_angles([half_angle(corners, from)].into_iter())
+    }
 
     #[test]
     fn the_octant_of_a_sphere_is_an_eighth() {
