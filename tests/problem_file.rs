@@ -12,10 +12,10 @@ use peenpose::impact::{Contact, Law, Restitution};
 use peenpose::problem::equipment::{Body, Jet, Nozzle, PathLimits, Role, Shot, Spread};
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
 use peenpose::problem::model::{Effect, Model};
-use peenpose::problem::part::{Ends, FileUnit, Keyway, Part, Place, Shape, Target};
+use peenpose::problem::part::{Ends, Keyway, Part, Place, Shape, Target};
 use peenpose::problem::rule::Rule;
 use peenpose::problem::setting::{Range, Tolerance};
-use peenpose::problem::{self, Problem, Reading};
+use peenpose::problem::{self, LengthUnit, Problem, Reading};
 use proptest::prelude::*;
 
 const KEYWAY: &str = include_str!("../problems/keyway.yaml");
@@ -314,10 +314,7 @@ fn every_other_key_is_read() {
     assert_eq!(
         problem.target,
         Target {
-            lengths_in: FileUnit {
-                name: "cm",
-                metres: 0.01,
-            },
+            lengths_in: LengthUnit::Centimetre,
             // A group of the mesh file, which nobody has read yet.
             surface: "mask.rim".to_owned(),
             within: None,
@@ -493,7 +490,7 @@ fn a_file_without_coordinates_needs_no_unit_for_them() {
     assert_eq!(kept.len() + without.len(), KEYWAY.lines().count());
     let bare = kept.join("\n");
     let lengths_in = sound(&bare).target.lengths_in;
-    assert_eq!((lengths_in.name, lengths_in.metres), ("mm", 1e-3));
+    assert_eq!((lengths_in.name(), lengths_in.metres(1.0)), ("mm", 1e-3));
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! The lines and arcs that cross-sections are made of.
 
-use crate::elementary::{atan2, sin_cos};
 use std::f64::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
+
+use crate::elementary::{atan2, sin_cos};
 
 /// A straight line or a circular arc.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -25,6 +25,7 @@ use scene::{PartEntry, TargetEntry};
 use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
 
 use super::field::{Field, Needed};
+use crate::problem::LengthUnit;
 use crate::units::Dimension;
 
 /// The format that is read.
@@ -175,35 +176,6 @@ quantities! {
 impl Quantity for f64 {
     fn si(self) -> f64 {
         self
-    }
-}
-
-/// The unit of bare coordinates.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[schemars(inline)]
-pub(super) enum LengthUnit {
-    #[serde(rename = "um")]
-    Micrometre,
-    #[serde(rename = "mm")]
-    Millimetre,
-    #[serde(rename = "cm")]
-    Centimetre,
-    #[serde(rename = "m")]
-    Metre,
-    #[serde(rename = "in")]
-    Inch,
-}
-
-impl LengthUnit {
-    /// Its name in the file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Micrometre => "um",
-            Self::Millimetre => "mm",
-            Self::Centimetre => "cm",
-            Self::Metre => "m",
-            Self::Inch => "in",
-        }
     }
 }
 

@@ -41,6 +41,7 @@ mod field;
 mod file;
 pub mod given;
 mod home;
+mod length_unit;
 mod name;
 mod reader;
 mod reading;
@@ -50,6 +51,7 @@ mod schema;
 mod source;
 mod yaml;
 
+pub use length_unit::LengthUnit;
 pub use reading::{Reading, read, read_text};
 pub use render::{one_line, render, render_warnings};
 pub use schema::schema;

@@ -1,12 +1,11 @@
 //! The parts of a scene as the user described them: checked, in metres, not yet built.
 
-use crate::elementary::log10;
 use std::path::PathBuf;
 
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 
+use super::LengthUnit;
 use super::curve::Curve;
-use crate::digits::coordinate;
 
 /// One named part of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,41 +146,11 @@ pub struct Region {
     pub max: Point3<f64>,
 }
 
-/// The unit of a file's coordinates, in which places are told.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FileUnit {
-    /// Its name in the file.
-    pub name: &'static str,
-    /// m.
-    pub metres: f64,
-}
-
-impl Default for FileUnit {
-    fn default() -> Self {
-        Self {
-            name: "mm",
-            metres: 1e-3,
-        }
-    }
-}
-
-impl FileUnit {
-    /// A coordinate, m, in this unit, to a micrometre or a tenth of that.
-    pub fn text(&self, length: f64) -> String {
-        coordinate(length / self.metres, decimals_of(self.metres))
-    }
-}
-
-/// Decimals with which a unit of this length, m, tells a micrometre.
-pub fn decimals_of(unit: f64) -> usize {
-    log10(unit * 1e6).ceil().max(0.0) as usize
-}
-
 /// The surface to be peened.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// The unit of its coordinates.
-    pub lengths_in: FileUnit,
+    pub lengths_in: LengthUnit,
     /// Full name of the surface, `part.surface`.
     pub surface: String,
     /// Only this box of it (scene frame, m); the rest of the surface is secondary.

@@ -32,9 +32,7 @@ pub use front::FrontRecord;
 pub use library::{LibraryContactRecord, MediumRecord, OriginRecord};
 pub use map::MapTerm;
 pub use model::{ModelRecord, RungRecord};
-pub use question::{
-    CalibrationRecord, GoalsRecord, LengthsIn, QuestionRecord, RangeRecord, ToleranceRecord,
-};
+pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use receipt::{ReceiptRecord, SpreadRecord, TargetRecord};
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,

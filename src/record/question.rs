@@ -6,9 +6,8 @@ use super::library::{LibraryContactRecord, MediumRecord};
 use super::window::key_and_unit;
 use crate::printable;
 use crate::problem::equipment::Spread;
-use crate::problem::part::FileUnit;
 use crate::problem::setting::{Range, Setting};
-use crate::problem::{Problem, Source};
+use crate::problem::{LengthUnit, Problem, Source};
 use crate::units::degrees;
 
 /// The problem behind a result.
@@ -36,7 +35,7 @@ pub struct QuestionRecord {
     pub exit_diameter_m: f64,
     /// The unit of the file's coordinates, in which poses are printed.
     #[serde(default)]
-    pub lengths_in: LengthsIn,
+    pub lengths_in: LengthUnit,
     /// Half-angle of the cone, deg.
     pub divergence_deg: f64,
     /// `uniform` or `gaussian`.
@@ -123,25 +122,6 @@ pub struct ToleranceRecord {
     pub friction: f64,
 }
 
-/// The unit of a file's coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LengthsIn {
-    /// Its name in the file.
-    pub name: String,
-    /// m.
-    pub metres: f64,
-}
-
-impl Default for LengthsIn {
-    fn default() -> Self {
-        let FileUnit { name, metres } = FileUnit::default();
-        Self {
-            name: name.into(),
-            metres,
-        }
-    }
-}
-
 impl QuestionRecord {
     /// The record of a problem.
     pub fn new(problem: &Problem, source: &Source) -> Self {
@@ -156,10 +136,7 @@ impl QuestionRecord {
             medium: MediumRecord::of(&problem.shot),
             library_contacts: LibraryContactRecord::all(problem),
             exit_diameter_m: problem.jet.exit_diameter,
-            lengths_in: LengthsIn {
-                name: problem.target.lengths_in.name.into(),
-                metres: problem.target.lengths_in.metres,
-            },
+            lengths_in: problem.target.lengths_in,
             divergence_deg: degrees(problem.jet.divergence),
             spread: match problem.jet.spread {
                 Spread::Uniform => "uniform".into(),

@@ -6,11 +6,11 @@ use nalgebra::{Point2, Point3, Vector3};
 
 use super::limit::Limit;
 use super::scope::Scope;
+use crate::problem::LengthUnit;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::BoxEntry;
-use crate::problem::file::{LengthUnit, Pair, Triple};
+use crate::problem::file::{Pair, Triple};
 use crate::problem::rule::Rule;
-use crate::units::{self, Dimension};
 
 /// How bare coordinates become metres.
 pub(super) struct Coordinates<'a> {
@@ -112,13 +112,6 @@ pub(super) fn direction(scope: &Scope<'_>, triple: &Triple) -> Option<Vector3<f6
     unit
 }
 
-/// A bare length in metres, through the same door as `0.5 mm`.
-pub(super) fn metres(value: f64, unit: LengthUnit) -> f64 {
-    let written = format!("{value} {}", unit.name());
-    // Only an overflow can fail; the caller finds infinity too large.
-    units::parse(Dimension::Length, &written).unwrap_or(f64::INFINITY)
-}
-
 /// The numbers of a list, all of which must be there.
 fn numbers<const N: usize>(scope: &Scope<'_>, list: &[Field<f64>; N]) -> Option<[f64; N]> {
     let mut values = [0.0; N];
@@ -147,7 +140,7 @@ fn scaled<const N: usize>(
 ) -> Option<[f64; N]> {
     let values = numbers(scope, list)?;
     let unit = unit?;
-    let values = values.map(|value| metres(value, unit));
+    let values = values.map(|value| unit.metres(value));
     let mut sound = true;
     for (index, value) in values.iter().enumerate() {
         sound &= scope.item(index).within_own(*value, Limit::SHIFT).is_some();

@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::coordinates::{Coordinates, metres};
+use super::coordinates::Coordinates;
 use super::scope::Scope;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
@@ -47,7 +47,7 @@ pub(super) fn check(
     };
     Some(Shape::Mesh {
         path: path?,
-        metres_per_unit: metres(1.0, unit?),
+        metres_per_unit: unit?.metres(1.0),
         regions: regions?,
     })
 }

@@ -6,7 +6,7 @@ use super::scope::Scope;
 use crate::problem::fault::Fault;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::TargetEntry;
-use crate::problem::part::{FileUnit, Target};
+use crate::problem::part::Target;
 use crate::problem::rule::Rule;
 
 pub(super) fn check(
@@ -39,14 +39,8 @@ pub(super) fn check(
     let facing = optional(&entry.facing, |facing| {
         coordinates::direction(&scope.of("facing"), facing)
     });
-    let lengths_in = coordinates
-        .given_unit()
-        .map_or_else(FileUnit::default, |unit| FileUnit {
-            name: unit.name(),
-            metres: coordinates::metres(1.0, unit),
-        });
     Some(Target {
-        lengths_in,
+        lengths_in: coordinates.given_unit().unwrap_or_default(),
         surface: surface?.clone(),
         within: within?,
         aim: aim?,

@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::{Angle, Length, LengthUnit, Named, Pair, Triple, form};
+use super::{Angle, Length, Named, Pair, Triple, form};
+use crate::problem::LengthUnit;
 use crate::problem::field::{Field, Needed};
 
 /// One part: exactly one shape out of `keyway`, `bore`, `box`, `extrude` and `mesh`, and where it

@@ -1,10 +1,8 @@
 //! The problem in a record.
 
-use crate::elementary::cube;
-use std::f64::consts::PI;
-
 use super::super::QuestionRecord;
 use super::place::{Outcome, Place, is_close};
+use crate::impact::Sphere;
 
 pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
     for (key, value) in [
@@ -12,7 +10,6 @@ pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
         ("shot_density_kg_m3", it.shot_density_kg_m3),
         ("shot_mass_kg", it.shot_mass_kg),
         ("goals.normal_impulse_N_s", it.goals.normal_impulse),
-        ("lengths_in.metres", it.lengths_in.metres),
     ] {
         at.of(key).at_least(value, f64::MIN_POSITIVE)?;
     }
@@ -44,8 +41,11 @@ pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
     ] {
         at.of(key).at_least(value, 0.0)?;
     }
-    let mass = 4.0 / 3.0 * PI * cube(it.shot_radius_m) * it.shot_density_kg_m3;
-    let ratio = it.shot_mass_kg / mass;
+    let ball = Sphere {
+        radius: it.shot_radius_m,
+        density: it.shot_density_kg_m3,
+    };
+    let ratio = it.shot_mass_kg / ball.mass();
     at.of("shot_mass_kg").holds(
         is_close(ratio, 1.0),
         "is not the mass of a ball of that radius and density",

@@ -27,7 +27,7 @@ pub fn sheet(record: &Record) -> String {
     let blocks: [Option<Block>; 17] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
-        settings::pose(best, &record.problem.lengths_in),
+        settings::pose(best, record.problem.lengths_in),
         blocked::cures(record),
         received::target(record),
         verdicts::block(best, &record.problem.goals),

@@ -2,10 +2,8 @@
 
 use super::origins::origins;
 use super::setting::{SETTINGS, Setting};
-use crate::problem::part::decimals_of;
-use crate::record::{
-    AnswerRecord, CalibrationRecord, ContactRecord, LengthsIn, Record, StatusRecord,
-};
+use crate::problem::LengthUnit;
+use crate::record::{AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{coordinate, fixed, plain, share_asked, significant};
 
@@ -200,25 +198,26 @@ fn remarks(record: &Record) -> Vec<String> {
 }
 
 /// The pose for a robot, and the clearance.
-pub fn pose(best: &AnswerRecord, unit: &LengthsIn) -> Option<Block> {
+pub fn pose(best: &AnswerRecord, unit: LengthUnit) -> Option<Block> {
     let mut block = Block::titled("POSE IN THE COORDINATES OF THE FILE");
-    let vector = |values: &[f64], scale: f64, decimals: usize| {
+    let vector = |values: &[f64], text: &dyn Fn(f64) -> String| {
         let texts: Vec<String> = values
             .iter()
-            .map(|value| format!("{:>9}", coordinate(value * scale, decimals)))
+            .map(|value| format!("{:>9}", text(*value)))
             .collect();
         texts.join(" ")
     };
+    let pure = |value: f64| coordinate(value, 5);
     let pose = &best.pose;
     block.verbatim(&format!(
         "exit point   {} {}",
-        vector(&pose.exit_m, 1.0 / unit.metres, decimals_of(unit.metres)),
-        unit.name
+        vector(&pose.exit_m, &|length| unit.text(length)),
+        unit.name()
     ));
-    block.verbatim(&format!("jet axis     {}", vector(&pose.direction, 1.0, 5)));
+    block.verbatim(&format!("jet axis     {}", vector(&pose.direction, &pure)));
     block.verbatim(&format!(
         "quaternion   {}   (x y z w; takes z to the jet axis)",
-        vector(&pose.quaternion_xyzw, 1.0, 5)
+        vector(&pose.quaternion_xyzw, &pure)
     ));
     block.hanging("clearance    ", &clearance(best));
     Some(block)
