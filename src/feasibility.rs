@@ -1,9 +1,9 @@
 //! Whether the nozzle can be where settings put it: in free space, clear of every wall, and not in the way
 //! of its own jet, for every pose within the setup tolerance.
 
-use crate::elementary::{cos, hypot, tan};
 use nalgebra::Vector3;
 
+use crate::elementary::{cos, hypot, tan};
 use crate::jet::Pose;
 use crate::problem::equipment::Body;
 use crate::problem::setting::Choice;
@@ -70,8 +70,9 @@ pub fn infeasibility(setup: &Setup, choice: &Choice) -> Option<Infeasible> {
             });
         }
         if room > 0.0
-            && let Some(swept) = gap_swept(setup, choice, clearance)
-            && let Some(worst) = Some(worst_of(gap, swept, room)).filter(is_near)
+            && let Some(worst) = gap_swept(setup, choice, clearance)
+                .map(|swept| worst_of(gap, swept, room))
+                .filter(is_near)
         {
             return Some(Infeasible {
                 violation: clearance - worst.distance,

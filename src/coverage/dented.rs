@@ -3,10 +3,10 @@
 //! The mean of what is dented is less than what the mean density of hits would dent: places that are hit
 //! often do not make up for those that are hit seldom.
 
-use crate::elementary::{exp_m1, square};
 use std::f64::consts::PI;
 
 use super::grid::{Cell, Cells};
+use crate::elementary::{exp_m1, square};
 
 /// How much of the target is dented.
 #[derive(Clone, Copy, Debug, PartialEq)]

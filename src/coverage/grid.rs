@@ -1,12 +1,12 @@
 //! The target cut into the cells of a cubic grid.
 
-use crate::elementary::square;
 use std::collections::BTreeMap;
 
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
 use super::Density;
+use crate::elementary::square;
 use crate::scene::patch::{Frame, Triangle};
 use crate::setup::Setup;
 

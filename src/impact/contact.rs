@@ -1,9 +1,9 @@
 //! A contact: friction and restitution between shot and surface.
 
-use crate::elementary::power;
 use std::fmt;
 
 use super::law::Law;
+use crate::elementary::power;
 
 /// Friction and restitution between a shot and a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

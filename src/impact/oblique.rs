@@ -1,9 +1,9 @@
 //! A shot on a flat surface, seen in the plane of its motion.
 
-use crate::elementary::{atan, atan2, sin, sin_cos};
 use nalgebra::Vector3;
 
 use super::{Contact, Impact, Law, Motion, Regime, Sphere, impact};
+use crate::elementary::{atan, atan2, sin, sin_cos};
 
 /// A shot about to hit a flat surface.
 ///

@@ -1,11 +1,11 @@
 //! The place on a surface that is nearest to a point.
 
-use crate::elementary::sin_cos;
 use nalgebra::{Point3, Vector3};
 
 use super::Scene;
 use super::part::FreeSide;
 use super::ray::Ray;
+use crate::elementary::sin_cos;
 
 /// The place on a surface that is nearest to a point.
 #[derive(Clone, Copy, Debug)]

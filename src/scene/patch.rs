@@ -4,8 +4,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::ray::Hit;
 use super::{SLACK, Scene};
+use crate::problem::LengthUnit;
 use crate::problem::fault::Fault;
-use crate::problem::part::{FileUnit, Target};
+use crate::problem::part::Target;
 use crate::problem::rule::Rule;
 
 /// The target of the scene.
@@ -200,7 +201,7 @@ impl Frame {
 fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
     let unit = target.lengths_in;
     let [x, y, z] = [aim.x, aim.y, aim.z].map(|it| unit.text(it));
-    let place = format!("[{x}, {y}, {z}] {}", unit.name);
+    let place = format!("[{x}, {y}, {z}] {}", unit.name());
     match target.aim {
         Some(_) => Fault::at_key(
             Rule::AimOffTarget,
@@ -221,7 +222,7 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
 }
 
 /// The box round a surface, in words.
-fn extent(scene: &Scene, surface: u32, unit: FileUnit) -> String {
+fn extent(scene: &Scene, surface: u32, unit: LengthUnit) -> String {
     let corners = || scene.surface_triangles(surface).flatten();
     let low = corners().fold(Vector3::repeat(f64::INFINITY), |low, p| low.inf(&p.coords));
     let high = corners().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| {
@@ -234,7 +235,7 @@ fn extent(scene: &Scene, surface: u32, unit: FileUnit) -> String {
         axis("x", 0),
         axis("y", 1),
         axis("z", 2),
-        unit.name
+        unit.name()
     )
 }
 

@@ -4,10 +4,10 @@
 //! Techniques 2, 2013), in f64: two triangles that share an edge compute the same number for it,
 //! with opposite signs, so no ray slips between them.
 
-use crate::elementary::square;
 use nalgebra::{Point3, Vector3};
 
 use super::ray::Ray;
+use crate::elementary::square;
 
 /// Whether the box around a triangle, loosened by `slack`, holds a point: beyond a sharp corner the lines
 /// of its edges alone hold points far off it.

@@ -4,8 +4,9 @@
 //! the surface is missing (Jacobson and others 2013). Triangles far away count as one dipole per node of
 //! a tree (Barill and others 2018), so that a query takes the logarithm of their number.
 
-use crate::elementary::atan2;
 use nalgebra::{Point3, Vector3};
+
+use crate::elementary::atan2;
 
 /// A node this many times farther away than its radius counts as one dipole: the error of a query then
 /// stays below a hundredth.
@@ -178,8 +179,9 @@ fn summed(
 /// The sum of the solid angles of a leaf, from their halves: small ones are multiplied as complex numbers,
 /// and take one arctangent together.
 fn solid_angles(halves: impl Iterator<Item = [f64; 2]>) -> f64 {
-    /// The tangent of the largest that is multiplied: all of a leaf stay below half a turn.
+    /// The tangent of the largest that is multiplied: all eight of a leaf stay below half a turn.
     const SMALL: f64 = 0.4;
+    const { assert!(LEAF <= 8) };
     let mut product = [1.0, 0.0];
     let mut large = 0.0;
     for [sum, volume] in halves {

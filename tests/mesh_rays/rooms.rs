@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
-use peenpose::problem::part::{FileUnit, Part, Place, Shape, Target};
+use peenpose::problem::LengthUnit;
+use peenpose::problem::part::{Part, Place, Shape, Target};
 use peenpose::scene::patch::Patch;
 use peenpose::scene::ray::{Ray, Spot};
 use peenpose::scene::{Scene, Walls};
@@ -157,7 +158,7 @@ fn settle_inside(scene: &mut Scene, inside: Point3<f64>) {
     };
     let hit = scene.first_hit(&look, None).expect("a wall all round");
     let target = Target {
-        lengths_in: FileUnit::default(),
+        lengths_in: LengthUnit::default(),
         surface: scene.surfaces()[hit.surface as usize].clone(),
         within: None,
         aim: Some(hit.point),

@@ -1,5 +1,8 @@
 //! The command line: each command is one short function over the public library.
 
+// What is printed has the same bits on every machine.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 mod args;
 mod chart;
 mod check;

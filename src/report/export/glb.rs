@@ -1,6 +1,5 @@
 //! glTF 2.0, binary: a node with a mesh and a material for each piece.
 
-use crate::elementary::power;
 use std::borrow::Cow;
 use std::io;
 use std::mem::size_of;
@@ -14,6 +13,7 @@ use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Accessor, Asset, Buffer, Index, Material, Mesh, Node, Root, Scene, Value};
 
 use super::piece::{Cells, Piece};
+use crate::elementary::power;
 
 /// The file; it says that lengths are in m by being glTF.
 pub(super) fn write(pieces: &[Piece]) -> io::Result<Vec<u8>> {

@@ -1,11 +1,11 @@
 //! The shells of a mesh: what hangs together along edges, whether it wraps round a volume, and which way
 //! its fronts look.
 
-use crate::elementary::power;
 use nalgebra::{Point3, Vector3};
 
 use super::seams::are_seams;
 use super::{Mesh, Triangle};
+use crate::elementary::power;
 use crate::scene::winding::Winding;
 
 /// Open edges of a shell that together are shorter than this share of the mesh's diagonal are damage.

@@ -1,11 +1,11 @@
 //! Triangles without shared corners put together, and the angles between neighbours.
 
-use crate::elementary::atan2;
 use std::collections::HashMap;
 
 use nalgebra::{Point3, Vector3};
 
 use super::{Mesh, Triangle};
+use crate::elementary::atan2;
 
 impl Mesh {
     /// A mesh of one surface from the corners of its triangles; corners with equal coordinates

@@ -1,8 +1,8 @@
 //! How exactly a mesh file says where its corners are.
 
-use crate::elementary::whole_power;
 use nalgebra::distance;
 
+use crate::elementary::whole_power;
 use crate::scene::mesh::Mesh;
 
 /// Programs that cut each face of a part into triangles by itself agree about a common corner to about

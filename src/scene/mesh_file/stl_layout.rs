@@ -1,12 +1,12 @@
 //! Where the triangles of a binary STL file stand, told from its size and its header.
 
-use crate::elementary::hypot;
 use std::io::{self, BufRead, Read, Seek, SeekFrom};
 
 use super::defect::Defect;
 use super::fault::{MeshFault, Place};
 use super::mending::Mending;
 use super::stl::HEADER;
+use crate::elementary::hypot;
 
 /// Bytes of a triangle: its normal and corners as twelve f32, two bytes of attributes.
 const RECORD: u64 = 50;

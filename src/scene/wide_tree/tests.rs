@@ -233,10 +233,9 @@ fn needles_are_visited_few_at_a_time() {
                 leaving += count(touch, back, LENGTH);
             }
             let [coming, leaving] = [coming, leaving].map(|it| it as f64 / f64::from(SHOTS));
-            if radius > 0.0 {
-                assert!(coming < 30.0, "{name}, {radius}: {coming}");
-                assert!(leaving < 350.0, "{name}, {radius}: {leaving}");
-            }
+            let most_coming = if radius > 0.0 { 30.0 } else { 350.0 };
+            assert!(coming < most_coming, "{name}, {radius}: {coming}");
+            assert!(leaving < 350.0, "{name}, {radius}: {leaving}");
         }
     }
 }
