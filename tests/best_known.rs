@@ -53,6 +53,8 @@ fn the_best_settings_known_do_what_the_table_says() {
 
 /// Answers that may be more than 1 % above the best known, of all seeds of a contact.
 const FAILURES: usize = 1;
+/// Shots that tell this to 0.3 % where harm is rarest; a quarter of them were 0.5 % off for all answers alike.
+const SHOTS_OF_EXCESSES: usize = 1 << 18;
 
 #[test]
 #[ignore = "takes long without optimisation"]
@@ -70,7 +72,7 @@ fn searches_find_the_best_settings_known() {
                 solve(&setup, &Control::default()).answers[0].choice
             });
             let answers: Vec<Choice> = answers.collect();
-            let excesses = fresh::excesses(&setup, &[best], &answers, FIRST_SET, SHOTS);
+            let excesses = fresh::excesses(&setup, &[best], &answers, FIRST_SET, SHOTS_OF_EXCESSES);
             let excesses: Vec<f64> = excesses.iter().map(|excess| excess.value).collect();
             let (name, contact) = (variant.name(), &known.contact);
             let failures = excesses.iter().filter(|&&excess| excess > 0.01).count();

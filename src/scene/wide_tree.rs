@@ -87,7 +87,9 @@ impl Node {
         }
         let enters = f32x8::new(entries).simd_le(f32x8::new(exits));
         let mut lanes = enters.to_bitmask();
-        if lanes.count_ones() > B::NOT_LOOKED_AT {
+        // Few children are soon visited, unless they are crowds of needles.
+        let is_crowded = B::HAS_SIZE && looks.strips.is_some();
+        if lanes.count_ones() > B::NOT_LOOKED_AT || is_crowded {
             lanes &= ray.body.meets(self, looks, &mut entries, &exits);
         }
         Entered {

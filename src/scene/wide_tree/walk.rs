@@ -12,7 +12,7 @@ pub(in crate::scene) struct Walk<'a, B> {
     tree: &'a WideTree,
     ray: &'a FlatRay<B>,
     /// Where it has yet to go, the nearest last.
-    stops: ArrayVec<Stop, { build::MOST_STOPS }>,
+    stops: ArrayVec<Stop, { build::MOST_STOPS + MOST_SORTED }>,
     /// How far along the ray it leads, in the coordinates of the boxes.
     limit: f32,
 }
@@ -70,7 +70,11 @@ impl<'a, B: Body> Walk<'a, B> {
         }
     }
 
-    /// The nearest child of a node that the ray enters; the others have to wait.
+    /// Where to go from a node that the ray enters: to its nearest child, while the others have to wait.
+    ///
+    /// A sphere goes where it is nearest of all that waits: under it are all needles that it comes near to,
+    /// and a branch without the one that it touches would be searched to its end. Where too many wait for
+    /// that, it stays in its branch.
     #[inline(always)]
     fn enter(&mut self, node: &Node, entered: &Entered) -> Option<Stop> {
         let mut lanes = entered.lanes;
@@ -80,7 +84,8 @@ impl<'a, B: Body> Walk<'a, B> {
             (lane < WIDTH).then(|| Stop::new(node.children[lane], entered.entries.as_array()[lane]))
         };
         let mut nearest = next()?;
-        let bottom = self.stops.len();
+        let goes_back = B::HAS_SIZE && self.stops.len() <= MOST_SORTED - WIDTH;
+        let bottom = if goes_back { 0 } else { self.stops.len() };
         while let Some(other) = next() {
             let (nearer, farther) = if other < nearest {
                 (other, nearest)
@@ -91,9 +96,19 @@ impl<'a, B: Body> Walk<'a, B> {
             self.stops.push(farther);
             settle_last(&mut self.stops[bottom..]);
         }
+        if goes_back
+            && let Some(waiting) = self.stops.last_mut()
+            && *waiting < nearest
+        {
+            std::mem::swap(waiting, &mut nearest);
+            settle_last(&mut self.stops);
+        }
         Some(nearest)
     }
 }
+
+/// So many stops are kept in order at most, the nearest last: to sort more takes longer than to visit them.
+const MOST_SORTED: usize = 64;
 
 /// A child and where the ray enters it, in one number that sorts by the latter.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
