@@ -138,6 +138,7 @@ impl Scene {
                 // A hole if the target is inside, a pin if it is beside, and if it is beyond an end either.
                 part.free = part.side_of_axis(&anchor);
             }
+            part.settle_anchor(&anchor);
         }
     }
 
@@ -166,7 +167,7 @@ impl Scene {
             if part.on_nozzle {
                 return false;
             }
-            part.holds(from)
+            part.holds_on_its_way(from)
                 || part.is_skin() && length > 0.0 && {
                     let crossing = part.first_crossing(&ray, None, false, limit);
                     let free = part.free;
