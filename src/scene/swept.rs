@@ -52,33 +52,9 @@ impl SupportMap for Swept {
         let toward: Vector3<f64> = dir.into();
         let mut farthest = (f64::NEG_INFINITY, Vector3::zeros());
         for jet in &self.directions {
-            let ahead = jet.dot(&toward);
-            let [near, far] = self.standoff;
-            let exit = jet * -(if ahead > 0.0 { near } else { far });
-            let beyond = match self.core {
-                Core::Exit => Vector3::zeros(),
-                Core::Line { length, direction } => {
-                    let end = direction.unwrap_or(-jet) * length;
-                    if end.dot(&toward) > 0.0 {
-                        end
-                    } else {
-                        Vector3::zeros()
-                    }
-                }
-                Core::Disc { radius } => {
-                    let across = toward - jet * ahead;
-                    let length = across.norm();
-                    if length > 0.0 {
-                        across * (radius / length)
-                    } else {
-                        Vector3::zeros()
-                    }
-                }
-            };
-            let point = exit + beyond;
-            let height = point.dot(&toward);
+            let height = self.height(jet, &toward);
             if height > farthest.0 {
-                farthest = (height, point);
+                farthest = (height, *jet);
             }
         }
         let shifts = self.shifts.iter().map(|shift| {
@@ -88,7 +64,54 @@ impl SupportMap for Swept {
                 *shift
             }
         });
-        (self.aim.coords + farthest.1 + shifts.sum::<Vector3<f64>>()).into()
+        let point = self.farthest_point(&farthest.1, &toward);
+        (self.aim.coords + point + shifts.sum::<Vector3<f64>>()).into()
+    }
+}
+
+impl Swept {
+    /// The standoff at which the exit of a jet is farthest in a direction in which the jet goes so far ahead.
+    fn farthest_standoff(&self, ahead: f64) -> f64 {
+        let [near, far] = self.standoff;
+        if ahead > 0.0 { near } else { far }
+    }
+
+    /// How far the core of a jet reaches in a direction: less work than where it does.
+    fn height(&self, jet: &Vector3<f64>, toward: &Vector3<f64>) -> f64 {
+        let ahead = jet.dot(toward);
+        let beyond = match self.core {
+            Core::Exit => 0.0,
+            Core::Line { length, direction } => {
+                let end = direction.map_or(-ahead, |direction| direction.dot(toward));
+                (end * length).max(0.0)
+            }
+            Core::Disc { radius } => {
+                let across = toward.norm_squared() - ahead * ahead;
+                across.max(0.0).sqrt() * radius
+            }
+        };
+        beyond - self.farthest_standoff(ahead) * ahead
+    }
+
+    /// The point of the core of a jet that is farthest in a direction, from where it is aimed.
+    fn farthest_point(&self, jet: &Vector3<f64>, toward: &Vector3<f64>) -> Vector3<f64> {
+        let ahead = jet.dot(toward);
+        let beyond = match self.core {
+            Core::Exit => Vector3::zeros(),
+            Core::Line { length, direction } => {
+                let end = direction.unwrap_or(-jet) * length;
+                if end.dot(toward) > 0.0 {
+                    end
+                } else {
+                    Vector3::zeros()
+                }
+            }
+            Core::Disc { radius } => {
+                let across = toward - jet * ahead;
+                across.try_normalize(0.0).unwrap_or_default() * radius
+            }
+        };
+        beyond - jet * self.farthest_standoff(ahead)
     }
 }
 
