@@ -293,9 +293,9 @@ fn compare(mesh: &Mesh, rays: usize, random: &mut Random) -> usize {
 #[test]
 fn rays_in_a_closed_room_find_what_a_search_finds() {
     let mut random = Random(1);
-    for chord_angle in [0.8, 0.1, 0.01] {
-        let hits = compare(&room(chord_angle), 1500, &mut random);
-        assert!(hits > 2000, "{hits}");
+    for (chord_angle, count) in [(0.8, 1500), (0.1, 1500), (0.01, 300)] {
+        let hits = compare(&room(chord_angle), count, &mut random);
+        assert!(hits > count * 4 / 3, "{hits}");
     }
     let block = tessellate::block(Point3::new(-1.0, -0.5, -0.25), Point3::new(1.0, 0.5, 0.25));
     assert!(compare(&block, 3000, &mut random) > 3000);
@@ -329,7 +329,7 @@ fn size_and_place_of_a_mesh_do_not_matter() {
 #[test]
 fn triangles_in_one_place_can_be_divided() {
     let mut mesh = room(2.0);
-    let same = [mesh.triangles[0]].repeat(5000);
+    let same = [mesh.triangles[0]].repeat(500);
     mesh.triangles.extend(same);
     let mut random = Random(4);
     assert!(compare(&mesh, 100, &mut random) > 100);
