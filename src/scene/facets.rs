@@ -21,7 +21,7 @@ use super::LIFT;
 use super::bundle::Bundle;
 use super::mesh::Mesh;
 use super::wide_tree::WideTree;
-use touch::Plates;
+use touch::Touchable;
 
 pub(super) use many::{cross, touch};
 
@@ -31,8 +31,8 @@ pub struct Facets {
     tree: WideTree,
     /// The triangles of each of its leaves.
     bundles: Vec<Bundle>,
-    /// The same triangles for spheres, made when the first one comes.
-    plates: OnceLock<Vec<Plates>>,
+    /// What spheres need besides, made when the first one comes.
+    touchable: OnceLock<Touchable>,
     /// For other walks than rays.
     distance_tree: Bvh,
     /// Whether its leaves are the bundles rather than single triangles.
@@ -74,7 +74,7 @@ impl Facets {
         Self {
             distance_tree,
             bundled,
-            plates: OnceLock::new(),
+            touchable: OnceLock::new(),
             bundles: leaves
                 .par_iter()
                 .map(|leaf| Bundle::new(leaf, corners, plane::normal))

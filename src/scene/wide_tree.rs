@@ -5,9 +5,11 @@
 //! What a walk finds does not depend on that: every leaf is visited that a ray may meet before what
 //! was found so far.
 
+mod bars;
 mod body;
 mod build;
 mod flat;
+mod marks;
 mod point;
 mod slab;
 mod sphere;
@@ -18,9 +20,11 @@ use wide::f32x8;
 
 use super::lanes::{larger, smaller};
 use super::ray::Ray;
+use bars::Bars;
 use body::Body;
 pub(super) use flat::FlatRay;
 use flat::Frame;
+pub(super) use marks::Marks;
 pub(super) use point::Point;
 use slab::{Looks, Slabs};
 use sphere::Sphere;
@@ -35,8 +39,9 @@ pub(super) struct WideTree {
     nodes: Vec<Node>,
     /// Those of each node, apart: most rays need none.
     slabs: Vec<Slabs>,
-    /// Those across needles, likewise.
-    strips: Vec<Slabs>,
+    /// Those of nodes with needles, and which they are of each of these.
+    bars: Vec<Bars>,
+    bars_of: Vec<u32>,
     frame: Frame,
 }
 
@@ -53,7 +58,7 @@ pub(super) struct Node {
 const LEAF: u32 = 1 << 31;
 /// This bit tells nodes whose slabs are worth a look from others.
 const THIN: u32 = 1 << 30;
-/// This bit tells nodes with needles, whose slabs across them are worth a look as well.
+/// This bit tells nodes with needles, whose bars are worth a look as well.
 const SLIM: u32 = 1 << 29;
 
 impl Node {
@@ -68,6 +73,12 @@ impl Node {
         ],
         children: [0; WIDTH],
     };
+
+    /// What it holds of each of its children.
+    fn children(&self) -> impl Iterator<Item = u32> + '_ {
+        let is_there = |lane: &usize| self.sides[0][*lane] <= self.sides[3][*lane];
+        (0..WIDTH).filter(is_there).map(|lane| self.children[lane])
+    }
 
     /// Where the ray enters each child's box, and a bit for each that it enters within `limit`; after
     /// a closer look, where that costs less than to visit what it may rule out.
@@ -88,7 +99,7 @@ impl Node {
         let enters = f32x8::new(entries).simd_le(f32x8::new(exits));
         let mut lanes = enters.to_bitmask();
         // Few children are soon visited, unless they are crowds of needles.
-        let is_crowded = B::HAS_SIZE && looks.strips.is_some();
+        let is_crowded = B::HAS_SIZE && looks.bars.is_some();
         if lanes.count_ones() > B::NOT_LOOKED_AT || is_crowded {
             lanes &= ray.body.meets(self, looks, &mut entries, &exits);
         }

@@ -2,6 +2,7 @@
 
 mod contact;
 mod folds;
+mod hubs;
 mod plates;
 
 use nalgebra::{Point3, Vector3};
@@ -11,8 +12,16 @@ use crate::scene::LIFT;
 use crate::scene::ray::{Crossing, Ray, Spot};
 use contact::{Placed, Plate, Sphere, Touch};
 use folds::{CLEAR_FOLD, Folds};
-pub(super) use plates::Plates;
-use plates::{Ready, WideSphere};
+use hubs::Hubs;
+use plates::{Plates, Ready, WideSphere};
+
+/// What spheres need to know of a mesh besides its bundles.
+#[derive(Clone)]
+pub(super) struct Touchable {
+    /// The triangles of each bundle.
+    plates: Vec<Plates>,
+    hubs: Option<Hubs>,
+}
 
 impl Facets {
     /// The first contact of a sphere of `radius` (m) whose centre moves along `ray`, nearer than
@@ -35,10 +44,10 @@ impl Facets {
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
-        let plates = self.plates.get_or_init(|| self.build_plates());
+        let touchable = self.touchable.get_or_init(|| self.build_touchable());
         let mut search = Search {
             facets: self,
-            plates,
+            touchable,
             sphere: Sphere::new(ray, radius, self.slack),
             left: leaving.filter(|_| on_this_part).map(|spot| spot.piece),
             // In a clear fold, spheres of this size are far enough off one face when they come to
@@ -80,7 +89,7 @@ impl Facets {
 
     /// On one thread: made behind a lock, where a thread that shares work out may take up other work
     /// that waits for the same lock.
-    fn build_plates(&self) -> Vec<Plates> {
+    fn build_touchable(&self) -> Touchable {
         let flat = LIFT * self.slack;
         let shapes: Vec<Plate> = (0..self.count() as u32)
             .map(|index| plate(self.corners(index), self.corners[index as usize], flat))
@@ -96,7 +105,16 @@ impl Facets {
             let triangles: Vec<Ready> = bundle.triangles().iter().map(ready).collect();
             Plates::new(&triangles)
         });
-        plates.collect()
+        Touchable {
+            plates: plates.collect(),
+            hubs: Hubs::new(
+                &self.vertices,
+                &self.corners,
+                &self.surfaces,
+                &self.tree,
+                &self.bundles,
+            ),
+        }
     }
 }
 
@@ -117,7 +135,7 @@ impl Found {
 /// The search for what a sphere touches first.
 struct Search<'a> {
     facets: &'a Facets,
-    plates: &'a [Plates],
+    touchable: &'a Touchable,
     sphere: Sphere<'a>,
     left: Option<u32>,
     /// Whether edges and corners count that do not stand out.
@@ -139,9 +157,15 @@ impl Search<'_> {
         let flat = tree.flat_sphere(ray, radius);
         let mut walk = tree.walk(&flat);
         walk.start(&tree.entered(&flat, limit));
+        let hubs = self.touchable.hubs.as_ref();
+        if let Some((hubs, left)) = hubs.zip(self.left)
+            && let Some(mark) = hubs.left(left, ray, radius, slack)
+        {
+            walk.pass_by(&hubs.marks, mark);
+        }
         while let Some((leaf, starts_inside)) = walk.next() {
             let bundle = &self.facets.bundles[leaf as usize];
-            let plates = &self.plates[leaf as usize];
+            let plates = &self.touchable.plates[leaf as usize];
             let reached = plates.reached(&wide, cost, self.all_folds);
             let near = if starts_inside && reached.near != 0 {
                 reached.near & bundle.near(&ray.origin, radius + slack)
@@ -166,6 +190,12 @@ impl Search<'_> {
                     if other < cost || (other == cost && comes_first) {
                         cost = other;
                         walk.end_at(cost);
+                        let there = ray.origin + ray.direction * found.touch.distance;
+                        if let Some(hubs) = hubs
+                            && let Some(mark) = hubs.reached(index, &there, radius, slack)
+                        {
+                            walk.pass_by(&hubs.marks, mark);
+                        }
                         best = Some(found);
                     }
                 }

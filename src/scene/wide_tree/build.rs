@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
+use super::bars::{Bar, Bars};
 use super::flat::Frame;
 use super::slab::{Slab, Slabs};
 use super::split::{Bounds, HALVING_DEPTH, Item, Set, eight_sets};
@@ -26,7 +27,9 @@ pub type Leaf = ArrayVec<u32, LEAF_SIZE>;
 struct Branch {
     nodes: Vec<Node>,
     slabs: Vec<Slabs>,
-    strips: Vec<Slabs>,
+    bars: Vec<Bars>,
+    /// Which of these are of each node that has some.
+    bars_of: Vec<u32>,
     leaves: Vec<Leaf>,
 }
 
@@ -37,13 +40,9 @@ struct Triangles<'a> {
 }
 
 impl Triangles<'_> {
-    /// The slabs along the triangles of a set and across them.
-    fn slabs(&self, set: &Set) -> [Option<Slab>; 2] {
-        let corners = set.items.iter().map(|item| (self.corners)(item.triangle));
-        [
-            Slab::along(corners.clone(), &set.bounds, self.slack),
-            Slab::across(corners, &set.bounds, self.slack),
-        ]
+    /// The corners of the triangles of a set.
+    fn of<'b>(&'b self, set: &'b Set) -> impl Iterator<Item = [Vector3<f64>; 3]> + Clone + 'b {
+        set.items.iter().map(|item| (self.corners)(item.triangle))
     }
 }
 
@@ -88,13 +87,15 @@ impl WideTree {
         let Branch {
             nodes,
             slabs,
-            strips,
+            bars,
+            bars_of,
             leaves,
         } = tree;
         let tree = Self {
             nodes,
             slabs,
-            strips,
+            bars,
+            bars_of,
             frame,
         };
         (tree, leaves)
@@ -106,7 +107,7 @@ impl Branch {
     fn add_node(&mut self) -> usize {
         self.nodes.push(Node::EMPTY);
         self.slabs.push(Slabs::ENDLESS);
-        self.strips.push(Slabs::ENDLESS);
+        self.bars_of.push(0);
         self.nodes.len() - 1
     }
 
@@ -116,21 +117,24 @@ impl Branch {
         let mut flags = 0;
         let parallel = items.len() > PARALLEL;
         let sets = eight_sets(items, depth);
+        let mut bars = ArrayVec::<Option<Bar>, WIDTH>::new();
         for (lane, set) in sets.iter().enumerate() {
             let node = &mut self.nodes[index];
             for axis in 0..3 {
                 node.sides[axis][lane] = set.bounds.low[axis];
                 node.sides[axis + 3][lane] = set.bounds.high[axis];
             }
-            let [slab, strip] = triangles.slabs(set);
-            if let Some(slab) = slab {
+            let corners = triangles.of(set);
+            bars.push(Bar::around(corners.clone(), &set.bounds, triangles.slack));
+            if let Some(slab) = Slab::along(corners, &set.bounds, triangles.slack) {
                 self.slabs[index].set(lane, &slab);
                 flags |= THIN;
             }
-            if let Some(strip) = strip {
-                self.strips[index].set(lane, &strip);
-                flags |= SLIM;
-            }
+        }
+        if let Some(bars) = Bars::of(&bars) {
+            self.bars_of[index] = self.bars.len() as u32;
+            self.bars.push(bars);
+            flags |= SLIM;
         }
         let children: ArrayVec<u32, WIDTH> = if parallel {
             let branch = |set| {
@@ -175,7 +179,10 @@ impl Branch {
         };
         self.leaves.extend(branch.leaves);
         self.slabs.extend(branch.slabs);
-        self.strips.extend(branch.strips);
+        let bars = self.bars.len() as u32;
+        self.bars.extend(branch.bars);
+        self.bars_of
+            .extend(branch.bars_of.iter().map(|index| index + bars));
         self.nodes.extend(branch.nodes.into_iter().map(|mut node| {
             node.children = node.children.map(moved);
             node

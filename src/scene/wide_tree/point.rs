@@ -72,11 +72,13 @@ impl Body for Point {
         entries: &mut [f32; WIDTH],
         exits: &[f32; WIDTH],
     ) -> u32 {
-        let met = |slabs: Option<&Slabs>| {
-            slabs.map_or(u32::MAX, |slabs| {
-                self.meets_slabs(node, slabs, entries, exits)
+        let sides = looks.bars.into_iter().flat_map(|bars| &bars.sides);
+        looks
+            .slabs
+            .into_iter()
+            .chain(sides)
+            .fold(u32::MAX, |met, slabs| {
+                met & self.meets_slabs(node, slabs, entries, exits)
             })
-        };
-        met(looks.slabs) & met(looks.strips)
     }
 }

@@ -1,11 +1,11 @@
 //! Slabs that hold the triangles of a box more closely than the box does.
 //!
 //! A ray that skims a curved wall passes through the boxes of all facets on its way, of which there
-//! are the more the finer they are, but over their slabs. Needles that meet in one corner, or lie side by
-//! side askew, are all in the boxes of each other; slabs across them hold each on its own.
+//! are the more the finer they are, but over their slabs.
 
 use nalgebra::Vector3;
 
+use super::bars::Bars;
 use super::split::Bounds;
 use super::{Node, WIDTH};
 use crate::scene::lanes::{larger, smaller};
@@ -17,9 +17,6 @@ pub(super) const UNIT: f64 = 0.5 * f32::EPSILON as f64;
 const ACROSS_BOX: f64 = 8.0 * UNIT;
 /// Slabs are worth a look up to this share of their boxes in width.
 const WIDEST_SHARE: f64 = 0.5;
-
-/// Slabs across needles, to this one: few triangles but needles lie in so narrow ones.
-const WIDEST_STRIP: f64 = 0.25;
 
 /// What is between two planes.
 pub(super) struct Slab {
@@ -40,29 +37,9 @@ impl Slab {
         Self::between(normal, triangles, bounds, slack, WIDEST_SHARE)
     }
 
-    /// The slab that holds triangles from both sides within their common plane, likewise: that of needles
-    /// that lie side by side.
-    pub fn across(
-        triangles: impl Iterator<Item = [Vector3<f64>; 3]> + Clone,
-        bounds: &Bounds,
-        slack: f64,
-    ) -> Option<Self> {
-        let upwards = areas(triangles.clone());
-        let needles = triangles.clone().map(longest_edge);
-        let lengthwise: Vector3<f64> = needles.reduce(|sum, edge| {
-            // Whichever way round their corners are.
-            if sum.dot(&edge) < 0.0 {
-                sum - edge
-            } else {
-                sum + edge
-            }
-        })?;
-        let normal = upwards.cross(&lengthwise).try_normalize(0.0)?;
-        Self::between(normal, triangles, bounds, slack, WIDEST_STRIP)
-    }
-
-    /// The slab at right angles to a normal, if it is no wider than a share of the box.
-    fn between(
+    /// The slab at right angles to a normal, which is no longer than 1, if it is no wider than a share of
+    /// the box.
+    pub fn between(
         normal: Vector3<f64>,
         triangles: impl Iterator<Item = [Vector3<f64>; 3]>,
         bounds: &Bounds,
@@ -71,15 +48,10 @@ impl Slab {
     ) -> Option<Self> {
         let normal = normal.map(|component| component as f32);
         let exact = normal.map(f64::from);
-        let [corner, opposite] =
-            [bounds.low, bounds.high].map(|corner| Vector3::from(corner.map(f64::from)));
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for point in triangles.flatten() {
-            let height = (point - corner).dot(&exact);
-            low = smaller(height, low);
-            high = larger(height, high);
-        }
-        let width = exact.abs().dot(&(opposite - corner));
+        let corner = Vector3::from(bounds.low.map(f64::from));
+        let points = triangles.flatten();
+        let (low, high) = extremes(points.map(|point| (point - corner).dot(&exact)));
+        let width = exact.abs().dot(&bounds.diagonal());
         let margin = 2.0 * slack + ACROSS_BOX * width;
         (high - low < widest_share * width).then_some(Self {
             normal,
@@ -89,19 +61,16 @@ impl Slab {
     }
 }
 
-fn areas(triangles: impl Iterator<Item = [Vector3<f64>; 3]>) -> Vector3<f64> {
-    triangles.map(|[a, b, c]| (b - a).cross(&(c - a))).sum()
+/// The smallest and the largest.
+pub(super) fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    values.fold(none, |(low, high), value| {
+        (smaller(value, low), larger(value, high))
+    })
 }
 
-fn longest_edge([a, b, c]: [Vector3<f64>; 3]) -> Vector3<f64> {
-    let longer = |one: Vector3<f64>, other: Vector3<f64>| {
-        if other.norm_squared() > one.norm_squared() {
-            other
-        } else {
-            one
-        }
-    };
-    longer(longer(b - a, c - b), a - c)
+pub(super) fn areas(triangles: impl Iterator<Item = [Vector3<f64>; 3]>) -> Vector3<f64> {
+    triangles.map(|[a, b, c]| (b - a).cross(&(c - a))).sum()
 }
 
 /// The slabs of a node's children.
@@ -148,18 +117,16 @@ impl Slabs {
     }
 }
 
-/// The slabs of a node that are worth a look.
+/// The slabs and bars of a node that are worth a look.
 #[derive(Clone, Copy)]
 pub(in crate::scene) struct Looks<'a> {
-    /// Along the triangles.
     pub slabs: Option<&'a Slabs>,
-    /// Across needles.
-    pub strips: Option<&'a Slabs>,
+    pub bars: Option<&'a Bars>,
 }
 
 impl Looks<'_> {
     pub const NONE: Self = Self {
         slabs: None,
-        strips: None,
+        bars: None,
     };
 }

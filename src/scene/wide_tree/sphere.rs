@@ -8,6 +8,7 @@
 use nalgebra::Vector3;
 use wide::f32x8;
 
+use super::bars::Bars;
 use super::body::Body;
 use super::slab::{Looks, Slabs};
 use super::{Node, WIDTH};
@@ -27,9 +28,20 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Takes more off a distance than its rounding to single precision may add.
 const SHORTER: f64 = 1.0 - f32::EPSILON as f64;
 
-/// Slabs and the slabs across them are at right angles but for the rounding of their normals: bars are by as
-/// much nearer than they seem.
+/// The planes of a bar are at right angles, or counted as far as they are, but for the rounding of their
+/// normals: bars are by as much nearer than they seem.
 const OBLIQUE: f64 = 1.0 + 8.0 * f32::EPSILON as f64;
+
+/// How far a centre is from a slab.
+#[derive(Clone, Copy)]
+struct Apart {
+    distance: f64,
+    /// By how much less with the way.
+    closing: f64,
+}
+
+/// So many tangents lead to about where a sphere comes to a bar.
+const TANGENTS: usize = 3;
 
 impl Sphere {
     fn way(&self) -> [&Vector3<f64>; 2] {
@@ -51,25 +63,40 @@ impl Sphere {
         }
     }
 
-    /// Moves entries on to where the sphere, off to one side of needles, comes to the rounded bars that are
-    /// between their slabs and the slabs across them; or not quite, but never beyond.
+    /// Moves entries on to where the sphere, off to one side of needles or beyond their ends, comes to
+    /// their rounded bars; or not quite, but never beyond.
     #[inline(always)]
-    fn come_to_bars(&self, node: &Node, slabs: &Slabs, strips: &Slabs, entries: &mut [f64; WIDTH]) {
+    fn come_to_bars(&self, node: &Node, bars: &Bars, entries: &mut [f64; WIDTH]) {
         for (lane, entry) in entries.iter_mut().enumerate() {
-            let (mut squares, mut closing) = (0.0, 0.0);
-            for sides in [slabs, strips] {
-                let [start, rise] = sides.start_and_rise(node, lane, self.way());
-                let height = start + rise * *entry;
-                let over = height - f64::from(sides.high[lane]);
-                let under = f64::from(sides.low[lane]) - height;
-                let apart = larger(larger(over, under), 0.0);
-                squares += apart * apart;
-                closing += apart * if over > under { -rise } else { rise };
+            let apart = |slabs| self.apart(node, slabs, lane, *entry);
+            let [one, other] = bars.sides.each_ref().map(apart);
+            let beside = if one.distance < other.distance {
+                other
+            } else {
+                one
+            };
+            let (mut square, mut closing) = (0.0, 0.0);
+            for from in [apart(&bars.flat), beside, apart(&bars.ends)] {
+                square += from.distance * from.distance;
+                closing += from.distance * from.closing;
             }
             // How far apart they are is convex along the way: it is no less than on its tangent here.
-            let apart = squares.sqrt();
+            let apart = square.sqrt();
             let gap = apart - self.reach * OBLIQUE;
             *entry += larger(gap * apart / larger(closing, f64::MIN_POSITIVE), 0.0);
+        }
+    }
+
+    /// How far the centre is from a slab at some way along.
+    #[inline(always)]
+    fn apart(&self, node: &Node, slabs: &Slabs, lane: usize, along: f64) -> Apart {
+        let [start, rise] = slabs.start_and_rise(node, lane, self.way());
+        let height = start + rise * along;
+        let over = height - f64::from(slabs.high[lane]);
+        let under = f64::from(slabs.low[lane]) - height;
+        Apart {
+            distance: larger(larger(over, under), 0.0),
+            closing: if over > under { -rise } else { rise },
         }
     }
 
@@ -116,9 +143,10 @@ impl Body for Sphere {
         if let Some(slabs) = looks.slabs {
             self.come_to_slabs(node, slabs, &mut exact);
         }
-        if let Some(strips) = looks.strips {
-            let slabs = looks.slabs.unwrap_or(&Slabs::ENDLESS);
-            self.come_to_bars(node, slabs, strips, &mut exact);
+        if let Some(bars) = looks.bars {
+            for _ in 0..TANGENTS {
+                self.come_to_bars(node, bars, &mut exact);
+            }
         }
         self.come_to_boxes(node, &mut exact);
         *entries = exact.map(|entry| (entry * SHORTER) as f32);

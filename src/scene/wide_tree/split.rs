@@ -1,6 +1,8 @@
 //! Splitting sets of triangles where the surface area heuristic wants it, the largest first, until
 //! there are eight.
 
+use nalgebra::Vector3;
+
 use super::WIDTH;
 use super::build::LEAF_SIZE;
 use crate::scene::lanes::{larger, smaller};
@@ -47,6 +49,12 @@ impl Bounds {
         let mut bounds = Self::EMPTY;
         items.iter().for_each(|item| bounds.add(&item.bounds));
         bounds
+    }
+
+    /// From the lower corner to the upper one.
+    pub fn diagonal(&self) -> Vector3<f64> {
+        let [low, high] = [self.low, self.high].map(|corner| Vector3::from(corner.map(f64::from)));
+        high - low
     }
 
     fn area(&self) -> f32 {

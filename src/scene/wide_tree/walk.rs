@@ -4,6 +4,7 @@ use arrayvec::ArrayVec;
 
 use super::body::Body;
 use super::flat::FlatRay;
+use super::marks::Marks;
 use super::slab::Looks;
 use super::{Entered, LEAF, Node, SLIM, THIN, WIDTH, WideTree, build};
 
@@ -15,6 +16,8 @@ pub(in crate::scene) struct Walk<'a, B> {
     stops: ArrayVec<Stop, { build::MOST_STOPS + MOST_SORTED }>,
     /// How far along the ray it leads, in the coordinates of the boxes.
     limit: f32,
+    /// The marked leaves to which it does not lead.
+    passed: Option<(&'a Marks, u32)>,
 }
 
 impl<'a, B: Body> Walk<'a, B> {
@@ -25,6 +28,7 @@ impl<'a, B: Body> Walk<'a, B> {
             ray,
             stops: ArrayVec::new(),
             limit: f32::INFINITY,
+            passed: None,
         }
     }
 
@@ -43,6 +47,12 @@ impl<'a, B: Body> Walk<'a, B> {
         self.limit = self.tree.frame.limit(limit, self.ray);
     }
 
+    /// From now on it does not lead to the leaves with this mark.
+    #[inline(always)]
+    pub fn pass_by(&mut self, marks: &'a Marks, mark: u32) {
+        self.passed = Some((marks, mark));
+    }
+
     /// The next leaf that the ray may meet on its way, and whether the ray may start inside its box.
     #[inline(always)]
     pub fn next(&mut self) -> Option<(u32, bool)> {
@@ -52,13 +62,19 @@ impl<'a, B: Body> Walk<'a, B> {
                 continue;
             }
             loop {
+                if let Some((marks, mark)) = self.passed
+                    && marks.of(stop.child()) == mark
+                {
+                    break;
+                }
                 if stop.child() & LEAF != 0 {
                     return Some((stop.child() & !LEAF, stop.entry() == 0.0));
                 }
                 let index = (stop.child() & !(THIN | SLIM)) as usize;
                 let looks = Looks {
                     slabs: (stop.child() & THIN != 0).then(|| &self.tree.slabs[index]),
-                    strips: (stop.child() & SLIM != 0).then(|| &self.tree.strips[index]),
+                    bars: (stop.child() & SLIM != 0)
+                        .then(|| &self.tree.bars[self.tree.bars_of[index] as usize]),
                 };
                 let node = &self.tree.nodes[index];
                 let entered = node.entered(looks, self.ray, self.limit);
@@ -108,7 +124,7 @@ impl<'a, B: Body> Walk<'a, B> {
 }
 
 /// So many stops are kept in order at most, the nearest last: to sort more takes longer than to visit them.
-const MOST_SORTED: usize = 64;
+const MOST_SORTED: usize = 1024;
 
 /// A child and where the ray enters it, in one number that sorts by the latter.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]

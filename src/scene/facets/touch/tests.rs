@@ -6,6 +6,7 @@ mod plates;
 mod rebounds;
 mod search;
 
+use std::f64::consts::TAU;
 use std::hint;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -49,29 +50,48 @@ fn mirrored(direction: &Vector3<f64>, normal: &Vector3<f64>) -> Vector3<f64> {
 /// Follows spheres over a few rebounds; returns how often they touched.
 fn compare(mesh: &Mesh, radius: f64, count: usize, random: &mut Random) -> usize {
     let size = size(mesh);
-    let facets = facets(mesh);
-    let search = Search {
-        mesh,
-        radius,
-        slack: 1e-12 * size,
-    };
+    let comparison = Comparison::of(mesh, radius);
     let mut touches = 0;
     for _ in 0..count {
-        let mut ray = ray(mesh, size, random);
-        let mut leaving = None;
-        if search.nearest(&ray.origin) < 1e-9 * size {
-            // A centre on a triangle is on neither side of it.
-            continue;
+        touches += comparison.follow(ray(mesh, size, random), random);
+    }
+    touches
+}
+
+/// A mesh and the search through all its triangles.
+struct Comparison<'a> {
+    facets: Facets,
+    search: Search<'a>,
+}
+
+impl<'a> Comparison<'a> {
+    fn of(mesh: &'a Mesh, radius: f64) -> Self {
+        Self {
+            facets: facets(mesh),
+            search: Search {
+                mesh,
+                radius,
+                slack: 1e-12 * size(mesh),
+            },
         }
-        for _ in 0..4 {
-            let found = facets.first_touch(&ray, radius, leaving, true, f64::INFINITY);
+    }
+
+    /// Follows a sphere over a few rebounds; returns how often it touched.
+    fn follow(&self, mut ray: Ray, random: &mut Random) -> usize {
+        let Self { facets, search } = self;
+        let mut leaving = None;
+        if search.nearest(&ray.origin) < 1e3 * search.slack {
+            // A centre on a triangle is on neither side of it.
+            return 0;
+        }
+        for touches in 0..4 {
+            let found = facets.first_touch(&ray, search.radius, leaving, true, f64::INFINITY);
             search.check(&ray, leaving, found);
             let Some((crossing, normal)) = found else {
-                break;
+                return touches;
             };
-            touches += 1;
             let limit = crossing.distance;
-            let within = facets.first_touch(&ray, radius, leaving, true, limit);
+            let within = facets.first_touch(&ray, search.radius, leaving, true, limit);
             assert!(within.is_none_or(|(nearer, _)| nearer.distance < limit));
             ray = Ray {
                 origin: ray.origin + ray.direction * crossing.distance,
@@ -83,8 +103,8 @@ fn compare(mesh: &Mesh, radius: f64, count: usize, random: &mut Random) -> usize
             };
             leaving = Some(spot(&crossing));
         }
+        4
     }
-    touches
 }
 
 #[test]
@@ -130,6 +150,51 @@ fn slivers_are_touched() {
             });
         }
         assert!(compare(&mesh, 0.1, 500, &mut random) > 200);
+    }
+}
+
+/// Needles from a tip to a circle, with others to a second tip in place of a bottom.
+fn double_cone(needles: u32, [above, below]: [f64; 2]) -> Mesh {
+    let mut mesh = Mesh::default();
+    for needle in 0..needles {
+        let angle = TAU * f64::from(needle) / f64::from(needles);
+        mesh.vertices
+            .push(Point3::new(angle.cos(), angle.sin(), 0.0));
+        let next = (needle + 1) % needles;
+        for corners in [[needles, needle, next], [needles + 1, next, needle]] {
+            let surface = 0;
+            mesh.triangles.push(Triangle { corners, surface });
+        }
+    }
+    let tips = [above, below].map(|height| Point3::new(0.0, 0.0, height));
+    mesh.vertices.extend(tips);
+    mesh
+}
+
+/// Spheres on the tip of a cone, where they touch all its triangles, and near it.
+#[test]
+fn tips_of_cones_are_touched() {
+    let mut random = Random(18);
+    for (tips, radius) in [
+        ([0.5, -0.2], 0.1),
+        ([2.0, 0.5], 0.05),
+        ([0.01, 0.0], 0.3),
+        ([0.0, -1.0], 0.02),
+    ] {
+        let mesh = double_cone(200, tips);
+        let comparison = Comparison::of(&mesh, radius);
+        let mut touches = 0;
+        for shot in 0..600 {
+            let tip = Point3::new(0.0, 0.0, tips[shot % 2]);
+            let direction = random.direction();
+            let beside = random.vector() * radius * *random.of(&[0.0, 1e-6, 1e-3, 1.0]);
+            let ray = Ray {
+                origin: tip + beside - direction * *random.of(&[1.01 * radius, 3.0]),
+                direction,
+            };
+            touches += comparison.follow(ray, &mut random);
+        }
+        assert!(touches > 600, "{tips:?}: {touches}");
     }
 }
 
@@ -201,7 +266,7 @@ fn a_block_is_touched_where_the_rounded_block_begins() {
 fn a_bore_of_facets_is_touched_from_inside_where_a_narrower_bore_is_crossed() {
     let mut random = Random(16);
     let sides = 48;
-    let turn = std::f64::consts::TAU / f64::from(sides);
+    let turn = TAU / f64::from(sides);
     let ends = Ends {
         near_closed: true,
         far_closed: true,
