@@ -13,12 +13,12 @@ use crate::scene::lanes::{larger, smaller};
 
 /// Bars are worth a look up to this share of their boxes in width: few triangles but needles lie in so
 /// narrow ones.
-const NARROW: f64 = 0.25;
+const NARROW: f64 = 0.06;
 /// Or where they taper: half-way along, needles that meet in a tip are together half as wide as at their
 /// ends; other triangles, side by side, hardly less than all over.
 const TAPERED: f64 = 0.6;
 /// Such needles are together narrower than this share of their length.
-const SLENDER: f64 = 0.125;
+const SLENDER: f64 = 0.06;
 
 /// What is between the planes round needles.
 pub(super) struct Bar {

@@ -18,6 +18,8 @@ pub(in crate::scene) struct Walk<'a, B> {
     limit: f32,
     /// The marked leaves to which it does not lead.
     passed: Option<(&'a Marks, u32)>,
+    /// Whether there are crowds of needles.
+    among_needles: bool,
 }
 
 impl<'a, B: Body> Walk<'a, B> {
@@ -29,6 +31,7 @@ impl<'a, B: Body> Walk<'a, B> {
             stops: ArrayVec::new(),
             limit: f32::INFINITY,
             passed: None,
+            among_needles: tree.bars.len() >= CROWD,
         }
     }
 
@@ -88,9 +91,9 @@ impl<'a, B: Body> Walk<'a, B> {
 
     /// Where to go from a node that the ray enters: to its nearest child, while the others have to wait.
     ///
-    /// A sphere goes where it is nearest of all that waits: under it are all needles that it comes near to,
-    /// and a branch without the one that it touches would be searched to its end. Where too many wait for
-    /// that, it stays in its branch.
+    /// Among needles, a sphere goes where it is nearest of all that waits: under it are all that it comes
+    /// near to, and a branch without the one that it touches would be searched to its end. Where too many
+    /// wait for that, it stays in its branch.
     #[inline(always)]
     fn enter(&mut self, node: &Node, entered: &Entered) -> Option<Stop> {
         let mut lanes = entered.lanes;
@@ -100,7 +103,8 @@ impl<'a, B: Body> Walk<'a, B> {
             (lane < WIDTH).then(|| Stop::new(node.children[lane], entered.entries.as_array()[lane]))
         };
         let mut nearest = next()?;
-        let goes_back = B::HAS_SIZE && self.stops.len() <= MOST_SORTED - WIDTH;
+        let goes_back =
+            B::HAS_SIZE && self.among_needles && self.stops.len() <= MOST_SORTED - WIDTH;
         let bottom = if goes_back { 0 } else { self.stops.len() };
         while let Some(other) = next() {
             let (nearer, farther) = if other < nearest {
@@ -123,6 +127,8 @@ impl<'a, B: Body> Walk<'a, B> {
     }
 }
 
+/// So many nodes with needles are a crowd; to search the branches of fewer to their ends takes no longer.
+const CROWD: usize = 64;
 /// So many stops are kept in order at most, the nearest last: to sort more takes longer than to visit them.
 const MOST_SORTED: usize = 1024;
 
