@@ -120,25 +120,23 @@ pub(crate) struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// The outcome of work on a choice of settings: from the file, or else done and written down.
-    /// `beside` is what else it depends on; `is_sound` whether an outcome is one that work can come to,
-    /// as anybody can write a file.
-    pub fn recall_or<T>(
+    /// The outcome of work on a choice of settings, from the file. `beside` is what else it depends on;
+    /// `is_sound` whether an outcome is one that work can come to, as anybody can write a file.
+    pub fn recall<T>(
         &self,
         choice: &Choice,
         beside: &[f64],
         is_sound: impl Fn(&T) -> bool,
-        work: impl FnOnce() -> T,
-    ) -> T
+    ) -> Option<T>
     where
-        T: Serialize + DeserializeOwned,
+        T: DeserializeOwned,
     {
-        let key = self.key(choice, beside);
-        self.checkpoint.recall(&key, is_sound).unwrap_or_else(|| {
-            let outcome = work();
-            self.checkpoint.keep(&key, &outcome);
-            outcome
-        })
+        self.checkpoint.recall(&self.key(choice, beside), is_sound)
+    }
+
+    /// Writes such an outcome down.
+    pub fn keep(&self, choice: &Choice, beside: &[f64], outcome: &impl Serialize) {
+        self.checkpoint.keep(&self.key(choice, beside), outcome);
     }
 
     fn key(&self, choice: &Choice, beside: &[f64]) -> Key {

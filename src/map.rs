@@ -149,10 +149,16 @@ impl Map {
             let are_sound = |cells: &Vec<Option<Cell>>| {
                 cells.len() == group.len() && cells.iter().flatten().all(Cell::is_sound)
             };
-            match (&page, group.first()) {
-                (Some(page), Some(&first)) => page.recall_or(&place(first), &[], are_sound, work),
-                _ => work(),
-            }
+            let known = page.as_ref().zip(group.first());
+            let recalled =
+                known.and_then(|(page, &first)| page.recall(&place(first), &[], are_sound));
+            recalled.unwrap_or_else(|| {
+                let cells = work();
+                if let Some((page, &first)) = known {
+                    page.keep(&place(first), &[], &cells);
+                }
+                cells
+            })
         };
         let found: Vec<Vec<Option<Cell>>> = groups.par_iter().map(cells_of).collect();
         let mut places = vec![Place::Unknown; count];

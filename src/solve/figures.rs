@@ -1,6 +1,7 @@
 //! The figures of the answers, on as many fresh shots as they need.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 use super::accuracy::is_vague;
 use super::answer::Answer;
@@ -78,9 +79,24 @@ impl<'a> Figures<'a> {
 
     fn of(&self, searches: &[Search]) -> Vec<Answer> {
         let candidates: Vec<&Candidate> = searches.iter().map(Search::best).collect();
-        Answer::of_all(self.setup, &candidates, &self.fresh, self.effort)
+        let on = |fresh: &Fresh| Answer::of_all(self.setup, &candidates, fresh, self.effort);
+        if self.stop.load(Ordering::Relaxed) {
+            let few = Fresh::new(&self.setup.problem, purpose::ANSWERS, FEW);
+            let began = Instant::now();
+            let roughly = on(&few);
+            let times = self.fresh.shots() as f64 / few.shots() as f64;
+            if began.elapsed().as_secs_f64() * times > PATIENCE {
+                return roughly;
+            }
+        }
+        on(&self.fresh)
     }
 }
+
+/// So many shots give figures to who does not want to wait for more.
+const FEW: usize = 1024;
+/// So long, s, who asked for an end waits for figures at most.
+const PATIENCE: f64 = 0.4;
 
 /// Whether it is uncertain if the answer that would be recommended passes.
 fn is_open(answers: &[Answer], problem: &Problem) -> bool {

@@ -166,19 +166,25 @@ impl<'a> Judge<'a> {
     /// The standing of a choice, and the choice with the best speed for it.
     ///
     /// Where J on the first shots alone is so far above `best` that the rest could not bring it below,
-    /// they are all that is traced, and J is what it is on them.
+    /// they are all that is traced, and J is what it is on them. So it is after a request to stop, on
+    /// however few shots, and nothing of it is kept.
     pub(super) fn judge(&self, choice: &Choice, best: f64) -> (Choice, Standing) {
         // A pose that is hopeless with some factors on the weights may be the best with others.
         let ends_early = self.archive.is_none() && self.control.shortcuts.early_ends;
         let best = if ends_early { best } else { f64::INFINITY };
-        let judged = match &self.page {
-            Some(page) => {
-                let range = self.setup.problem.settings.speed;
-                let is_sound = |judged: &Judged| judged.is_sound(choice, range);
-                page.recall_or(choice, &[best], is_sound, || self.judge_anew(choice, best))
+        let range = self.setup.problem.settings.speed;
+        let is_sound = |judged: &Judged| judged.is_sound(choice, range);
+        let page = self.page.as_ref();
+        let recalled = page.and_then(|page| page.recall(choice, &[best], is_sound));
+        let judged = recalled.unwrap_or_else(|| {
+            let judged = self.judge_anew(choice, best);
+            if let Some(page) = page
+                && !self.is_stopped()
+            {
+                page.keep(choice, &[best], &judged);
             }
-            None => self.judge_anew(choice, best),
-        };
+            judged
+        });
         self.effort.add(1, judged.rays);
         let choice = Choice {
             speed: judged.speed,
@@ -186,6 +192,7 @@ impl<'a> Judge<'a> {
         };
         if let (Some((archive, factors)), Standing::Feasible(terms)) =
             (&self.archive, &judged.standing)
+            && !self.is_stopped()
         {
             archive.add(choice, terms, factors);
         }
@@ -243,7 +250,9 @@ impl<'a> Judge<'a> {
         if self.shots.len() <= MOST_ALONE {
             return tally(shots);
         }
-        Tally::join(shots.par_chunks(CHUNK).map(tally).collect())
+        let chunks = shots.par_chunks(CHUNK).enumerate();
+        let wanted = chunks.filter(|(number, _)| *number == 0 || !self.is_stopped());
+        Tally::join(wanted.map(|(_, shots)| tally(shots)).collect())
     }
 }
 
