@@ -94,12 +94,15 @@ pub fn polish(
     size: f64,
     accuracy: f64,
 ) -> Candidate {
-    if space.dimensions() == 0 {
+    if space.dimensions() == 0 || judge.is_stopped() {
         return start;
     }
     let start = best_bound(space, judge, start);
     let mut leading = descend(space, judge, start, size, accuracy);
     for _ in 0..MOST_DESCENTS {
+        if judge.is_stopped() {
+            break;
+        }
         let middle = Candidate::at(space, judge, &middle(&leading));
         let best = &leading[0];
         if middle.standing.rank() >= best.standing.rank() * (1.0 - accuracy) {
@@ -168,7 +171,7 @@ fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
     let mut best = start;
     for axis in 0..space.dimensions() {
         for bound in [0.0, 1.0] {
-            if best.point[axis] == bound {
+            if best.point[axis] == bound || judge.is_stopped() {
                 continue;
             }
             let mut point = best.point.clone();
@@ -194,7 +197,8 @@ fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> 
             point[axis] += towards_middle * edge;
             let corner = Candidate::beside(rank, space, judge, &point);
             let rise = corner.standing.rank() / rank - 1.0;
-            if edge <= SHORTEST_EDGE * size || rise <= STEEPEST_EDGE {
+            let is_short = edge <= SHORTEST_EDGE * size;
+            if is_short || rise <= STEEPEST_EDGE || judge.is_stopped() {
                 return corner;
             }
             edge *= if rise > FAR_TOO_STEEP { 0.25 } else { 0.5 };
