@@ -57,7 +57,7 @@ const FAILURES: usize = 1;
 const SHOTS_OF_EXCESSES: usize = 1 << 18;
 
 #[test]
-#[ignore = "takes long without optimisation"]
+#[ignore = "takes a minute"]
 fn searches_find_the_best_settings_known() {
     let table = Known::read().unwrap();
     let is_quick =

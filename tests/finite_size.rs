@@ -128,8 +128,8 @@ fn to_pin(p: &Point3<f64>, radius: f64, length: f64) -> f64 {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        max_global_rejects: 40_000,
-        ..cases(1500)
+        max_global_rejects: 20_000,
+        ..cases(500)
     })]
 
     #[test]

@@ -148,7 +148,6 @@ fn in_slots_and_between_teeth_all_but_the_spin_matters() {
 }
 
 #[test]
-#[ignore = "takes long without optimisation"]
 fn in_a_blind_keyway_given_as_a_mesh() {
     let left_out = same_answer(&shipped("keyway-blind.yaml"));
     assert!(!left_out.contains(&Effect::Rebounds), "{left_out:?}");

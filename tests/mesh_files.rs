@@ -726,7 +726,7 @@ proptest! {
 /// Time and peak memory of a million triangles:
 /// `cargo test --release --test mesh_files -- --ignored --nocapture --test-threads 1`
 #[test]
-#[ignore = "takes long without optimisation"]
+#[ignore = "takes half a minute"]
 fn a_million_triangles() {
     let folder = TempDir::new().unwrap();
     let sample = torus(1000, 500);

@@ -75,7 +75,7 @@ fn shots_stay_in_closed_meshes() {
 /// How many casts is told by the environment, and in which rooms, if not in all:
 /// `PEENPOSE_CASTS=1e8 PEENPOSE_ROOM=stairs cargo test --release --test mesh_rays -- --ignored --nocapture`
 #[test]
-#[ignore = "takes a minute in release"]
+#[ignore = "takes half a minute"]
 fn ten_million_casts_stay_in_closed_meshes() {
     let casts = std::env::var("PEENPOSE_CASTS").map_or(1e7, |count| count.parse().unwrap());
     all_walks(casts);

@@ -92,9 +92,10 @@ fn until_work_is_in(kept: &str) {
 
 /// Kills runs later and later until one ends before; returns how many were killed at work.
 fn killed_until_one_ends(arguments: &[&str]) -> usize {
-    let step = Duration::from_millis(400);
-    let kills = (1..100).take_while(|&round| killed_after(arguments, step * round));
-    kills.count()
+    let times = std::iter::successors(Some(Duration::from_millis(400)), |time| Some(*time * 3 / 2));
+    times
+        .take_while(|&time| killed_after(arguments, time))
+        .count()
 }
 
 /// A result without its times, which differ from run to run.
@@ -196,9 +197,9 @@ fn a_map_that_is_told_to_stop_shows_what_is_known_and_is_gone_on_with() {
     let whole = map_in(&once).unwrap();
     // Whatever the moment: nothing is written, or a map with blanks and without anything wrong, or the
     // whole one.
-    for (round, signal) in (1..6).zip(["-INT", "-TERM"].into_iter().cycle()) {
+    for (round, signal) in (1..4).zip(["-INT", "-TERM"].into_iter().cycle()) {
         let out = place(&format!("stopped-{round}"));
-        let wait = || sleep(time * round / 6);
+        let wait = || sleep(time * round / 4);
         let told = signalled(
             &[&map[..], &[&out]].concat(),
             wait,

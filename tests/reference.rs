@@ -149,7 +149,7 @@ fn terms_agree_all_over_the_range() {
             .unwrap();
         assert!((clearance - number(&case["clearance_m"])).abs() < 1e-6);
 
-        let fresh = Replicates::new(&setup.problem, 0, 1 << 17);
+        let fresh = Replicates::new(&setup.problem, 0, 1 << 16);
         let found = evaluate(&setup, &choice, &fresh);
         let (terms, errors) = (&case["terms"], &case["term_errors"]);
         let mut check = |name: &str, ours: f64, our_error: f64, theirs: f64, their_error: f64| {

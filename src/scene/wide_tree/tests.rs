@@ -311,7 +311,7 @@ fn rays_and_spheres_visit_the_leaf_of_what_they_meet() {
         let slack = 1e-9 * (scale + shift);
         let (tree, leaves) = tree(&triangles, slack);
         let holds = |leaf: u32, index: usize| leaves[leaf as usize].contains(&(index as u32));
-        for _ in 0..10_000 {
+        for _ in 0..2000 {
             let index = random.bits() as usize % triangles.len();
             let [a, b, c] = triangles[index];
             let [along, up] = [b - a, c - a].map(|edge| edge * random.share());
