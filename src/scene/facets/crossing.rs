@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::Facets;
 use super::plane::{GRAZING, Plane};
+use super::slide::Slide;
 use crate::scene::LIFT;
 use crate::scene::ray::{Crossing, Ray, Spot};
 use crate::scene::start::Start;
@@ -85,7 +86,9 @@ impl Facets {
             front: true,
             facet: Facet::default(),
             farther: 0.0,
+            may_slide_off: false,
         };
+        let mut slide = Slide::default();
         let mut walk = self.tree.walk(&sight.flat);
         walk.start(entered);
         while let Some((leaf, starts_inside)) = walk.next() {
@@ -112,8 +115,11 @@ impl Facets {
                 } else {
                     self.crossing(facet, ray, sight, &weights, weights.distance(), start)
                 };
-                if let Some(found) = found {
-                    best.improve(found);
+                if let Some(found) = found
+                    && found.comes_before(&best)
+                    && !(found.may_slide_off && self.slides_off(ray, found.t, &mut slide))
+                {
+                    best = found;
                     walk.end_at(best.cost());
                 }
             }
@@ -147,6 +153,7 @@ impl Facets {
                 front: approach < 0.0,
                 facet,
                 farther: 0.0,
+                may_slide_off: false,
             });
         }
         if !weights.may_cross(self.doubtful_weight) {
@@ -162,8 +169,8 @@ impl Facets {
         self.crossing(facet, ray, sight, weights, t, start)
     }
 
-    /// Where a ray that may cross a triangle on which it does not start does so; `t` (m) is about where,
-    /// for rays that graze it.
+    /// Where a ray that may cross a triangle on which it does not start does so, unless it slides off there;
+    /// `t` (m) is about where, for rays that graze it.
     #[inline(always)]
     fn crossing(
         &self,
@@ -188,7 +195,7 @@ impl Facets {
         let approach = ray.direction.dot(&plane.normal);
         // Which crossing comes first is to be told by where they end up: the weights hardly tell where
         // a ray along the plane meets it, or any ray a sliver.
-        let (t, meets) = if approach.abs() <= GRAZING {
+        let (t, meets, may_slide_off) = if approach.abs() <= GRAZING {
             let corners = corners();
             let runs_along = Start::runs_along(approach);
             let meets = if is_seen {
@@ -198,21 +205,17 @@ impl Facets {
                 !runs_along && crosses()
             };
             let t = plane.over_triangle(t, ray, &corners);
-            (plane.refined(t, ray, &corners), meets && t > 0.0)
+            (plane.refined(t, ray, &corners), meets && t > 0.0, false)
         } else {
             let t = plane.distance(ray);
-            let meets = t > 0.0 && crosses();
-            let may_slide_off = meets && !is_seen && weights.is_near_edge();
-            (
-                t,
-                meets && !(may_slide_off && self.slides_off(facet.index, ray, t)),
-            )
+            (t, t > 0.0 && crosses(), !is_seen && weights.is_near_edge())
         };
         meets.then_some(Nearest {
             t,
             front,
             facet,
             farther,
+            may_slide_off,
         })
     }
 }
@@ -238,6 +241,8 @@ pub(super) struct Nearest {
     /// Where a ray passes over the edge between a facet that it sees and one that it sees from
     /// behind, the one behind counts as farther.
     farther: f64,
+    /// It is none if the ray slides off at an edge there.
+    may_slide_off: bool,
 }
 
 impl Nearest {
@@ -246,12 +251,10 @@ impl Nearest {
         self.t + self.farther
     }
 
-    /// Takes another crossing that is nearer, or as near and of a triangle with a lower index.
+    /// Whether it is nearer than another one, or as near and on a triangle with a lower index.
     #[inline(always)]
-    fn improve(&mut self, other: Self) {
-        let (cost, so_far) = (other.cost(), self.cost());
-        if cost < so_far || (cost == so_far && other.facet.index < self.facet.index) {
-            *self = other;
-        }
+    fn comes_before(&self, other: &Self) -> bool {
+        let (cost, so_far) = (self.cost(), other.cost());
+        cost < so_far || (cost == so_far && self.facet.index < other.facet.index)
     }
 }

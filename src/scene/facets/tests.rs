@@ -4,6 +4,8 @@ mod grazing;
 mod needles;
 mod starts;
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Point3, Vector3};
 
 use super::plane::{GRAZING, Plane, normal};
@@ -299,6 +301,26 @@ fn rays_in_a_closed_room_find_what_a_search_finds() {
     }
     let block = tessellate::block(Point3::new(-1.0, -0.5, -0.25), Point3::new(1.0, 0.5, 0.25));
     assert!(compare(&block, 3000, &mut random) > 3000);
+}
+
+/// Triangles from a tip, where each comes first, to a round rim: a cone, or a disc without height.
+fn cone(count: u32, height: f64) -> Mesh {
+    let rim = |index: u32| {
+        let (y, x) = (TAU * f64::from(index % count) / f64::from(count)).sin_cos();
+        [x, y, 0.0]
+    };
+    let triangles = (0..count).map(|index| [[0.0, 0.0, height], rim(index), rim(index + 1)]);
+    apart(&triangles.collect::<Vec<_>>())
+}
+
+/// From both sides, and along some of the facets to the tip, where all others begin.
+#[test]
+fn rays_to_the_tip_of_a_cone_find_what_a_search_finds() {
+    let mut random = Random(7);
+    for height in [0.0, 1.0, 0.3, 1e-6] {
+        let hits = compare(&cone(100, height), 1000, &mut random);
+        assert!(hits > 500, "{height}: {hits}");
+    }
 }
 
 #[test]
