@@ -12,6 +12,8 @@ pub use places::Place;
 pub use shapes::Shape;
 pub use shown::Shown;
 
+use std::sync::atomic::AtomicBool;
+
 use crate::jet::{Pose, Replicates, Samples, purpose};
 use crate::problem::setting::Choice;
 use crate::setup::Setup;
@@ -37,6 +39,11 @@ impl Evidence {
     /// Fires so many fresh shots; none where the nozzle does not fit. One is enough where all shots
     /// of a problem are the same.
     pub fn of(setup: &Setup, choice: &Choice, shots: usize) -> Self {
+        Self::until(setup, choice, shots, &AtomicBool::new(false))
+    }
+
+    /// The same with the first shots alone when `stop` is set.
+    pub fn until(setup: &Setup, choice: &Choice, shots: usize, stop: &AtomicBool) -> Self {
         let shots = if setup.problem.has_one_ray() {
             shots.min(1)
         } else {
@@ -46,7 +53,7 @@ impl Evidence {
         let jet = Samples::new(&setup.problem, stream, shots);
         let pose = Pose::new(&setup.target.frame, choice);
         let shapes = shapes::all(setup, &pose);
-        let flights = flights::fire(setup, choice, &jet, &shapes);
+        let flights = flights::fire(setup, choice, &jet, &shapes, stop);
         Self {
             shown: shown::pick(setup, &flights),
             places: places::find(setup, &pose, &flights),

@@ -1,5 +1,7 @@
 //! Shots on their way, with every impact.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
@@ -27,8 +29,17 @@ pub struct Flight {
 /// Room round the scene in which leaving shots are still seen, as a share of its diagonal.
 const MARGIN: f64 = 0.05;
 
-/// The flights of some shots, in their order.
-pub(super) fn fire(setup: &Setup, choice: &Choice, jet: &Samples, shapes: &[Shape]) -> Vec<Flight> {
+/// Shots that are fired before it is asked whether there is time for more.
+const VOLLEY: usize = 1024;
+
+/// The flights of some shots, in their order, or of the first ones when `stop` is set.
+pub(super) fn fire(
+    setup: &Setup,
+    choice: &Choice,
+    jet: &Samples,
+    shapes: &[Shape],
+    stop: &AtomicBool,
+) -> Vec<Flight> {
     let tracer = Tracer::new(setup, choice, choice.speed);
     let scene = Limits::of(shapes);
     let flight = |deviate: &Deviate| {
@@ -50,7 +61,13 @@ pub(super) fn fire(setup: &Setup, choice: &Choice, jet: &Samples, shapes: &[Shap
             gone,
         }
     };
-    jet.deviates.par_iter().map(flight).collect()
+    let volleys = jet.deviates.chunks(VOLLEY).enumerate();
+    let volleys = volleys.take_while(|(number, _)| *number == 0 || !stop.load(Ordering::Relaxed));
+    let mut flights = Vec::with_capacity(jet.deviates.len());
+    for (_, volley) in volleys {
+        flights.par_extend(volley.par_iter().map(flight));
+    }
+    flights
 }
 
 impl Flight {

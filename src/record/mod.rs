@@ -256,12 +256,13 @@ impl Record {
         self.with_evidence_until(setup, best, &AtomicBool::new(false))
     }
 
-    /// The same without the maps of which nothing is known when `stop` is set, and with blanks in the others.
+    /// The same with fewer flights, without the maps of which nothing is known when `stop` is set, and with
+    /// blanks in the others.
     #[must_use]
     pub fn with_evidence_until(self, setup: &Setup, best: &Answer, stop: &AtomicBool) -> Self {
         let fits = best.evaluation.is_some();
         let shots = if fits { SHOTS } else { 0 };
-        let shown = Evidence::of(setup, &best.choice, shots);
+        let shown = Evidence::until(setup, &best.choice, shots, stop);
         let mut evidence = EvidenceRecord::new(setup, &best.choice, &shown);
         let control = Control {
             stop,

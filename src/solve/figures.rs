@@ -96,7 +96,7 @@ impl<'a> Figures<'a> {
 /// So many shots give figures to who does not want to wait for more.
 const FEW: usize = 1024;
 /// So long, s, who asked for an end waits for figures at most.
-const PATIENCE: f64 = 0.4;
+const PATIENCE: f64 = 0.2;
 
 /// Whether it is uncertain if the answer that would be recommended passes.
 fn is_open(answers: &[Answer], problem: &Problem) -> bool {

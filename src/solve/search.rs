@@ -112,8 +112,10 @@ impl Search {
             _ => 128 * dimensions,
         };
         let seed = setup.problem.seed as u32;
+        // When it is told to stop, one is enough to answer with.
         let candidates: Vec<Candidate> = (0..points as u32)
             .into_par_iter()
+            .filter(|&index| index == 0 || !judge.is_stopped())
             .map(|index| Candidate::at(&space, judge, &space.spread(index, seed)))
             .collect();
         let mut search = Self {
