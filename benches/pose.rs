@@ -20,14 +20,14 @@ use peenpose::objective::Tally;
 use peenpose::precision::Precision;
 use peenpose::problem;
 use peenpose::problem::part::Shape;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::{Scene, Walls};
-use peenpose::setup::Setup;
 
-use common::choice;
+use common::settings;
 
 /// A shipped problem with its walls as asked for.
-fn setup(file: &str, walls: Walls) -> Setup {
+fn scenario(file: &str, walls: Walls) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("problems")
         .join(file);
@@ -35,11 +35,11 @@ fn setup(file: &str, walls: Walls) -> Setup {
         .expect("the file can be read")
         .problem
         .expect("a shipped problem has no faults");
-    Setup::new(problem, walls).expect("its scene has no faults")
+    Scenario::new(problem, walls).expect("its scene has no faults")
 }
 
 fn facets(degrees: f64) -> Walls {
-    Walls::Facets {
+    Walls::TriangleMesh {
         chord_angle: degrees.to_radians(),
     }
 }
@@ -50,41 +50,41 @@ const KINDS: [(&str, bool); 2] = [("points", false), ("shots of their size", tru
 /// A pose of the long hub with many bounces, and the blind keyway near its best pose.
 fn rays(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("rays");
-    let steep = choice(60.0, 20.0, 10e-3, 10.0);
-    let blind = choice(63.0, 0.0, 8e-3, 48.0);
-    for (name, setup, choice) in [
+    let steep = settings(60.0, 20.0, 10e-3, 10.0);
+    let blind = settings(63.0, 0.0, 8e-3, 48.0);
+    for (name, scenario, settings) in [
         (
             "keyway 40 mm, 666 facets",
-            setup("keyway.yaml", facets(1.0)),
-            choice(78.0, 0.0, 8e-3, 9.4),
+            scenario("keyway.yaml", facets(1.0)),
+            settings(78.0, 0.0, 8e-3, 9.4),
         ),
         (
             "keyway 200 mm, exact",
-            setup("keyway-long.yaml", Walls::Exact),
+            scenario("keyway-long.yaml", Walls::Exact),
             steep,
         ),
         (
             "keyway 200 mm, 666 facets",
-            setup("keyway-long.yaml", facets(1.0)),
+            scenario("keyway-long.yaml", facets(1.0)),
             steep,
         ),
         (
             "blind keyway, 14588 facets",
-            setup("keyway-blind.yaml", Walls::Exact),
+            scenario("keyway-blind.yaml", Walls::Exact),
             blind,
         ),
     ] {
-        let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
+        let samples = Samples::with_boundary(&scenario.problem, Stream::Search, 1024);
         for (kind, shot_size) in KINDS {
-            let mut setup = setup.clone();
-            setup.problem.paths.shot_size = shot_size;
-            let once = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
+            let mut scenario = scenario.clone();
+            scenario.problem.paths.shot_size = shot_size;
+            let once = Tally::trace(&scenario, &settings, 1.0, &samples.shots);
             group.throughput(Throughput::Elements(once.rays as u64));
             for precision in Precision::ALL {
-                let shots = &samples.deviates;
+                let shots = &samples.shots;
                 group.bench_function(format!("{name}, {kind}, {precision:?}"), |bencher| {
                     bencher.iter(|| {
-                        Tally::trace_as(precision, &setup, black_box(&choice), 1.0, shots)
+                        Tally::trace_as(precision, &scenario, black_box(&settings), 1.0, shots)
                     });
                 });
             }
@@ -95,31 +95,31 @@ fn rays(criterion: &mut Criterion) {
 
 /// The whole judgement of a pose of 1024 shots, best speed included.
 fn pose(criterion: &mut Criterion) {
-    let setup = setup("keyway.yaml", Walls::Exact);
-    let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
-    let choice = choice(68.0, 0.0, 8e-3, 9.4);
+    let scenario = scenario("keyway.yaml", Walls::Exact);
+    let samples = Samples::with_boundary(&scenario.problem, Stream::Search, 1024);
+    let settings = settings(68.0, 0.0, 8e-3, 9.4);
     criterion.bench_function("pose of 1024 shots with the best speed", |bencher| {
         bencher.iter(|| {
-            let tally = Tally::trace(&setup, black_box(&choice), 1.0, &samples.deviates);
-            let goals = &setup.problem.goals;
-            let speed = tally.best_speed(goals, setup.problem.settings.speed);
+            let tally = Tally::trace(&scenario, black_box(&settings), 1.0, &samples.shots);
+            let goals = &scenario.problem.goals;
+            let speed = tally.best_speed(goals, scenario.problem.ranges.speed);
             tally.terms(goals, speed)
         });
     });
 }
 
 fn growth(criterion: &mut Criterion) {
-    let steep = choice(60.0, 20.0, 10e-3, 10.0);
+    let steep = settings(60.0, 20.0, 10e-3, 10.0);
     let mut group = criterion.benchmark_group("shots");
-    let exact = setup("keyway-long.yaml", Walls::Exact);
+    let exact = scenario("keyway-long.yaml", Walls::Exact);
     for shots in [256, 1024, 4096, 16384, 65536] {
-        let samples = Samples::with_rim(&exact.problem, Stream::Search, shots);
+        let samples = Samples::with_boundary(&exact.problem, Stream::Search, shots);
         group.throughput(Throughput::Elements(shots as u64));
         group.bench_with_input(
             BenchmarkId::from_parameter(shots),
             &samples,
             |bencher, samples| {
-                bencher.iter(|| Tally::trace(&exact, black_box(&steep), 1.0, &samples.deviates));
+                bencher.iter(|| Tally::trace(&exact, black_box(&steep), 1.0, &samples.shots));
             },
         );
     }
@@ -130,13 +130,13 @@ fn growth(criterion: &mut Criterion) {
 
 /// Facets as long as the hub: the narrower they are, the more of them a shot passes over.
 fn narrow_facets(criterion: &mut Criterion) {
-    let steep = choice(60.0, 20.0, 10e-3, 10.0);
+    let steep = settings(60.0, 20.0, 10e-3, 10.0);
     let mut group = criterion.benchmark_group("chord angle in degrees");
     for (kind, shot_size) in KINDS {
         for degrees in [1.0, 0.1, 0.01, 0.001] {
-            let mut setup = setup("keyway-long.yaml", facets(degrees));
-            setup.problem.paths.shot_size = shot_size;
-            trace(&mut group, &setup, &steep, &format!("{degrees}, {kind}"));
+            let mut scenario = scenario("keyway-long.yaml", facets(degrees));
+            scenario.problem.paths.shot_size = shot_size;
+            trace(&mut group, &scenario, &steep, &format!("{degrees}, {kind}"));
         }
     }
     group.finish();
@@ -144,33 +144,38 @@ fn narrow_facets(criterion: &mut Criterion) {
 
 /// Facets about as long as wide, as most programs for meshes make them.
 fn even_facets(criterion: &mut Criterion) {
-    let steep = choice(60.0, 20.0, 10e-3, 10.0);
+    let steep = settings(60.0, 20.0, 10e-3, 10.0);
     let mut group = criterion.benchmark_group("side in mm");
     for side in [8.0, 2.5, 0.8, 0.25] {
         let folder = tempfile::TempDir::new().expect("there is space for a mesh");
-        let mut setup = setup_of_even_facets(folder.path(), side * 1e-3);
+        let mut scenario = setup_of_even_facets(folder.path(), side * 1e-3);
         for (kind, shot_size) in KINDS {
-            setup.problem.paths.shot_size = shot_size;
-            trace(&mut group, &setup, &steep, &format!("{side}, {kind}"));
+            scenario.problem.paths.shot_size = shot_size;
+            trace(&mut group, &scenario, &steep, &format!("{side}, {kind}"));
         }
     }
     group.finish();
 }
 
 /// Measures a pose of 1024 shots.
-fn trace(group: &mut BenchmarkGroup<WallTime>, setup: &Setup, choice: &Choice, name: &str) {
-    let samples = Samples::with_rim(&setup.problem, Stream::Search, 1024);
-    let once = Tally::trace(setup, choice, 1.0, &samples.deviates);
+fn trace(
+    group: &mut BenchmarkGroup<WallTime>,
+    scenario: &Scenario,
+    settings: &Settings,
+    name: &str,
+) {
+    let samples = Samples::with_boundary(&scenario.problem, Stream::Search, 1024);
+    let once = Tally::trace(scenario, settings, 1.0, &samples.shots);
     group.throughput(Throughput::Elements(once.rays as u64));
-    let name = format!("{name}, {} triangles", setup.scene.triangles());
+    let name = format!("{name}, {} triangles", scenario.scene.triangles());
     group.bench_function(name, |bencher| {
-        bencher.iter(|| Tally::trace(setup, black_box(choice), 1.0, &samples.deviates));
+        bencher.iter(|| Tally::trace(scenario, black_box(settings), 1.0, &samples.shots));
     });
 }
 
 /// The long keyway as a mesh of halved squares with sides of at most `side`, m.
-fn setup_of_even_facets(folder: &Path, side: f64) -> Setup {
-    let strips = setup(
+fn setup_of_even_facets(folder: &Path, side: f64) -> Scenario {
+    let strips = scenario(
         "keyway-long.yaml",
         facets((side / BORE_RADIUS).to_degrees()),
     );
@@ -182,7 +187,7 @@ fn setup_of_even_facets(folder: &Path, side: f64) -> Setup {
         metres_per_unit: 1.0,
         regions: Vec::new(),
     };
-    Setup::new(problem, Walls::Exact).expect("its scene has no faults")
+    Scenario::new(problem, Walls::Exact).expect("its scene has no faults")
 }
 
 /// m.

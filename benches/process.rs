@@ -12,13 +12,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
 use peenpose::solve::{Control, solve};
 use tempfile::TempDir;
 
-use common::fresh;
 use common::known::Known;
 use common::statistics::median;
+use common::validation;
 use common::variant::{Shots, Variant, path};
 
 /// Runs with one seed.
@@ -108,17 +108,17 @@ fn seconds(problem: &Path, seed: u64) -> Result<f64, Box<dyn Error>> {
 /// By how much J of the answer of each seed is above that of the best settings known, relative to it.
 /// The library gives the same answers as the program, to the last bit.
 fn excesses(variant: &Variant, known: &[Known]) -> Result<Vec<f64>, Box<dyn Error>> {
-    let mut setup = variant.setup()?;
+    let mut scenario = variant.scenario()?;
     let best = known.iter().filter(|known| known.is_of(variant));
-    let best: Vec<Choice> = best
-        .map(|known| known.choice(&setup.problem))
+    let best: Vec<Settings> = best
+        .map(|known| known.settings(&scenario.problem))
         .collect::<Result<_, _>>()?;
     let answers = (1..=SEEDS).map(|seed| {
-        setup.problem.seed = seed;
-        solve(&setup, &Control::default()).answers[0].choice
+        scenario.problem.seed = seed;
+        solve(&scenario, &Control::default()).answers[0].settings
     });
-    let answers: Vec<Choice> = answers.collect();
-    let excesses = fresh::excesses(&setup, &best, &answers, COMPARISON, SHOTS);
+    let answers: Vec<Settings> = answers.collect();
+    let excesses = validation::excesses(&scenario, &best, &answers, COMPARISON, SHOTS);
     Ok(excesses.iter().map(|excess| excess.value).collect())
 }
 

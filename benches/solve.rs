@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, solve};
 
 fn shipped(criterion: &mut Criterion) {
@@ -14,11 +14,11 @@ fn shipped(criterion: &mut Criterion) {
         "keyway-long.yaml",
         "keyway-blind.yaml",
     ] {
-        let Ok((setup, _)) = Setup::load(&folder.join(file)) else {
+        let Ok((scenario, _)) = Scenario::load(&folder.join(file)) else {
             panic!("{file} has faults");
         };
         criterion.bench_function(file, |bencher| {
-            bencher.iter(|| solve(&setup, &Control::default()));
+            bencher.iter(|| solve(&scenario, &Control::default()));
         });
     }
 }

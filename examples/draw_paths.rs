@@ -8,10 +8,10 @@ use std::error::Error;
 use std::path::Path;
 
 use nalgebra::{Point2, Point3};
-use peenpose::jet::{Deviate, Pose, Samples, Stream};
+use peenpose::jet::{Pose, Samples, ShotSample, Stream};
 use peenpose::problem::equipment::Body;
-use peenpose::problem::setting::{Choice, Tolerance};
-use peenpose::setup::Setup;
+use peenpose::problem::setting::{Settings, Tolerance};
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, solve};
 use peenpose::trace::{End, Tracer};
 use peenpose::units::{Dimension, parse};
@@ -44,15 +44,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         [problem, picture, angle] => (problem, picture, Some(parse(Dimension::Angle, angle)?)),
         _ => return Err("usage: draw_paths PROBLEM.yaml PICTURE.svg [INCIDENCE]".into()),
     };
-    let (mut setup, _) = Setup::load(Path::new(problem))?;
-    let mut choice = solve(&setup, &Control::default()).answers[0].choice;
-    choice.incidence = incidence.unwrap_or(choice.incidence);
+    let (mut scenario, _) = Scenario::load(Path::new(problem))?;
+    let mut settings = solve(&scenario, &Control::default()).answers[0].settings;
+    settings.incidence = incidence.unwrap_or(settings.incidence);
     // The picture shows the jet of a nozzle that is set exactly, and every hit of it.
-    setup.problem.tolerance = Tolerance::default();
-    for surface in &mut setup.surfaces {
+    scenario.problem.tolerance = Tolerance::default();
+    for surface in &mut scenario.surfaces {
         surface.deflector = false;
     }
-    std::fs::write(picture, draw(&setup, &choice))?;
+    std::fs::write(picture, draw(&scenario, &settings))?;
     Ok(())
 }
 
@@ -62,11 +62,11 @@ struct Shot {
     impacts: usize,
 }
 
-fn fire(setup: &Setup, choice: &Choice, pose: &Pose, shot: &Deviate) -> Shot {
+fn fire(scenario: &Scenario, settings: &Settings, pose: &Pose, shot: &ShotSample) -> Shot {
     let [across, up, forward] = shot.cone;
     let mut heading = pose.side * across + pose.up * up + pose.direction * forward;
     let mut corners = vec![pose.exit + pose.side * shot.exit[0] + pose.up * shot.exit[1]];
-    let (end, _) = Tracer::new(setup, choice, choice.speed).follow(shot, |impact| {
+    let (end, _) = Tracer::new(scenario, settings, settings.speed).follow(shot, |impact| {
         corners.push(impact.centre);
         heading = impact.velocity.normalize();
     });
@@ -78,24 +78,24 @@ fn fire(setup: &Setup, choice: &Choice, pose: &Pose, shot: &Deviate) -> Shot {
 }
 
 /// A surface as it is when the nozzle stands at a pose.
-fn surface_at(setup: &Setup, pose: &Pose, surface: u32) -> Vec<Triangle> {
-    let triangles = setup.scene.surface_triangles(surface);
-    if !setup.scene.surface_moves_with_nozzle(surface) {
+fn surface_at(scenario: &Scenario, pose: &Pose, surface: u32) -> Vec<Triangle> {
+    let triangles = scenario.scene.surface_triangles(surface);
+    if !scenario.scene.surface_moves_with_nozzle(surface) {
         return triangles.collect();
     }
-    let stand = pose.stand();
-    let in_scene = |corners: Triangle| corners.map(|corner| stand.point_back(&corner));
+    let nozzle_frame = pose.nozzle_frame();
+    let in_scene = |corners: Triangle| corners.map(|corner| nozzle_frame.point_back(&corner));
     triangles.map(in_scene).collect()
 }
 
-fn draw(setup: &Setup, choice: &Choice) -> String {
-    let pose = Pose::new(&setup.target.frame, choice);
-    let jet = Samples::new(&setup.problem, Stream::Search, SHOTS);
-    let fire = |shot| fire(setup, choice, &pose, shot);
-    let shots: Vec<Shot> = jet.deviates.iter().map(fire).collect();
-    let triangles = |surface| surface_at(setup, &pose, surface);
-    let surfaces: Vec<Vec<Triangle>> = (0..setup.surfaces.len() as u32).map(triangles).collect();
-    let view = View::new(setup, &pose.exit, &surfaces);
+fn draw(scenario: &Scenario, settings: &Settings) -> String {
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let jet = Samples::new(&scenario.problem, Stream::Search, SHOTS);
+    let fire = |shot| fire(scenario, settings, &pose, shot);
+    let shots: Vec<Shot> = jet.shots.iter().map(fire).collect();
+    let triangles = |surface| surface_at(scenario, &pose, surface);
+    let surfaces: Vec<Vec<Triangle>> = (0..scenario.surfaces.len() as u32).map(triangles).collect();
+    let view = View::new(scenario, &pose.exit, &surfaces);
     let mut svg = format!(
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {w} {h:.0}' font-size='15' \
          font-family='Helvetica, Arial, DejaVu Sans, sans-serif' fill='#222'>\n\
@@ -129,10 +129,10 @@ fn draw(setup: &Setup, choice: &Choice) -> String {
         }
     }
     let most = shots.iter().map(|shot| shot.corners.len() - 1).max();
-    svg + &view.angle(&pose, choice)
+    svg + &view.angle(&pose, settings)
         + "</g>\n"
         + &view.axes()
-        + &view.words(choice, most.unwrap_or(0))
+        + &view.words(settings, most.unwrap_or(0))
         + "</svg>\n"
 }
 
@@ -142,7 +142,7 @@ fn text(x: f64, y: f64, style: &str, words: &str) -> String {
 
 /// The plane of the picture: through the aim point, with the target's normal upwards.
 struct View<'a> {
-    setup: &'a Setup,
+    scenario: &'a Scenario,
     /// Corners of the part that is shown, m.
     low: Point2<f64>,
     high: Point2<f64>,
@@ -150,9 +150,13 @@ struct View<'a> {
 
 impl<'a> View<'a> {
     /// Shows the whole section and the exit.
-    fn new(setup: &'a Setup, exit: &Point3<f64>, surfaces: &[Vec<Triangle>]) -> Self {
+    fn new(scenario: &'a Scenario, exit: &Point3<f64>, surfaces: &[Vec<Triangle>]) -> Self {
         let (low, high) = (Point2::origin(), Point2::origin());
-        let mut view = Self { setup, low, high };
+        let mut view = Self {
+            scenario,
+            low,
+            high,
+        };
         let section = surfaces.iter().flatten().filter_map(|t| view.cut(t));
         let flat = section.flatten().map(|p| view.flat(&p));
         let exit = view.flat(exit);
@@ -165,13 +169,13 @@ impl<'a> View<'a> {
 
     /// Coordinates in the plane, m: along the target, and out of it.
     fn flat(&self, p: &Point3<f64>) -> Point2<f64> {
-        let frame = &self.setup.target.frame;
+        let frame = &self.scenario.target.frame;
         Point2::new(p.coords.dot(&frame.along), p.coords.dot(&frame.normal))
     }
 
     /// Height over the plane, towards the viewer, m.
     fn height(&self, p: &Point3<f64>) -> f64 {
-        let frame = &self.setup.target.frame;
+        let frame = &self.scenario.target.frame;
         (p - frame.aim).dot(&frame.across)
     }
 
@@ -208,7 +212,7 @@ impl<'a> View<'a> {
 
     /// The part of a line that lies on the target patch.
     fn on_patch(&self, [p, q]: [Point3<f64>; 2]) -> Option<[Point3<f64>; 2]> {
-        let Some((low, high)) = self.setup.target.within else {
+        let Some((low, high)) = self.scenario.target.within else {
             return Some([p, q]);
         };
         let (along, mut from, mut to) = (q - p, 0.0_f64, 1.0_f64);
@@ -246,14 +250,14 @@ impl<'a> View<'a> {
                     "stroke='#333' stroke-width='2.2' stroke-linecap='round'",
                 );
             }
-            if index == self.setup.target.surface as usize {
+            if index == self.scenario.target.surface as usize {
                 for patch in cuts.iter().filter_map(|&cut| self.on_patch(cut)) {
                     svg += &self.line(&patch, &format!("stroke='{TARGET}' stroke-width='8'"));
                 }
             }
             let ends = cuts.iter().flatten().map(|p| self.at(p));
             if let Some(p) = ends.min_by(|a, b| a.x.total_cmp(&b.x)) {
-                let name = &self.setup.scene.surfaces()[index];
+                let name = &self.scenario.scene.surfaces()[index];
                 svg += &text(
                     p.x.max(SIDE) + 10.0,
                     p.y + 20.0,
@@ -268,7 +272,7 @@ impl<'a> View<'a> {
     /// The nozzle's body, its exit and the axis of the jet.
     fn nozzle(&self, pose: &Pose) -> String {
         let mut svg = String::new();
-        for body in &self.setup.problem.nozzle.body {
+        for body in &self.scenario.problem.nozzle.body {
             let (end, radius) = match *body {
                 Body::Ball { radius } => (pose.exit, radius),
                 Body::Capsule {
@@ -285,17 +289,17 @@ impl<'a> View<'a> {
                 format!("stroke='{NOZZLE}' stroke-width='{width:.1}' stroke-linecap='round'");
             svg += &self.line(&[pose.exit, end], &style);
         }
-        let rim = pose.up * (self.setup.problem.jet.exit_diameter / 2.0);
+        let boundary = pose.up * (self.scenario.problem.jet.exit_diameter / 2.0);
         svg + &self.line(
-            &[pose.exit - rim, pose.exit + rim],
+            &[pose.exit - boundary, pose.exit + boundary],
             "stroke='#222' stroke-width='5'",
         )
     }
 
     /// The axis of the jet and its angle to the target.
-    fn angle(&self, pose: &Pose, choice: &Choice) -> String {
-        let aim = pose.exit + pose.direction * choice.standoff;
-        let back = pose.exit - pose.direction * (0.5 * choice.standoff);
+    fn angle(&self, pose: &Pose, settings: &Settings) -> String {
+        let aim = pose.exit + pose.direction * settings.standoff;
+        let back = pose.exit - pose.direction * (0.5 * settings.standoff);
         let (tip, exit) = (self.at(&aim), self.at(&pose.exit));
         let (axis, r) = ((exit - tip).normalize(), 0.62 * (exit - tip).norm());
         let (side, sweep, anchor) = if axis.x < 0.0 {
@@ -309,7 +313,7 @@ impl<'a> View<'a> {
             tip.x + side * (r + 10.0) * half.cos(),
             tip.y - (r + 10.0) * half.sin(),
         );
-        let words = format!("incidence {:.1}\u{b0}", choice.incidence.to_degrees());
+        let words = format!("incidence {:.1}\u{b0}", settings.incidence.to_degrees());
         let halo = "fill='#222' stroke='white' stroke-width='4' paint-order='stroke'";
         self.line(
             &[aim, back],
@@ -326,7 +330,7 @@ impl<'a> View<'a> {
 
     /// The frame with ticks in mm.
     fn axes(&self) -> String {
-        let frame = &self.setup.target.frame;
+        let frame = &self.scenario.target.frame;
         let bottom = self.bottom();
         let mut svg = format!(
             "<rect x='{SIDE}' y='{HEAD}' width='{WIDTH}' height='{:.1}' fill='none' stroke='#222'/>\n",
@@ -373,16 +377,16 @@ impl<'a> View<'a> {
     }
 
     /// Title, settings and legend.
-    fn words(&self, choice: &Choice, flights: usize) -> String {
-        let problem = &self.setup.problem;
+    fn words(&self, settings: &Settings, flights: usize) -> String {
+        let problem = &self.scenario.problem;
         let title = problem.title.replace('&', "&amp;").replace('<', "&lt;");
         let settings = format!(
             "{SHOTS} shots, {}: incidence {:.1}\u{b0}, azimuth {:.1}\u{b0}, standoff {:.1} mm, {:.1} m/s",
-            problem.contacts[choice.contact].name,
-            choice.incidence.to_degrees(),
-            choice.azimuth.to_degrees(),
-            choice.standoff * 1e3,
-            choice.speed,
+            problem.contacts[settings.contact].name,
+            settings.incidence.to_degrees(),
+            settings.azimuth.to_degrees(),
+            settings.standoff * 1e3,
+            settings.speed,
         );
         let mut svg = text(SIDE, 32.0, "font-size='21' font-weight='bold'", &title)
             + &text(SIDE, 58.0, "", &settings);

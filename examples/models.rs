@@ -10,7 +10,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use peenpose::problem::model::Model;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, Solution, solve};
 
 const FILES: [&str; 6] = [
@@ -28,23 +28,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("problem       auto s  auto/whole  auto/by hand  J auto/J whole  searched without");
     for file in FILES {
         let path = format!("{}/problems/{file}.yaml", env!("CARGO_MANIFEST_DIR"));
-        let (setup, _) = Setup::load(Path::new(&path))?;
-        let (_, auto) = timed(&setup, Model::Auto);
+        let (scenario, _) = Scenario::load(Path::new(&path))?;
+        let (_, auto) = timed(&scenario, Model::Auto);
         let left_out = auto.ladder.left_out();
-        let by_hand = setup.without(&left_out, &auto.answers[0].choice);
+        let by_hand = scenario.without(&left_out, &auto.answers[0].settings);
         let models = [
-            (&setup, Model::Auto),
-            (&setup, Model::Full),
+            (&scenario, Model::Auto),
+            (&scenario, Model::Full),
             (&by_hand, Model::Full),
         ];
         let mut seconds = [const { Vec::new() }; 3];
         for _ in 0..TURNS {
-            for ((setup, model), seconds) in models.iter().zip(&mut seconds) {
-                seconds.push(timed(setup, model.clone()).0);
+            for ((scenario, model), seconds) in models.iter().zip(&mut seconds) {
+                seconds.push(timed(scenario, model.clone()).0);
             }
         }
         let [auto_s, full_s, by_hand_s] = seconds.map(median);
-        let (_, full) = timed(&setup, Model::Full);
+        let (_, full) = timed(&scenario, Model::Full);
         println!(
             "{file:12}  {auto_s:6.3}  {:10.2}  {:12.2}  {:14.4}  {}",
             auto_s / full_s,
@@ -60,11 +60,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn timed(setup: &Setup, model: Model) -> (f64, Solution) {
-    let mut setup = setup.clone();
-    setup.problem.model = model;
+fn timed(scenario: &Scenario, model: Model) -> (f64, Solution) {
+    let mut scenario = scenario.clone();
+    scenario.problem.model = model;
     let started = Instant::now();
-    let solution = solve(&setup, &Control::default());
+    let solution = solve(&scenario, &Control::default());
     (started.elapsed().as_secs_f64(), solution)
 }
 

@@ -6,7 +6,7 @@ use std::error::Error;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, Progress, solve};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         [file] => (file.as_str(), 0.0),
         [file, enough, ..] => (file.as_str(), enough.parse()?),
     };
-    let (setup, _source) = Setup::load(Path::new(file))?;
+    let (scenario, _source) = Scenario::load(Path::new(file))?;
 
     // The search calls this from any of its threads.
     let stop = AtomicBool::new(false);
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         watch: &watch,
         ..Control::default()
     };
-    let solution = solve(&setup, &control);
+    let solution = solve(&scenario, &control);
     println!("{:?} after {} rays", solution.status, solution.rays);
     Ok(())
 }

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use peenpose::problem;
 use peenpose::problem::part::Shape;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Control, solve};
 
 /// Quantities carry their units here; the checked problem is in SI.
@@ -42,9 +42,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             keyway.length = length;
         }
         // The scene is built once, and every pose is tried in it.
-        let setup = Setup::new(longer, Walls::Exact).map_err(|faults| format!("{faults:?}"))?;
-        let best = &solve(&setup, &Control::default()).answers[0];
-        let (millimetres, incidence) = (length * 1e3, best.choice.incidence.to_degrees());
+        let scenario =
+            Scenario::new(longer, Walls::Exact).map_err(|faults| format!("{faults:?}"))?;
+        let best = &solve(&scenario, &Control::default()).answers[0];
+        let (millimetres, incidence) = (length * 1e3, best.settings.incidence.to_degrees());
         match &best.evaluation {
             Some(found) => println!(
                 "{millimetres:3.0} mm: {incidence:.1} deg, J {:.5}",

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, solve};
 
 fn main() -> ExitCode {
@@ -13,7 +13,7 @@ fn main() -> ExitCode {
     let file = file.as_deref().unwrap_or("problems/keyway.yaml");
 
     // Reading checks everything and builds the scene. All faults come at once, with their places.
-    let (setup, _source) = match Setup::load(Path::new(file)) {
+    let (scenario, _source) = match Scenario::load(Path::new(file)) {
         Ok(loaded) => loaded,
         Err(rejection) => {
             eprintln!("{rejection}");
@@ -22,17 +22,17 @@ fn main() -> ExitCode {
     };
 
     // The search: one answer for each contact, the best first.
-    let solution = solve(&setup, &Control::default());
-    println!("{}: {:?}", setup.problem.title, solution.status);
+    let solution = solve(&scenario, &Control::default());
+    println!("{}: {:?}", scenario.problem.title, solution.status);
     for answer in &solution.answers {
-        let choice = &answer.choice;
+        let settings = &answer.settings;
         print!(
             "{:8} incidence {:5.1} deg, azimuth {:6.1} deg, standoff {:5.2} mm, speed {:5.2} m/s: ",
-            setup.problem.contacts[choice.contact].name,
-            choice.incidence.to_degrees(),
-            choice.azimuth.to_degrees(),
-            choice.standoff * 1e3,
-            choice.speed,
+            scenario.problem.contacts[settings.contact].name,
+            settings.incidence.to_degrees(),
+            settings.azimuth.to_degrees(),
+            settings.standoff * 1e3,
+            settings.speed,
         );
         // What these settings do, measured on shots that the search has not seen.
         match &answer.evaluation {

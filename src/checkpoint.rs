@@ -16,11 +16,11 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 
-use crate::jet::Deviate;
+use crate::jet::ShotSample;
 use crate::problem::Problem;
 use crate::problem::part::{Part, Shape};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use log::Log;
 pub use log::{LARGEST_FILE, Trouble};
 
@@ -42,10 +42,10 @@ impl Checkpoint {
     /// # Errors
     /// The file cannot be read or written, another run uses it, it has more than [`LARGEST_FILE`]
     /// bytes, or it is damaged before its end.
-    pub fn open(folder: &Path, setup: &Setup) -> Result<Self, Trouble> {
+    pub fn open(folder: &Path, scenario: &Scenario) -> Result<Self, Trouble> {
         let (log, known) = Log::open(folder)?;
         Ok(Self {
-            scene: hash_of_scene(setup),
+            scene: hash_of_scene(scenario),
             known,
             log: Mutex::new(log),
             recalled: AtomicUsize::new(0),
@@ -72,17 +72,17 @@ impl Checkpoint {
     }
 
     /// A page for work with a setup on given shots; `kind` tells work of different kinds apart.
-    pub(crate) fn page(&self, kind: &str, setup: &Setup, shots: &[Deviate]) -> Page<'_> {
+    pub(crate) fn page(&self, kind: &str, scenario: &Scenario, shots: &[ShotSample]) -> Page<'_> {
         let mut hash = self.scene.clone();
         let problem = Problem {
             // A title decides nothing; the parts are in the scene.
             title: String::new(),
             parts: Vec::new(),
-            ..setup.problem.clone()
+            ..scenario.problem.clone()
         };
         hash.update(format!(
             "{kind} {problem:?} {:?} {:?}",
-            setup.target, setup.surfaces
+            scenario.target, scenario.surfaces
         ));
         for shot in shots {
             add(&mut hash, &shot.numbers());
@@ -124,26 +124,27 @@ impl Page<'_> {
     /// `is_sound` whether an outcome is one that work can come to, as anybody can write a file.
     pub fn recall<T>(
         &self,
-        choice: &Choice,
+        settings: &Settings,
         beside: &[f64],
         is_sound: impl Fn(&T) -> bool,
     ) -> Option<T>
     where
         T: DeserializeOwned,
     {
-        self.checkpoint.recall(&self.key(choice, beside), is_sound)
+        self.checkpoint
+            .recall(&self.key(settings, beside), is_sound)
     }
 
     /// Writes such an outcome down.
-    pub fn keep(&self, choice: &Choice, beside: &[f64], outcome: &impl Serialize) {
-        self.checkpoint.keep(&self.key(choice, beside), outcome);
+    pub fn keep(&self, settings: &Settings, beside: &[f64], outcome: &impl Serialize) {
+        self.checkpoint.keep(&self.key(settings, beside), outcome);
     }
 
-    fn key(&self, choice: &Choice, beside: &[f64]) -> Key {
+    fn key(&self, settings: &Settings, beside: &[f64]) -> Key {
         let mut hash = self.hash.clone();
-        add(&mut hash, &choice.numbers());
+        add(&mut hash, &settings.numbers());
         add(&mut hash, beside);
-        hash.update(choice.contact.to_le_bytes());
+        hash.update(settings.contact.to_le_bytes());
         let mut key = Key::default();
         key.copy_from_slice(&hash.finalize()[..16]);
         key
@@ -151,16 +152,16 @@ impl Page<'_> {
 }
 
 /// Of everything that is there, whatever the names of the files it comes from.
-fn hash_of_scene(setup: &Setup) -> Sha256 {
+fn hash_of_scene(scenario: &Scenario) -> Sha256 {
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
-    for part in &setup.problem.parts {
+    for part in &scenario.problem.parts {
         hash.update(description(part));
     }
-    let surfaces = setup.scene.surfaces();
+    let surfaces = scenario.scene.surfaces();
     for (index, name) in (0..).zip(surfaces) {
         hash.update(name);
-        for corner in setup.scene.surface_triangles(index).flatten() {
+        for corner in scenario.scene.surface_triangles(index).flatten() {
             add(&mut hash, &[corner.x, corner.y, corner.z]);
         }
     }

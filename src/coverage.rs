@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use crate::elementary::{ln_1p, square};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::equipment::CoverageWish;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::trace::Tracer;
 use dented::Question;
 pub use dented::{Dented, Estimate};
@@ -74,19 +74,19 @@ pub struct Density {
 
 impl Coverage {
     /// What a choice of settings does; `None` when the problem does not ask for it.
-    pub fn of(setup: &Setup, choice: &Choice) -> Option<Self> {
-        let wish = setup.problem.coverage?;
-        let fresh = Replicates::without_rim(&setup.problem, purpose::COVERAGE, SHOTS);
-        let samples = fresh.sets.len();
-        let (target, _) = setup.target.cut_out(&setup.scene);
-        let hits = hits(setup, choice, &fresh.sets);
-        let Cells { side, cells } = Cells::new(setup, &target, CELLS, &hits);
+    pub fn of(scenario: &Scenario, settings: &Settings) -> Option<Self> {
+        let wish = scenario.problem.coverage?;
+        let validation = Replicates::without_boundary(&scenario.problem, purpose::COVERAGE, SHOTS);
+        let samples = validation.sets.len();
+        let (target, _) = scenario.target.cut_out(&scenario.scene);
+        let hits = hits(scenario, settings, &validation.sets);
+        let Cells { side, cells } = Cells::new(scenario, &target, CELLS, &hits);
         let area: f64 = cells.iter().map(|cell| cell.area).sum();
         let whole = Cell {
             area,
             hits: hits.iter().map(|hits| hits.len() as u32).collect(),
         };
-        let shots = fresh.shots();
+        let shots = validation.shots();
         let mean = whole.density(shots);
         let mut by_density: Vec<&Cell> = cells.iter().collect();
         by_density.sort_by(|a, b| a.density(shots).value.total_cmp(&b.density(shots).value));
@@ -100,9 +100,9 @@ impl Coverage {
             off * off * cell.area / area
         });
         let spread = squares.sum::<f64>().sqrt();
-        let deviates = fresh.sets.iter().flat_map(|set| &set.jet.deviates);
-        let relative_mass = deviates.map(|deviate| deviate.mass()).sum::<f64>() / shots as f64;
-        let shots_per_kilogram = 1.0 / (setup.problem.shot.mass() * relative_mass);
+        let fired = validation.sets.iter().flat_map(|set| &set.jet.shots);
+        let relative_mass = fired.map(|sample| sample.mass()).sum::<f64>() / shots as f64;
+        let shots_per_kilogram = 1.0 / (scenario.problem.shot.mass() * relative_mass);
         let question = Question {
             wanted: wish.wanted,
             dent_diameter: wish.dent_diameter,
@@ -121,7 +121,7 @@ impl Coverage {
             _ => (f64::from(whole.all_hits()) / HITS_IN_A_CELL / hit_share).clamp(1.0, MOST_CELLS),
         };
         let [fine, coarse] =
-            [count, count / 4.0].map(|count| Cells::new(setup, &target, count, &hits));
+            [count, count / 4.0].map(|count| Cells::new(scenario, &target, count, &hits));
         let dented = Dented::of(&question, &fine, &coarse);
         Some(Self {
             wish,
@@ -139,7 +139,7 @@ impl Coverage {
             share_not_hit: dented.share_not_reached,
             dented,
             shots_per_kilogram,
-            mass_flow: setup.problem.jet.mass_flow,
+            mass_flow: scenario.problem.jet.mass_flow,
         })
     }
 
@@ -163,14 +163,14 @@ fn mass_until(wish: &CoverageWish, density: Density, shots_per_kilogram: f64) ->
 }
 
 /// Where the first hits of each sample are on the target.
-fn hits(setup: &Setup, choice: &Choice, samples: &[Replicate]) -> Vec<Vec<Point3<f64>>> {
-    let mut setup = setup.clone();
-    setup.problem.paths.impacts = 1;
-    let tracer = Tracer::new(&setup, choice, choice.speed);
+fn hits(scenario: &Scenario, settings: &Settings, samples: &[Replicate]) -> Vec<Vec<Point3<f64>>> {
+    let mut scenario = scenario.clone();
+    scenario.problem.paths.impacts = 1;
+    let tracer = Tracer::new(&scenario, settings, settings.speed);
     let points = |sample: &Replicate| {
         let mut points = Vec::new();
-        for deviate in &sample.jet.deviates {
-            tracer.follow(deviate, |first| {
+        for sample in &sample.jet.shots {
+            tracer.follow(sample, |first| {
                 if first.on_target {
                     points.push(first.point);
                 }

@@ -8,8 +8,8 @@ mod ledger;
 mod survey;
 
 pub use counts::Counts;
-pub use focused::{evaluate_drawn, evaluate_each_focused, evaluate_focused};
-pub use harm::focus_on_harm;
+pub use focused::{evaluate_adaptively, evaluate_each_adaptively, evaluate_streamed};
+pub use harm::importance_of;
 pub(crate) use survey::Survey;
 
 use std::collections::BTreeMap;
@@ -20,8 +20,8 @@ use crate::elementary::{hypot, square};
 use crate::jet::Replicates;
 use crate::objective::{Hits, Sums, Terms};
 use crate::problem::goal::Goals;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::trace::End;
 use impulses::Impulses;
 use ledger::{Ledger, SurfaceSums};
@@ -34,7 +34,7 @@ pub struct Evaluation {
     /// Whether all shots of the jet are the same: then the figures of one have no error.
     pub is_exact: bool,
     /// Number of shots on its rim, which only the terms of the objective count.
-    pub rim_shots: usize,
+    pub boundary_shots: usize,
     /// Number of rays cast for them.
     pub rays: usize,
     /// The terms of the objective.
@@ -98,53 +98,58 @@ pub struct Spread {
     pub largest: f64,
 }
 
-/// Evaluates `choice` on shots as they are.
-pub fn evaluate(setup: &Setup, choice: &Choice, shots: &Replicates) -> Evaluation {
+/// Evaluates `settings` on shots as they are.
+pub fn evaluate(scenario: &Scenario, settings: &Settings, shots: &Replicates) -> Evaluation {
     let sets = shots.sets.par_iter();
-    let ledgers = sets.map(|set| Ledger::of(setup, choice, set)).collect();
-    summed_up(setup, choice, ledgers)
+    let ledgers = sets
+        .map(|set| Ledger::of(scenario, settings, set))
+        .collect();
+    summed_up(scenario, settings, ledgers)
 }
 
-fn summed_up(setup: &Setup, choice: &Choice, replicates: Vec<Ledger>) -> Evaluation {
+fn summed_up(scenario: &Scenario, settings: &Settings, replicates: Vec<Ledger>) -> Evaluation {
     let shots: usize = replicates.iter().map(|r| r.tally.shots).sum();
-    let rim_shots = replicates.iter().map(|r| r.rim.shots).sum();
+    let boundary_shots = replicates.iter().map(|r| r.boundary.shots).sum();
     let is_exact = replicates.len() == 1;
-    let goals = &setup.problem.goals;
+    let goals = &scenario.problem.goals;
     let sums: Vec<Sums> = replicates
         .iter()
         .map(|replicate| {
-            let of_jet = replicate.tally.sums(goals, choice.speed);
-            of_jet.plus(&replicate.rim.sums(goals, choice.speed))
+            let of_jet = replicate.tally.sums(goals, settings.speed);
+            of_jet.plus(&replicate.boundary.sums(goals, settings.speed))
         })
         .collect();
     let (terms, term_errors, standard_error) = if is_exact {
         (sums[0].terms(goals), Terms::default(), 0.0)
     } else {
-        let limited = setup.surfaces.iter().filter(|it| it.allow.is_some());
+        let limited = scenario.surfaces.iter().filter(|it| it.allow.is_some());
         let unseen = Unseen {
             harm: limited.fold(0.0, |most, it| it.weight.max(most)) * UNSEEN_LOAD * UNSEEN_LOAD,
-            shots: (shots + rim_shots) as f64,
+            shots: (shots + boundary_shots) as f64,
         };
         jackknife(&sums, goals, &unseen)
     };
-    let rays = replicates.iter().map(|r| r.tally.rays + r.rim.rays).sum();
+    let rays = replicates
+        .iter()
+        .map(|r| r.tally.rays + r.boundary.rays)
+        .sum();
     let mut ends = BTreeMap::new();
     for (&end, &count) in replicates.iter().flat_map(|replicate| &replicate.ends) {
         *ends.entry(end).or_insert(0.0) += count as f64 / shots as f64;
     }
-    let surfaces = (0..setup.surfaces.len())
+    let surfaces = (0..scenario.surfaces.len())
         .map(|index| receipt(replicates.iter().map(|r| &r.surfaces[index])))
         .collect();
     let impacts: usize = replicates.iter().map(|r| r.impacts).sum();
     Evaluation {
         shots,
         is_exact,
-        rim_shots,
+        boundary_shots,
         rays,
         terms,
         term_errors,
         standard_error,
-        target: target_receipt(goals, choice.speed, &replicates),
+        target: target_receipt(goals, settings.speed, &replicates),
         surfaces,
         impacts_per_shot: impacts as f64 / shots as f64,
         ends,

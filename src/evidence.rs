@@ -15,8 +15,8 @@ pub use shown::Shown;
 use std::sync::atomic::AtomicBool;
 
 use crate::jet::{Pose, Replicates, Samples, purpose};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 
 /// Shots that a picture needs to show where they go.
 pub const SHOTS: usize = 16_384;
@@ -38,26 +38,31 @@ pub struct Evidence {
 impl Evidence {
     /// Fires so many fresh shots; none where the nozzle does not fit. One is enough where all shots
     /// of a problem are the same.
-    pub fn of(setup: &Setup, choice: &Choice, shots: usize) -> Self {
-        Self::until(setup, choice, shots, &AtomicBool::new(false))
+    pub fn of(scenario: &Scenario, settings: &Settings, shots: usize) -> Self {
+        Self::until(scenario, settings, shots, &AtomicBool::new(false))
     }
 
     /// The same with the first shots alone when `stop` is set.
-    pub fn until(setup: &Setup, choice: &Choice, shots: usize, stop: &AtomicBool) -> Self {
-        let shots = if setup.problem.has_one_ray() {
+    pub fn until(
+        scenario: &Scenario,
+        settings: &Settings,
+        shots: usize,
+        stop: &AtomicBool,
+    ) -> Self {
+        let shots = if scenario.problem.has_one_ray() {
             shots.min(1)
         } else {
             shots
         };
         let stream = Replicates::stream(purpose::EVIDENCE, 0);
-        let jet = Samples::new(&setup.problem, stream, shots);
-        let pose = Pose::new(&setup.target.frame, choice);
-        let shapes = shapes::all(setup, &pose);
-        let flights = flights::fire(setup, choice, &jet, &shapes, stop);
+        let jet = Samples::new(&scenario.problem, stream, shots);
+        let pose = Pose::new(&scenario.target.frame, settings);
+        let shapes = shapes::all(scenario, &pose);
+        let flights = flights::fire(scenario, settings, &jet, &shapes, stop);
         Self {
-            shown: shown::pick(setup, &flights),
-            places: places::find(setup, &pose, &flights),
-            shapes: thinning::thinned(shapes, &setup.target),
+            shown: shown::pick(scenario, &flights),
+            places: places::find(scenario, &pose, &flights),
+            shapes: thinning::thinned(shapes, &scenario.target),
             flights,
         }
     }

@@ -6,9 +6,9 @@ use nalgebra::Vector3;
 use crate::elementary::{cos, hypot, tan};
 use crate::jet::Pose;
 use crate::problem::equipment::Body;
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::scene::swept::{Core, Swept};
-use crate::setup::Setup;
 
 /// Why the nozzle cannot be where settings put it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,25 +40,30 @@ pub struct Gap {
 }
 
 /// Why settings are infeasible; `None` where they are feasible.
-pub fn infeasibility(setup: &Setup, choice: &Choice) -> Option<Infeasible> {
-    let pose = Pose::new(&setup.target.frame, choice);
-    let clearance = setup.problem.nozzle.clearance;
-    if let Some(part) = setup.scene.in_material(&pose.exit, &aim(&pose, choice)) {
-        let thickest = cores(setup).map(|(_, radius)| radius).fold(0.0, f64::max);
-        let depth = setup.scene.distance_to_part(part, &pose.exit);
+pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let clearance = scenario.problem.nozzle.clearance;
+    if let Some(part) = scenario
+        .scene
+        .in_material(&pose.exit, &aim(&pose, settings))
+    {
+        let thickest = cores(scenario)
+            .map(|(_, radius)| radius)
+            .fold(0.0, f64::max);
+        let depth = scenario.scene.distance_to_part(part, &pose.exit);
         return Some(Infeasible {
-            violation: clearance + thickest + depth + room_for_errors(setup, choice),
+            violation: clearance + thickest + depth + room_for_errors(scenario, settings),
             obstacle: Obstacle::Material(part),
         });
     }
-    if let Some(overlap) = through_own_body(setup, choice, &pose) {
+    if let Some(overlap) = through_own_body(scenario, settings, &pose) {
         return Some(Infeasible {
             violation: clearance + overlap,
             obstacle: Obstacle::Body,
         });
     }
-    let room = room_for_errors(setup, choice);
-    if let Some(gap) = gap_as_set(setup, choice, clearance + room)
+    let room = room_for_errors(scenario, settings);
+    if let Some(gap) = gap_as_set(scenario, settings, clearance + room)
         && gap.distance <= clearance + room
     {
         let is_near = |gap: &Gap| gap.distance < clearance;
@@ -70,7 +75,7 @@ pub fn infeasibility(setup: &Setup, choice: &Choice) -> Option<Infeasible> {
             });
         }
         if room > 0.0
-            && let Some(worst) = gap_swept(setup, choice, clearance)
+            && let Some(worst) = gap_swept(scenario, settings, clearance)
                 .map(|swept| worst_of(gap, swept, room))
                 .filter(is_near)
         {
@@ -84,19 +89,19 @@ pub fn infeasibility(setup: &Setup, choice: &Choice) -> Option<Infeasible> {
 }
 
 /// How near the nozzle comes to a surface as it is set; `None` in an empty scene.
-pub fn gap(setup: &Setup, choice: &Choice) -> Option<Gap> {
-    gap_as_set(setup, choice, f64::INFINITY)
+pub fn gap(scenario: &Scenario, settings: &Settings) -> Option<Gap> {
+    gap_as_set(scenario, settings, f64::INFINITY)
 }
 
 /// How near it comes with the worst errors within the setup tolerance: a bound from below that is closer
 /// than the bulge of an arc over the angles' tolerance, 10 micrometres at 2 deg and 12 mm.
-pub fn gap_within_tolerance(setup: &Setup, choice: &Choice) -> Option<Gap> {
-    let gap = gap(setup, choice)?;
-    if !setup.problem.tolerance.moves_nozzle() {
+pub fn gap_within_tolerance(scenario: &Scenario, settings: &Settings) -> Option<Gap> {
+    let gap = gap(scenario, settings)?;
+    if !scenario.problem.tolerance.moves_nozzle() {
         return Some(gap);
     }
-    let swept = gap_swept(setup, choice, f64::INFINITY)?;
-    Some(worst_of(gap, swept, room_for_errors(setup, choice)))
+    let swept = gap_swept(scenario, settings, f64::INFINITY)?;
+    Some(worst_of(gap, swept, room_for_errors(scenario, settings)))
 }
 
 /// The gap with the worst errors: the body as set is one of all that is swept, and no point of it goes
@@ -112,14 +117,14 @@ fn worst_of(as_set: Gap, swept: Gap, room: f64) -> Gap {
 }
 
 /// The point at which the jet's axis is aimed, m.
-fn aim(pose: &Pose, choice: &Choice) -> nalgebra::Point3<f64> {
-    pose.exit + pose.direction * choice.standoff
+fn aim(pose: &Pose, settings: &Settings) -> nalgebra::Point3<f64> {
+    pose.exit + pose.direction * settings.standoff
 }
 
 /// What must not touch a wall, each with a radius round it, m: the nozzle's body, or else the disc of the
 /// exit grown by the radius of a shot.
-fn cores(setup: &Setup) -> impl Iterator<Item = (Core, f64)> + '_ {
-    let problem = &setup.problem;
+fn cores(scenario: &Scenario) -> impl Iterator<Item = (Core, f64)> + '_ {
+    let problem = &scenario.problem;
     let bodies = problem.nozzle.body.iter().map(|body| match *body {
         Body::Ball { radius } => (Core::Exit, radius),
         Body::Capsule {
@@ -139,28 +144,28 @@ fn cores(setup: &Setup) -> impl Iterator<Item = (Core, f64)> + '_ {
     bodies.chain(exit)
 }
 
-fn gap_as_set(setup: &Setup, choice: &Choice, limit: f64) -> Option<Gap> {
-    let pose = Pose::new(&setup.target.frame, choice);
-    let nozzle = &setup.problem.nozzle;
+fn gap_as_set(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap> {
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let nozzle = &scenario.problem.nozzle;
     if !nozzle.body.is_empty() {
-        let found = setup
+        let found = scenario
             .scene
             .clearance(nozzle, &pose.exit, &pose.direction, limit);
         return found.map(|(distance, surface)| Gap { distance, surface });
     }
     let swept = |core| Swept {
-        aim: aim(&pose, choice),
+        aim: aim(&pose, settings),
         shifts: [Vector3::zeros(); 3],
         directions: vec![pose.direction],
-        standoff: [choice.standoff; 2],
+        standoff: [settings.standoff; 2],
         core,
     };
-    nearest(setup, limit, 0.0, swept)
+    nearest(scenario, limit, 0.0, swept)
 }
 
-fn gap_swept(setup: &Setup, choice: &Choice, limit: f64) -> Option<Gap> {
-    let (frame, tolerance) = (&setup.target.frame, &setup.problem.tolerance);
-    let pose = Pose::new(frame, choice);
+fn gap_swept(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap> {
+    let (frame, tolerance) = (&scenario.target.frame, &scenario.problem.tolerance);
+    let pose = Pose::new(frame, settings);
     let grid = |error: f64| -> Vec<f64> {
         if error == 0.0 {
             return vec![0.0];
@@ -172,19 +177,19 @@ fn gap_swept(setup: &Setup, choice: &Choice, limit: f64) -> Option<Gap> {
     let directions: Vec<Vector3<f64>> = grid(tolerance.incidence)
         .iter()
         .flat_map(|incidence| {
-            azimuths.iter().map(move |azimuth| Choice {
-                incidence: choice.incidence + incidence,
-                azimuth: choice.azimuth + azimuth,
-                ..*choice
+            azimuths.iter().map(move |azimuth| Settings {
+                incidence: settings.incidence + incidence,
+                azimuth: settings.azimuth + azimuth,
+                ..*settings
             })
         })
         .map(|set| Pose::new(frame, &set).direction)
         .collect();
     // Between two directions of the grid the body lies outside the chord by no more than this.
     let half_steps = [tolerance.incidence, tolerance.azimuth].map(|it| it / STEPS as f64);
-    let sag = reach(setup, choice) * half_steps.iter().map(|it| it * it / 2.0).sum::<f64>();
+    let sag = reach(scenario, settings) * half_steps.iter().map(|it| it * it / 2.0).sum::<f64>();
     let swept = |core| Swept {
-        aim: aim(&pose, choice),
+        aim: aim(&pose, settings),
         shifts: [
             frame.along * tolerance.aim_along,
             frame.across * tolerance.aim_across,
@@ -192,24 +197,29 @@ fn gap_swept(setup: &Setup, choice: &Choice, limit: f64) -> Option<Gap> {
         ],
         directions: directions.clone(),
         standoff: [
-            (choice.standoff - tolerance.standoff).max(0.0),
-            choice.standoff + tolerance.standoff,
+            (settings.standoff - tolerance.standoff).max(0.0),
+            settings.standoff + tolerance.standoff,
         ],
         core,
     };
-    nearest(setup, limit, sag, swept)
+    nearest(scenario, limit, sag, swept)
 }
 
 /// Steps of the grid of directions, each way.
 const STEPS: usize = 4;
 
 /// The nearest surface to any of the cores.
-fn nearest(setup: &Setup, limit: f64, sag: f64, swept: impl Fn(Core) -> Swept) -> Option<Gap> {
+fn nearest(
+    scenario: &Scenario,
+    limit: f64,
+    sag: f64,
+    swept: impl Fn(Core) -> Swept,
+) -> Option<Gap> {
     let mut nearest: Option<Gap> = None;
-    for (core, radius) in cores(setup) {
+    for (core, radius) in cores(scenario) {
         let grown = radius + sag;
         let bound = nearest.map_or(limit, |gap| gap.distance) + grown;
-        let found = setup.scene.distance_to_swept(&swept(core), bound);
+        let found = scenario.scene.distance_to_swept(&swept(core), bound);
         if let Some((distance, surface)) = found {
             nearest = Some(Gap {
                 distance: distance - grown,
@@ -221,8 +231,8 @@ fn nearest(setup: &Setup, limit: f64, sag: f64, swept: impl Fn(Core) -> Swept) -
 }
 
 /// The farthest point of the body from the aim point, m.
-fn reach(setup: &Setup, choice: &Choice) -> f64 {
-    let lengths = cores(setup).map(|(core, _)| match core {
+fn reach(scenario: &Scenario, settings: &Settings) -> f64 {
+    let lengths = cores(scenario).map(|(core, _)| match core {
         Core::Exit => 0.0,
         // A lance in a fixed direction is shifted, not turned.
         Core::Line {
@@ -231,12 +241,12 @@ fn reach(setup: &Setup, choice: &Choice) -> f64 {
         Core::Line { length, .. } => length,
         Core::Disc { radius } => radius,
     });
-    choice.standoff + setup.problem.tolerance.standoff + lengths.fold(0.0, f64::max)
+    settings.standoff + scenario.problem.tolerance.standoff + lengths.fold(0.0, f64::max)
 }
 
 /// No point of the body moves by more than this, m, while settings err within their tolerance.
-fn room_for_errors(setup: &Setup, choice: &Choice) -> f64 {
-    let tolerance = &setup.problem.tolerance;
+fn room_for_errors(scenario: &Scenario, settings: &Settings) -> f64 {
+    let tolerance = &scenario.problem.tolerance;
     let turned = hypot(tolerance.incidence, tolerance.azimuth);
     let shifts = [
         tolerance.aim_along,
@@ -244,24 +254,24 @@ fn room_for_errors(setup: &Setup, choice: &Choice) -> f64 {
         tolerance.aim_above,
     ];
     let shifted = shifts.iter().map(|it| it * it).sum::<f64>().sqrt();
-    reach(setup, choice) * turned + tolerance.standoff + shifted
+    reach(scenario, settings) * turned + tolerance.standoff + shifted
 }
 
 /// How far, m, a jet goes along inside a lance of its own beyond the round end at the exit.
 ///
 /// A lance in a fixed direction may have its exit in its side, but a jet that leaves it farther back than
 /// half its radius goes through it. A part that moves with the nozzle may turn the jet before.
-fn through_own_body(setup: &Setup, choice: &Choice, pose: &Pose) -> Option<f64> {
-    if setup.scene.moves_with_nozzle() {
+fn through_own_body(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<f64> {
+    if scenario.scene.moves_with_nozzle() {
         return None;
     }
-    let tolerance = &setup.problem.tolerance;
+    let tolerance = &scenario.problem.tolerance;
     let errors = hypot(
         tolerance.incidence,
-        tolerance.azimuth * cos(choice.incidence),
+        tolerance.azimuth * cos(settings.incidence),
     );
-    let spread = setup.problem.jet.divergence + errors;
-    let bodies = setup.problem.nozzle.body.iter();
+    let spread = scenario.problem.jet.divergence + errors;
+    let bodies = scenario.problem.nozzle.body.iter();
     let overlaps = bodies.filter_map(|body| match *body {
         Body::Capsule {
             length,
@@ -283,15 +293,19 @@ const SIDE_EXIT: f64 = 0.5;
 
 impl Obstacle {
     /// What is in the way, in words: `the nozzle's exit is inside "hub"`.
-    pub fn reason(&self, setup: &Setup) -> String {
+    pub fn reason(&self, scenario: &Scenario) -> String {
         match *self {
             Self::Material(part) => {
-                let name = setup.problem.parts.get(part).map_or("", |part| &part.name);
+                let name = scenario
+                    .problem
+                    .parts
+                    .get(part)
+                    .map_or("", |part| &part.name);
                 format!("the nozzle's exit is inside {name}")
             }
             Self::Surface(surface) => format!(
                 "the nozzle comes too near to {}",
-                setup.scene.surfaces()[surface as usize]
+                scenario.scene.surfaces()[surface as usize]
             ),
             Self::Body => "the jet leaves through the nozzle's own body".into(),
         }

@@ -7,7 +7,7 @@
 //! # The pipeline
 //!
 //! Data flows one way: a text becomes a checked [`problem::Problem`], that with its scene a
-//! [`setup::Setup`], the search of that a [`solve::Solution`], that a [`record::Record`], and all
+//! [`scenario::Scenario`], the search of that a [`solve::Solution`], that a [`record::Record`], and all
 //! reports are made from the record.
 //!
 //! ```
@@ -20,7 +20,7 @@
 //! use peenpose::unknowns::Unknowns;
 //! use peenpose::{problem, report, validity};
 //!
-//! // What is asked. In a file it is the same text; `Setup::load` reads one and builds its scene.
+//! // What is asked. In a file it is the same text; `Scenario::load` reads one and builds its scene.
 //! let text = "
 //! format: 1
 //! title: Floor of a keyway
@@ -95,7 +95,7 @@
 //! | [`impact`] | one impact of a sphere on a surface: the contact laws |
 //! | [`problem`] | what was asked: problem files, their schema, the library, and the faults of a check |
 //! | [`scene`] | what is there: walls, meshes, the target patch; rays and clearances |
-//! | [`setup`] | a problem together with its scene |
+//! | [`scenario`] | a problem together with its scene |
 //! | [`jet`] | what comes out of the nozzle: its pose, and the shots |
 //! | [`feasibility`] | whether the nozzle can be where settings put it |
 //! | [`trace`] | shots through the scene, impact by impact |
@@ -133,8 +133,8 @@ pub mod units;
 
 pub mod impact;
 pub mod problem;
+pub mod scenario;
 pub mod scene;
-pub mod setup;
 
 pub mod feasibility;
 pub mod jet;

@@ -12,11 +12,11 @@ use serde::{Deserialize, Serialize};
 use crate::checkpoint::Checkpoint;
 use crate::evaluate::{Counts, Survey};
 use crate::feasibility::infeasibility;
-use crate::jet::{Deviate, Replicates, Samples, purpose};
+use crate::jet::{Replicates, Samples, ShotSample, purpose};
 use crate::objective::Terms;
 use crate::problem::Problem;
-use crate::problem::setting::{Choice, Range, Setting};
-use crate::setup::Setup;
+use crate::problem::setting::{Range, Setting, Settings};
+use crate::scenario::Scenario;
 use crate::verdict::{Subject, Verdict};
 
 /// What two settings do while all others are held.
@@ -114,24 +114,24 @@ impl Map {
     /// Where the paths do not depend on the speed they are traced once for all of its values. Rows,
     /// columns or places that are in the checkpoint are taken from there.
     pub fn of(
-        setup: &Setup,
-        choice: &Choice,
+        scenario: &Scenario,
+        settings: &Settings,
         x: Axis,
         y: Axis,
         shots: usize,
         control: &Control,
     ) -> Self {
-        let deviates = common_shots(&setup.problem, shots);
+        let shots = common_shots(&scenario.problem, shots);
         let kind = format!("map {x:?} {y:?}");
         let page = control.checkpoint;
-        let page = page.map(|checkpoint| checkpoint.page(&kind, setup, &deviates));
+        let page = page.map(|checkpoint| checkpoint.page(&kind, scenario, &shots));
         let columns = x.values.len();
         let place = |index: usize| {
-            let across = x.setting.with(choice, x.values[index % columns]);
+            let across = x.setting.with(settings, x.values[index % columns]);
             y.setting.with(&across, y.values[index / columns])
         };
         let count = columns * y.values.len();
-        let shares_paths = setup.speed_scales_out(choice.contact);
+        let shares_paths = scenario.speed_scales_out(settings.contact);
         let groups: Vec<Vec<usize>> = if shares_paths && x.setting == Setting::Speed {
             let row = |first: usize| (first..first + columns).collect();
             (0..count).step_by(columns.max(1)).map(row).collect()
@@ -145,7 +145,7 @@ impl Map {
             if control.stop.load(Ordering::Relaxed) {
                 return Vec::new();
             }
-            let work = || cells_on_one_path(setup, group, place, &deviates);
+            let work = || cells_on_one_path(scenario, group, place, &shots);
             let are_sound = |cells: &Vec<Option<Cell>>| {
                 cells.len() == group.len() && cells.iter().flatten().all(Cell::is_sound)
             };
@@ -170,8 +170,8 @@ impl Map {
         Self {
             x,
             y,
-            shots: deviates.len(),
-            subjects: subjects(setup),
+            shots: shots.len(),
+            subjects: subjects(scenario),
             places,
         }
     }
@@ -188,43 +188,43 @@ impl Cell {
 /// The cells of places that differ in nothing but a speed on which no path depends; `None` where the
 /// nozzle does not fit.
 fn cells_on_one_path(
-    setup: &Setup,
+    scenario: &Scenario,
     group: &[usize],
-    place: impl Fn(usize) -> Choice,
-    shots: &[Deviate],
+    place: impl Fn(usize) -> Settings,
+    shots: &[ShotSample],
 ) -> Vec<Option<Cell>> {
     let Some(&first) = group.first() else {
         return Vec::new();
     };
-    let choice = place(first);
-    if infeasibility(setup, &choice).is_some() {
+    let settings = place(first);
+    if infeasibility(scenario, &settings).is_some() {
         return vec![None; group.len()];
     }
-    let survey = Survey::of(setup, &choice, shots);
-    let cell = |&index: &usize| Some(cell(setup, &survey, place(index).speed));
+    let survey = Survey::of(scenario, &settings, shots);
+    let cell = |&index: &usize| Some(cell(scenario, &survey, place(index).speed));
     group.iter().map(cell).collect()
 }
 
 /// What the shots of a survey do at a launch speed, m/s.
-fn cell(setup: &Setup, survey: &Survey, speed: f64) -> Cell {
-    let verdicts = Verdict::on(setup, &survey.counts(setup, speed));
+fn cell(scenario: &Scenario, survey: &Survey, speed: f64) -> Cell {
+    let verdicts = Verdict::on(scenario, &survey.counts(scenario, speed));
     let failing = verdicts.iter().filter(|verdict| !verdict.passes());
     Cell {
-        terms: survey.terms(setup, speed),
+        terms: survey.terms(scenario, speed),
         failing: failing.map(|verdict| verdict.subject).collect(),
         share_sticking: survey.share_sticking(),
     }
 }
 
 /// The shots of every place: others than those that a search decides on.
-fn common_shots(problem: &Problem, shots: usize) -> Vec<Deviate> {
+fn common_shots(problem: &Problem, shots: usize) -> Vec<ShotSample> {
     let count = if problem.has_one_ray() { 1 } else { shots };
     let stream = Replicates::stream(purpose::WINDOWS, 0);
-    Samples::new(problem, stream, count).deviates
+    Samples::new(problem, stream, count).shots
 }
 
 /// What verdicts are given on in a problem.
-fn subjects(setup: &Setup) -> Vec<Subject> {
-    let verdicts = Verdict::on(setup, &Counts::none(setup));
+fn subjects(scenario: &Scenario) -> Vec<Subject> {
+    let verdicts = Verdict::on(scenario, &Counts::none(scenario));
     verdicts.iter().map(|verdict| verdict.subject).collect()
 }

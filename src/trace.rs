@@ -1,30 +1,30 @@
 //! Shots through the scene: from the exit, through every impact, to where the path ends.
 
+mod compaction;
+mod packet;
 mod rough;
 #[cfg(test)]
 mod tests;
-mod vacancies;
-mod volley;
 
-pub(crate) use volley::{Volley, Witness, truth};
+pub(crate) use packet::{Observer, RayPacket, mask};
 
 use std::hint::black_box;
 
 use nalgebra::{Point3, Vector3};
 
 use crate::impact::{Contact, Friction, Regime, Restitution, rebound};
-use crate::jet::{Aim, Deviate, Pose};
+use crate::jet::{Aim, Pose, ShotSample};
 use crate::precision::{Real, Triple, dot, unit};
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
-use crate::scene::ray::{Ray, Spot};
-use crate::scene::stand::Stand;
-use crate::setup::Setup;
-use volley::fire;
+use crate::scene::nozzle_frame::NozzleFrame;
+use crate::scene::ray::{HitId, Ray};
+use packet::fire;
 
 /// Traces the shots of one choice of settings.
 pub struct Tracer<'a> {
-    setup: &'a Setup,
+    scenario: &'a Scenario,
     aim: Aim,
     contact: Contact,
     speed: f64,
@@ -93,9 +93,9 @@ const MOST_DEFLECTIONS: u32 = 100;
 
 impl<'a> Tracer<'a> {
     /// A tracer of shots that leave the exit at `speed` (m/s) times their own factor.
-    pub fn new(setup: &'a Setup, choice: &Choice, speed: f64) -> Self {
-        let contact = setup.problem.contacts[choice.contact].at(choice.static_friction);
-        let has_one = setup
+    pub fn new(scenario: &'a Scenario, settings: &Settings, speed: f64) -> Self {
+        let contact = scenario.problem.contacts[settings.contact].at(settings.static_friction);
+        let has_one = scenario
             .surfaces
             .iter()
             .all(|surface| surface.contact.is_none());
@@ -107,18 +107,21 @@ impl<'a> Tracer<'a> {
             _ => None,
         };
         Self {
-            pose: Pose::new(&setup.target.frame, choice),
-            has_deflectors: setup.surfaces.iter().any(|surface| surface.deflector),
-            has_rough_surfaces: setup.surfaces.iter().any(|surface| surface.roughness > 0.0),
-            moves_parts: setup.scene.moves_with_nozzle(),
+            pose: Pose::new(&scenario.target.frame, settings),
+            has_deflectors: scenario.surfaces.iter().any(|surface| surface.deflector),
+            has_rough_surfaces: scenario
+                .surfaces
+                .iter()
+                .any(|surface| surface.roughness > 0.0),
+            moves_parts: scenario.scene.moves_with_nozzle(),
             only_contact,
-            setup,
-            aim: Aim::new(choice),
+            scenario,
+            aim: Aim::new(settings),
             contact,
             speed,
-            mass: setup.problem.shot.mass(),
-            radius: if setup.problem.paths.shot_size {
-                setup.problem.shot.radius
+            mass: scenario.problem.shot.mass(),
+            radius: if scenario.problem.paths.shot_size {
+                scenario.problem.shot.radius
             } else {
                 0.0
             },
@@ -128,26 +131,26 @@ impl<'a> Tracer<'a> {
     /// Follows one shot of the jet; reports each impact but those on deflectors. Returns why the
     /// path ended and how many rays it took.
     #[inline]
-    pub fn follow(&self, deviate: &Deviate, report: impl FnMut(&PathImpact)) -> (End, usize) {
-        self.follow_from(self.launch(deviate), deviate, report)
+    pub fn follow(&self, sample: &ShotSample, report: impl FnMut(&PathImpact)) -> (End, usize) {
+        self.follow_from(self.launch(sample), sample, report)
     }
 
     /// The ray along which a shot of the jet leaves the nozzle.
     #[inline]
-    pub fn launch(&self, deviate: &Deviate) -> Ray {
-        self.aim.shot(&self.setup.target.frame, deviate)
+    pub fn launch(&self, sample: &ShotSample) -> Ray {
+        self.aim.shot(&self.scenario.target.frame, sample)
     }
 
     /// Follows a shot that starts anywhere in the scene, with the mass, speed, contact and pose of
-    /// the nozzle that `deviate` gives it.
+    /// the nozzle that `sample` gives it.
     #[inline]
     pub fn follow_from(
         &self,
         start: Ray,
-        deviate: &Deviate,
+        sample: &ShotSample,
         mut report: impl FnMut(&PathImpact),
     ) -> (End, usize) {
-        self.follow_all_from(start, deviate, |impact| {
+        self.follow_all_from(start, sample, |impact| {
             if impact.number > 0 {
                 report(impact);
             }
@@ -159,33 +162,33 @@ impl<'a> Tracer<'a> {
     pub fn follow_all_from(
         &self,
         start: Ray,
-        deviate: &Deviate,
+        sample: &ShotSample,
         mut report: impl FnMut(&PathImpact),
     ) -> (End, usize) {
-        let setup = self.setup;
-        let limits = setup.problem.paths;
-        let mass = self.mass * deviate.mass();
-        let radius = self.radius * deviate.size;
-        let stand = self.moves_parts.then(|| self.stand(deviate));
+        let scenario = self.scenario;
+        let limits = scenario.problem.paths;
+        let mass = self.mass * sample.mass();
+        let radius = self.radius * sample.size;
+        let nozzle_frame = self.moves_parts.then(|| self.nozzle_frame(sample));
         let mut ray = start;
-        let mut velocity = ray.direction * (self.speed * deviate.speed);
+        let mut velocity = ray.direction * (self.speed * sample.speed);
         let mut rolling = Vector3::zeros();
-        let mut leaving: Option<Spot> = None;
+        let mut leaving: Option<HitId> = None;
         let least_energy = limits.least_energy * energy(velocity.into(), rolling.into());
         let (mut number, mut deflections, mut rays) = (0, 0, 0);
         loop {
             rays += 1;
-            let met = setup
+            let met = scenario
                 .scene
-                .first_contact(&ray, radius, leaving, stand.as_ref());
+                .first_contact(&ray, radius, leaving, nozzle_frame.as_ref());
             let Some(hit) = met else {
                 return (End::Left, rays);
             };
             let centre = hit.point + hit.normal * radius;
-            let surface = &setup.surfaces[hit.surface as usize];
-            let contact = self.contact_with(hit.surface as usize, deviate);
+            let surface = &scenario.surfaces[hit.surface as usize];
+            let contact = self.contact_with(hit.surface as usize, sample);
             let normal = if surface.roughness > 0.0 {
-                let tilt = rough::tilt(deviate, rays as u32, surface.roughness);
+                let tilt = rough::tilt(sample, rays as u32, surface.roughness);
                 rough_normal(&contact, &velocity, &rolling, &hit.normal, tilt)
             } else {
                 hit.normal
@@ -202,7 +205,7 @@ impl<'a> Tracer<'a> {
             report(&PathImpact {
                 number: if surface.deflector { 0 } else { number },
                 surface: hit.surface,
-                on_target: setup.target.holds(&hit),
+                on_target: scenario.target.holds(&hit),
                 normal_impulse: mass * after.normal,
                 tangential_impulse: mass * after.tangential,
                 regime: after.regime,
@@ -228,47 +231,50 @@ impl<'a> Tracer<'a> {
                 origin: centre,
                 direction: unit(velocity.into()).into(),
             };
-            leaving = Some(hit.spot);
+            leaving = Some(hit.hit_id);
         }
     }
 
-    /// Fires shots in volleys and tells the witness about them; `end_volley` is told the shots of
+    /// Fires shots in volleys and tells the witness about them; `end_packet` is told the shots of
     /// each volley and the rays that they took together.
-    pub(crate) fn fire<R: Real, W: Witness<R>>(
+    pub(crate) fn fire<R: Real, W: Observer<R>>(
         &self,
-        shots: &[Deviate],
-        witness: &mut W,
-        mut end_volley: impl FnMut(&mut W, &[Deviate], usize),
+        shots: &[ShotSample],
+        observer: &mut W,
+        mut end_packet: impl FnMut(&mut W, &[ShotSample], usize),
     ) {
         if shots.is_empty() {
             return;
         }
-        let mut volley = Volley::none();
+        let mut packet = RayPacket::none();
         for shots in shots.chunks(LANES) {
             fetch(shots);
-            let rays = fire(self, &mut volley, shots, witness);
-            end_volley(witness, shots, rays);
+            let rays = fire(self, &mut packet, shots, observer);
+            end_packet(observer, shots, rays);
         }
     }
 
     /// Where the nozzle really stands for a shot.
-    fn stand(&self, deviate: &Deviate) -> Stand<f64> {
-        let frame = &self.setup.target.frame;
-        self.aim.pose_set_for(frame, deviate).stand()
+    fn nozzle_frame(&self, sample: &ShotSample) -> NozzleFrame<f64> {
+        let frame = &self.scenario.target.frame;
+        self.aim.pose_set_for(frame, sample).nozzle_frame()
     }
 
     /// The contact of a shot with a surface, when restitution and friction are not exactly known.
-    fn contact_with(&self, surface: usize, deviate: &Deviate) -> Contact {
-        let contact = self.setup.surfaces[surface].contact.unwrap_or(self.contact);
-        perturbed(contact, deviate)
+    fn contact_with(&self, surface: usize, sample: &ShotSample) -> Contact {
+        let contact = self.scenario.surfaces[surface]
+            .contact
+            .unwrap_or(self.contact);
+        perturbed(contact, sample)
     }
 }
 
 /// Reads from all over some shots, so that they come from memory together. Where they are needed one
 /// by one, between arithmetic, each is waited for by itself.
-fn fetch(shots: &[Deviate]) {
-    let lines =
-        |shot: &Deviate| shot.exit[0].to_bits() ^ shot.azimuth[0].to_bits() ^ shot.weight.to_bits();
+fn fetch(shots: &[ShotSample]) {
+    let lines = |shot: &ShotSample| {
+        shot.exit[0].to_bits() ^ shot.azimuth[0].to_bits() ^ shot.weight.to_bits()
+    };
     black_box(shots.iter().fold(0, |all, shot| all ^ lines(shot)));
 }
 
@@ -295,14 +301,14 @@ fn energy<R: Real>(velocity: Triple<R>, rolling: Triple<R>) -> R {
 }
 
 /// The contact that a shot meets when restitution and friction are not exactly known.
-fn perturbed(contact: Contact, deviate: &Deviate) -> Contact {
-    if deviate.restitution == 0.0 && deviate.friction == 1.0 {
+fn perturbed(contact: Contact, sample: &ShotSample) -> Contact {
+    if sample.restitution == 0.0 && sample.friction == 1.0 {
         return contact;
     }
     Contact {
-        static_friction: contact.static_friction * deviate.friction,
-        dynamic_friction: contact.dynamic_friction * deviate.friction,
-        restitution: contact.restitution.shifted(deviate.restitution),
+        static_friction: contact.static_friction * sample.friction,
+        dynamic_friction: contact.dynamic_friction * sample.friction,
+        restitution: contact.restitution.shifted(sample.restitution),
         ..contact
     }
 }

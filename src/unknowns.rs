@@ -8,9 +8,9 @@ use rayon::prelude::*;
 
 use crate::elementary::atan2;
 use crate::evaluate::evaluate;
-use crate::jet::{Deviate, Replicate, Replicates, purpose};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::jet::{Replicate, Replicates, ShotSample, purpose};
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::trace::Tracer;
 use crate::verdict::{Subject, Verdict};
 
@@ -60,8 +60,8 @@ const SHOTS: usize = 4096;
 
 impl Unknowns {
     /// Evaluates both ends of what has a tolerance; `None` where nothing has one.
-    pub fn of(setup: &Setup, choice: &Choice) -> Option<Self> {
-        let tolerance = &setup.problem.tolerance;
+    pub fn of(scenario: &Scenario, settings: &Settings) -> Option<Self> {
+        let tolerance = &scenario.problem.tolerance;
         let given = [
             (Quantity::Restitution, tolerance.restitution),
             (Quantity::Friction, tolerance.friction),
@@ -69,9 +69,9 @@ impl Unknowns {
         if given.iter().all(|(_, half_width)| *half_width == 0.0) {
             return None;
         }
-        let shots = common_shots(setup);
+        let shots = common_shots(scenario);
         let effect = |quantity: Quantity, change: f64| {
-            Outcome::of(setup, choice, &with(&shots, quantity, change))
+            Outcome::of(scenario, settings, &with(&shots, quantity, change))
         };
         let ranges = given
             .into_iter()
@@ -79,7 +79,7 @@ impl Unknowns {
             .map(|(quantity, half_width)| UnknownRange {
                 quantity,
                 ends: [-half_width, half_width].map(|change| {
-                    let value = quantity.at_target(setup, choice, change);
+                    let value = quantity.at_target(scenario, settings, change);
                     (value, effect(quantity, change))
                 }),
             })
@@ -93,8 +93,8 @@ impl Unknowns {
 
 impl Quantity {
     /// Its value at the target after a change: absolute for restitution, relative for friction.
-    fn at_target(self, setup: &Setup, choice: &Choice, change: f64) -> f64 {
-        let contact = setup.contact_on(setup.target.surface, choice);
+    fn at_target(self, scenario: &Scenario, settings: &Settings, change: f64) -> f64 {
+        let contact = scenario.contact_on(scenario.target.surface, settings);
         match self {
             Self::Restitution => contact.restitution.shifted(change).reference(),
             Self::Friction => contact.static_friction * (1.0 + change),
@@ -102,23 +102,23 @@ impl Quantity {
     }
 
     /// The shot with this one changed and the other one nominal.
-    fn change(self, deviate: &Deviate, change: f64) -> Deviate {
+    fn change(self, sample: &ShotSample, change: f64) -> ShotSample {
         match self {
-            Self::Restitution => Deviate {
+            Self::Restitution => ShotSample {
                 restitution: change,
-                ..*deviate
+                ..*sample
             },
-            Self::Friction => Deviate {
+            Self::Friction => ShotSample {
                 friction: 1.0 + change,
-                ..*deviate
+                ..*sample
             },
         }
     }
 }
 
 /// Shots that meet the nominal contact.
-fn common_shots(setup: &Setup) -> Replicates {
-    let mut problem = setup.problem.clone();
+fn common_shots(scenario: &Scenario) -> Replicates {
+    let mut problem = scenario.problem.clone();
     problem.tolerance.restitution = 0.0;
     problem.tolerance.friction = 0.0;
     Replicates::new(&problem, purpose::UNKNOWNS, SHOTS)
@@ -126,35 +126,35 @@ fn common_shots(setup: &Setup) -> Replicates {
 
 fn with(shots: &Replicates, quantity: Quantity, change: f64) -> Replicates {
     let mut shots = shots.clone();
-    for Replicate { jet, rim } in &mut shots.sets {
-        for deviate in jet.deviates.iter_mut().chain(&mut rim.deviates) {
-            *deviate = quantity.change(deviate, change);
+    for Replicate { jet, boundary } in &mut shots.sets {
+        for sample in jet.shots.iter_mut().chain(&mut boundary.shots) {
+            *sample = quantity.change(sample, change);
         }
     }
     shots
 }
 
 impl Outcome {
-    fn of(setup: &Setup, choice: &Choice, shots: &Replicates) -> Self {
-        let evaluation = evaluate(setup, choice, shots);
-        let shares = Verdict::all(setup, &evaluation)
+    fn of(scenario: &Scenario, settings: &Settings, shots: &Replicates) -> Self {
+        let evaluation = evaluate(scenario, settings, shots);
+        let shares = Verdict::all(scenario, &evaluation)
             .iter()
             .map(|verdict| (verdict.subject, verdict.share()))
             .collect();
         Self {
             objective: evaluation.terms.total(),
-            rebound_angle: mean_rebound_angle(setup, choice, shots),
+            rebound_angle: mean_rebound_angle(scenario, settings, shots),
             normal_impulse: evaluation.target.normal_impulse.mean,
             shares,
         }
     }
 }
 
-fn mean_rebound_angle(setup: &Setup, choice: &Choice, shots: &Replicates) -> Option<f64> {
+fn mean_rebound_angle(scenario: &Scenario, settings: &Settings, shots: &Replicates) -> Option<f64> {
     let sums: Vec<(f64, usize)> = shots
         .sets
         .par_iter()
-        .map(|set| sum_of_rebound_angles(setup, choice, &set.jet.deviates))
+        .map(|set| sum_of_rebound_angles(scenario, settings, &set.jet.shots))
         .collect();
     let (sum, count) = sums.iter().fold((0.0, 0), |(sum, count), (more, hits)| {
         (sum + more, count + hits)
@@ -163,13 +163,17 @@ fn mean_rebound_angle(setup: &Setup, choice: &Choice, shots: &Replicates) -> Opt
 }
 
 /// Sum over first hits on target, and their number.
-fn sum_of_rebound_angles(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> (f64, usize) {
-    let tracer = Tracer::new(setup, choice, choice.speed);
-    let contact = setup.contact_on(setup.target.surface, choice);
+fn sum_of_rebound_angles(
+    scenario: &Scenario,
+    settings: &Settings,
+    shots: &[ShotSample],
+) -> (f64, usize) {
+    let tracer = Tracer::new(scenario, settings, settings.speed);
+    let contact = scenario.contact_on(scenario.target.surface, settings);
     let (mut sum, mut hits) = (0.0, 0);
     for shot in shots {
         let restitution = contact.restitution.shifted(shot.restitution);
-        let mass = setup.problem.shot.mass() * shot.mass();
+        let mass = scenario.problem.shot.mass() * shot.mass();
         tracer.follow(shot, |impact| {
             if impact.number == 1 && impact.on_target {
                 // What N* tells of the speed of arrival, E tells of the departure.

@@ -11,8 +11,8 @@ mod size;
 pub use interference::STRONG as STRONG_INTERFERENCE;
 
 use crate::evaluate::Evaluation;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 
 /// Something that the model leaves out or that the user should know, with its number.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,14 +26,18 @@ pub struct Note {
 }
 
 /// The notes on an answer; `evaluation` is what it does, when that is known.
-pub fn notes(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluation>) -> Vec<Note> {
+pub fn notes(
+    scenario: &Scenario,
+    settings: &Settings,
+    evaluation: Option<&Evaluation>,
+) -> Vec<Note> {
     let mut notes = vec![
-        flight::gravity(choice),
-        flight::drag(setup, choice),
-        restitution::note(setup, choice, evaluation),
+        flight::gravity(settings),
+        flight::drag(scenario, settings),
+        restitution::note(scenario, settings, evaluation),
     ];
-    notes.extend(size::point_shots(setup));
-    if setup.problem.tolerance == Default::default() {
+    notes.extend(size::point_shots(scenario));
+    if scenario.problem.tolerance == Default::default() {
         notes.push(Note {
             name: "no_tolerance",
             value: 0.0,
@@ -41,11 +45,11 @@ pub fn notes(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluation>) ->
                 .into(),
         });
     }
-    notes.extend(interference::note(setup, choice, evaluation));
-    notes.extend(size::fillet(setup));
-    notes.extend(size::opening(setup, choice));
-    notes.extend(facets::note(setup));
-    notes.extend(setup.scene.warnings().iter().map(|warning| Note {
+    notes.extend(interference::note(scenario, settings, evaluation));
+    notes.extend(size::fillet(scenario));
+    notes.extend(size::opening(scenario, settings));
+    notes.extend(facets::note(scenario));
+    notes.extend(scenario.scene.warnings().iter().map(|warning| Note {
         name: "mesh",
         value: 0.0,
         text: warning.clone(),

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::evaluate::{Counts, Evaluation};
 use crate::feasibility::{Infeasible, Obstacle, gap_within_tolerance};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use interval::Count;
 
 /// What a verdict is about.
@@ -44,13 +44,13 @@ pub struct Verdict {
 
 impl Verdict {
     /// All verdicts on an evaluation: the goals, then every surface that has a limit.
-    pub fn all(setup: &Setup, evaluation: &Evaluation) -> Vec<Self> {
-        Self::on(setup, &Counts::of(evaluation))
+    pub fn all(scenario: &Scenario, evaluation: &Evaluation) -> Vec<Self> {
+        Self::on(scenario, &Counts::of(evaluation))
     }
 
     /// The same on what was counted.
-    pub fn on(setup: &Setup, counts: &Counts) -> Vec<Self> {
-        let goals = &setup.problem.goals;
+    pub fn on(scenario: &Scenario, counts: &Counts) -> Vec<Self> {
+        let goals = &scenario.problem.goals;
         let is_exact = counts.is_exact;
         let mut verdicts = vec![
             Self {
@@ -77,7 +77,7 @@ impl Verdict {
                 is_exact,
             });
         }
-        for (index, (limits, &over)) in setup.surfaces.iter().zip(&counts.over).enumerate() {
+        for (index, (limits, &over)) in scenario.surfaces.iter().zip(&counts.over).enumerate() {
             if limits.allow.is_some() && !limits.deflector {
                 verdicts.push(Self {
                     subject: Subject::Surface(index as u32),
@@ -93,11 +93,15 @@ impl Verdict {
 
     /// The verdicts on the nozzle, from why its settings are infeasible, if they are: one that is inside the
     /// material may be too near to its walls as well.
-    pub fn of_pose(setup: &Setup, choice: &Choice, infeasible: Option<&Infeasible>) -> [Self; 2] {
+    pub fn of_pose(
+        scenario: &Scenario,
+        settings: &Settings,
+        infeasible: Option<&Infeasible>,
+    ) -> [Self; 2] {
         let is_near = |it: &Infeasible| matches!(it.obstacle, Obstacle::Surface(_));
-        let clearance = setup.problem.nozzle.clearance;
+        let clearance = scenario.problem.nozzle.clearance;
         let is_nearer =
-            || gap_within_tolerance(setup, choice).is_some_and(|gap| gap.distance < clearance);
+            || gap_within_tolerance(scenario, settings).is_some_and(|gap| gap.distance < clearance);
         let too_near = infeasible.is_some_and(|it| is_near(it) || is_nearer());
         let is_hidden = infeasible.is_some_and(|it| !is_near(it));
         let verdict = |subject, is_broken| Self {

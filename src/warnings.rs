@@ -6,7 +6,7 @@ mod sight;
 
 use crate::problem::Source;
 use crate::problem::warning::{self, Warning};
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 
 /// All warnings about a problem, in the order of its text.
 ///
@@ -16,11 +16,11 @@ use crate::setup::Setup;
 /// assert_eq!(warnings::of(&setup, &source), []);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn of(setup: &Setup, source: &Source) -> Vec<Warning> {
-    let mut found = warning::warnings(&setup.problem);
-    found.extend(extent::warnings(setup));
-    found.extend(inside::warning(setup));
-    found.extend(sight::warning(setup));
+pub fn of(scenario: &Scenario, source: &Source) -> Vec<Warning> {
+    let mut found = warning::warnings(&scenario.problem);
+    found.extend(extent::warnings(scenario));
+    found.extend(inside::warning(scenario));
+    found.extend(sight::warning(scenario));
     let mut placed: Vec<Warning> = found.into_iter().map(|it| it.in_text(source)).collect();
     placed.sort_by_key(|warning| warning.at);
     placed

@@ -7,10 +7,10 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use common::announced;
-use peenpose::problem::rule::Rule;
+use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::size::{LONGEST_KEY, LONGEST_TEXT, MOST_ITEMS};
+use peenpose::scenario::{Rejection, Scenario};
 use peenpose::scene::mesh_file::{LARGEST_FILE, LONGEST_NAME, MOST_CORNERS, MOST_SURFACES};
-use peenpose::setup::{Rejection, Setup};
 
 /// Problem files with faults of the file, and with faults of its parts and meshes.
 const FOLDERS: [&str; 2] = ["tests/bad", "tests/bad_geometry"];
@@ -25,7 +25,7 @@ fn bad_files() -> Vec<PathBuf> {
 }
 
 fn rejection(path: &Path) -> Box<Rejection> {
-    let refused = Setup::load(path).err();
+    let refused = Scenario::load(path).err();
     refused.unwrap_or_else(|| panic!("{} is sound", path.display()))
 }
 
@@ -93,7 +93,7 @@ fn with_loose_bytes() -> Vec<u8> {
 }
 
 /// The rules that are broken by files too large to keep, or by none.
-fn broken_by_made_files() -> Vec<Rule> {
+fn broken_by_made_files() -> Vec<FaultCode> {
     let folder = tempfile::tempdir().unwrap();
     let problem = fs::read_to_string("tests/bad_geometry/sound/plate.yaml").unwrap();
     let path = folder.path().join("problem.yaml");
@@ -141,16 +141,17 @@ fn broken_by_made_files() -> Vec<Rule> {
 }
 
 /// What takes gigabytes or minutes to break.
-const TOO_DEAR_TO_BREAK: [Rule; 2] = [Rule::SceneTooLarge, Rule::MeshFacesTooWinding];
+const TOO_DEAR_TO_BREAK: [FaultCode; 2] =
+    [FaultCode::SceneTooLarge, FaultCode::MeshFacesTooWinding];
 
 #[test]
 fn every_rule_is_broken_by_a_bad_file() {
-    let mut broken: BTreeSet<Rule> = broken_by_made_files().into_iter().collect();
+    let mut broken: BTreeSet<FaultCode> = broken_by_made_files().into_iter().collect();
     for path in bad_files() {
         broken.extend(rejection(&path).faults.iter().map(|fault| fault.rule));
     }
-    let rules: BTreeSet<Rule> = Rule::ALL.iter().copied().collect();
-    let unbroken: Vec<&Rule> = rules.difference(&broken).collect();
+    let rules: BTreeSet<FaultCode> = FaultCode::ALL.iter().copied().collect();
+    let unbroken: Vec<&FaultCode> = rules.difference(&broken).collect();
     assert!(
         unbroken.iter().copied().eq(&TOO_DEAR_TO_BREAK),
         "no bad file breaks {unbroken:?}"

@@ -5,12 +5,12 @@
 #[path = "../examples/common/mod.rs"]
 mod common;
 
-use common::fresh;
 use common::known::Known;
 use common::statistics::Mean;
+use common::validation;
 use common::variant::{Shots, Variant, variants};
 use peenpose::feasibility::infeasibility;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
 use peenpose::solve::{Control, solve};
 
 const SHOTS: usize = 1 << 16;
@@ -25,16 +25,16 @@ const ROUNDING: f64 = 1e-4;
 fn the_best_settings_known_do_what_the_table_says() {
     let table = Known::read().unwrap();
     for variant in variants() {
-        let setup = variant.setup().unwrap();
+        let scenario = variant.scenario().unwrap();
         let known: Vec<&Known> = table.iter().filter(|known| known.is_of(&variant)).collect();
-        assert_eq!(known.len(), setup.problem.settings.contact.len());
-        let choices: Vec<Choice> = known
+        assert_eq!(known.len(), scenario.problem.ranges.contact.len());
+        let choices: Vec<Settings> = known
             .iter()
-            .map(|known| known.choice(&setup.problem).unwrap())
+            .map(|known| known.settings(&scenario.problem).unwrap())
             .collect();
-        let objectives = fresh::objectives(&setup, &choices, FIRST_SET, SHOTS);
+        let objectives = validation::objectives(&scenario, &choices, FIRST_SET, SHOTS);
         for (index, known) in known.iter().enumerate() {
-            assert_eq!(infeasibility(&setup, &choices[index]), None);
+            assert_eq!(infeasibility(&scenario, &choices[index]), None);
             let Mean {
                 value,
                 standard_error,
@@ -63,16 +63,17 @@ fn searches_find_the_best_settings_known() {
     let is_quick =
         |variant: &Variant| variant.shots == Shots::Spheres && variant.file != "keyway-blind.yaml";
     for variant in variants().filter(is_quick) {
-        let mut setup = variant.setup().unwrap();
+        let mut scenario = variant.scenario().unwrap();
         for known in table.iter().filter(|known| known.is_of(&variant)) {
-            let best = known.choice(&setup.problem).unwrap();
-            setup.problem.settings.contact = vec![best.contact];
+            let best = known.settings(&scenario.problem).unwrap();
+            scenario.problem.ranges.contact = vec![best.contact];
             let answers = (1..=20).map(|seed| {
-                setup.problem.seed = seed;
-                solve(&setup, &Control::default()).answers[0].choice
+                scenario.problem.seed = seed;
+                solve(&scenario, &Control::default()).answers[0].settings
             });
-            let answers: Vec<Choice> = answers.collect();
-            let excesses = fresh::excesses(&setup, &[best], &answers, FIRST_SET, SHOTS_OF_EXCESSES);
+            let answers: Vec<Settings> = answers.collect();
+            let excesses =
+                validation::excesses(&scenario, &[best], &answers, FIRST_SET, SHOTS_OF_EXCESSES);
             let excesses: Vec<f64> = excesses.iter().map(|excess| excess.value).collect();
             let (name, contact) = (variant.name(), &known.contact);
             let failures = excesses.iter().filter(|&&excess| excess > 0.01).count();

@@ -9,7 +9,7 @@ use peenpose::chart::{BesidePoint, Chart, Control, PoseCurve, Refusal, Sampling,
 use peenpose::precision::Precision;
 use peenpose::report;
 use peenpose::report::figure::Figure;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use resvg::tiny_skia::Pixmap;
 use resvg::usvg::roxmltree::Document;
 use tempfile::TempDir;
@@ -397,15 +397,15 @@ fn a_problem_without_scatter_has_no_figure_of_it() {
     );
 }
 
-fn setup() -> (TempDir, Setup, peenpose::problem::Source) {
+fn scenario() -> (TempDir, Scenario, peenpose::problem::Source) {
     let folder = folder();
-    let (setup, source) = Setup::load(&folder.path().join("floor.yaml")).unwrap();
-    (folder, setup, source)
+    let (scenario, source) = Scenario::load(&folder.path().join("floor.yaml")).unwrap();
+    (folder, scenario, source)
 }
 
 #[test]
 fn everything_but_times_is_the_same_for_any_number_of_threads() {
-    let (_folder, setup, source) = setup();
+    let (_folder, scenario, source) = scenario();
     let control = Control {
         most_shots: 1024,
         replicates: 3,
@@ -417,7 +417,7 @@ fn everything_but_times_is_the_same_for_any_number_of_threads() {
             .num_threads(threads)
             .build()
             .unwrap();
-        let chart = || measure(&setup, &source, String::new(), Vec::new(), &control).unwrap();
+        let chart = || measure(&scenario, &source, String::new(), Vec::new(), &control).unwrap();
         let mut chart = pool.install(chart);
         chart.threads = 0;
         let points = chart.poses.iter_mut().flat_map(|curve| &mut curve.points);
@@ -438,19 +438,19 @@ fn everything_but_times_is_the_same_for_any_number_of_threads() {
 
 #[test]
 fn a_chart_that_is_stopped_at_once_says_so() {
-    let (_folder, setup, source) = setup();
+    let (_folder, scenario, source) = scenario();
     let stop = AtomicBool::new(true);
     let control = Control {
         stop: &stop,
         ..Control::default()
     };
-    let refused = measure(&setup, &source, String::new(), Vec::new(), &control);
+    let refused = measure(&scenario, &source, String::new(), Vec::new(), &control);
     assert_eq!(refused, Err(Refusal::Interrupted));
 }
 
 #[test]
 fn a_chart_that_is_stopped_later_keeps_what_it_has() {
-    let (_folder, setup, source) = setup();
+    let (_folder, scenario, source) = scenario();
     let stop = AtomicBool::new(false);
     let control = Control {
         most_shots: 64,
@@ -462,7 +462,7 @@ fn a_chart_that_is_stopped_later_keeps_what_it_has() {
             stop.fetch_or(enough, std::sync::atomic::Ordering::Relaxed);
         },
     };
-    let chart = measure(&setup, &source, String::new(), Vec::new(), &control).unwrap();
+    let chart = measure(&scenario, &source, String::new(), Vec::new(), &control).unwrap();
     assert!(chart.interrupted);
     assert_eq!(chart.poses.len(), 3 * 5);
     assert_eq!(chart.searches.as_ref().unwrap().runs.len(), 2);

@@ -6,7 +6,7 @@ use std::ops::AddAssign;
 
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector2, Vector3};
 use peenpose::problem::part::{Ends, Part, Place, Segment, Shape};
-use peenpose::scene::ray::{Ray, Spot};
+use peenpose::scene::ray::{HitId, Ray};
 use peenpose::scene::{Scene, Walls};
 use rayon::prelude::*;
 
@@ -153,7 +153,7 @@ impl Room {
             root,
             chord_angle: match walls {
                 Walls::Exact => None,
-                Walls::Facets { chord_angle } => Some(chord_angle),
+                Walls::TriangleMesh { chord_angle } => Some(chord_angle),
             },
         };
         let shape = keyway.shape(floor_pieces);
@@ -214,7 +214,7 @@ impl Room {
     fn follow(&self, start: Ray, casts: usize, rebounds: Rebounds, random: &mut Random) -> Count {
         let mut count = Count::default();
         let mut ray = start;
-        let mut leaving: Option<Spot> = None;
+        let mut leaving: Option<HitId> = None;
         let mut still = 0;
         for _ in 0..casts {
             count.casts += 1;
@@ -232,7 +232,7 @@ impl Room {
                 still += 1;
                 // A shot that grazes a round wall meets it again soon, but not at once.
                 let at_once = hit.distance <= f64::EPSILON * self.scene.size();
-                if leaving == Some(hit.spot) && at_once {
+                if leaving == Some(hit.hit_id) && at_once {
                     count.self_hits += 1;
                     count.note(format!("{}: hits where it left: {ray:?}", self.name));
                 }
@@ -256,7 +256,7 @@ impl Room {
                 origin: hit.point,
                 direction,
             };
-            leaving = Some(hit.spot);
+            leaving = Some(hit.hit_id);
         }
         count
     }
@@ -359,7 +359,7 @@ impl Random {
 }
 
 fn rooms() -> Vec<Room> {
-    let facets = |degrees: f64| Walls::Facets {
+    let facets = |degrees: f64| Walls::TriangleMesh {
         chord_angle: degrees.to_radians(),
     };
     let here = Place::default();
@@ -618,7 +618,7 @@ fn rays_into_exact_corners_come_back() {
                 origin: hit.point,
                 direction: ray.direction - hit.normal * (2.0 * into),
             };
-            leaving = Some(hit.spot);
+            leaving = Some(hit.hit_id);
         }
         assert!(
             (ray.direction + start.direction).norm() < 1e-15,

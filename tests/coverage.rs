@@ -5,8 +5,8 @@ use std::path::Path;
 
 use peenpose::coverage::Coverage;
 use peenpose::problem;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 
 /// A parallel jet of 4 mm onto a square of 2 mm: every part of it is hit alike.
 const PLATE: &str = "
@@ -35,8 +35,8 @@ fn coverage(changes: &[(&str, &str)]) -> Option<Coverage> {
     let reading = problem::read_text(&text, Path::new("plate.yaml")).unwrap();
     let faults = problem::render(&reading.source, &reading.faults, false);
     let problem = reading.problem.unwrap_or_else(|| panic!("{faults}"));
-    let setup = Setup::new(problem, Walls::Exact).unwrap();
-    Coverage::of(&setup, &setup.problem.settings.middle())
+    let scenario = Scenario::new(problem, Walls::Exact).unwrap();
+    Coverage::of(&scenario, &scenario.problem.ranges.middle())
 }
 
 #[track_caller]
@@ -186,7 +186,7 @@ fn a_target_as_narrow_as_can_be_has_few_cells() {
 /// what is dented.
 #[test]
 fn what_is_dented_is_not_what_the_mean_density_dents() {
-    let spot = |wanted: &str| {
+    let hit_id = |wanted: &str| {
         coverage(&[
             (
                 "[-1, -1, -1], max: [1, 1, 1]",
@@ -197,7 +197,7 @@ fn what_is_dented_is_not_what_the_mean_density_dents() {
         .unwrap()
     };
     let disc = PI * 4.0 / 36.0;
-    let never = spot("wanted: 90 %").dented;
+    let never = hit_id("wanted: 90 %").dented;
     assert_eq!(never.mass, None);
     let not_reached = never.share_not_reached;
     assert!(
@@ -215,7 +215,7 @@ fn what_is_dented_is_not_what_the_mean_density_dents() {
     assert!(by_even_mass.standard_error > 0.0);
 
     // 30 % of the square are 0.3/disc of the disc.
-    let some = spot("wanted: 30 %").dented;
+    let some = hit_id("wanted: 30 %").dented;
     let mass = some.mass.unwrap();
     let hits = -(1.0 - 0.3 / disc).ln() / (PI * 0.04e-6 / 4.0);
     let expected = hits * PI * 4e-6 * MASS;

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use nalgebra::{Rotation3, Unit, Vector3};
 use peenpose::feasibility::infeasibility;
-use peenpose::jet::{Deviate, Pose, Samples, Stream};
+use peenpose::jet::{Pose, Samples, ShotSample, Stream};
 use peenpose::problem;
 use peenpose::problem::equipment::{Body, Nozzle};
-use peenpose::problem::setting::{Choice, Tolerance};
+use peenpose::problem::setting::{Settings, Tolerance};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Control, solve};
 use peenpose::trace::{PathImpact, Tracer};
 
@@ -44,17 +44,17 @@ surfaces:
   mirror.face: { role: deflector, contact: { mu_s: 0, mu_d: 0, restitution: 1 } }
 ";
 
-fn mirror(shot_size: bool) -> Setup {
+fn mirror(shot_size: bool) -> Scenario {
     let reading = problem::read_text(MIRROR, Path::new("mirror.yaml")).unwrap();
     let mut problem = reading
         .problem
         .unwrap_or_else(|| panic!("{:?}", reading.faults));
     problem.paths.shot_size = shot_size;
-    Setup::new(problem, Walls::Exact).unwrap()
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
-fn choice(incidence_deg: f64, azimuth_deg: f64) -> Choice {
-    Choice {
+fn settings(incidence_deg: f64, azimuth_deg: f64) -> Settings {
+    Settings {
         incidence: incidence_deg.to_radians(),
         azimuth: azimuth_deg.to_radians(),
         standoff: 10e-3,
@@ -67,9 +67,9 @@ fn choice(incidence_deg: f64, azimuth_deg: f64) -> Choice {
     }
 }
 
-fn first_impact(setup: &Setup, choice: &Choice, deviate: &Deviate) -> PathImpact {
+fn first_impact(scenario: &Scenario, settings: &Settings, sample: &ShotSample) -> PathImpact {
     let mut first = None;
-    Tracer::new(setup, choice, choice.speed).follow(deviate, |impact| {
+    Tracer::new(scenario, settings, settings.speed).follow(sample, |impact| {
         first.get_or_insert(*impact);
     });
     first.expect("it hits the wall")
@@ -78,22 +78,22 @@ fn first_impact(setup: &Setup, choice: &Choice, deviate: &Deviate) -> PathImpact
 #[test]
 fn a_mirror_on_the_nozzle_turns_the_jet_wherever_the_nozzle_is() {
     for radius in [0.0, 0.4e-3] {
-        let setup = mirror(radius > 0.0);
+        let scenario = mirror(radius > 0.0);
         // A shot touches the mirror when its centre is a radius away.
         let reach = 10e-3 - radius * 2.0_f64.sqrt();
         for incidence in [0.0, 1.0, 20.0, 45.0, 60.0] {
             for azimuth in [0.0, 37.0, -120.0] {
-                let choice = choice(incidence, azimuth);
-                let pose = Pose::new(&setup.target.frame, &choice);
+                let settings = settings(incidence, azimuth);
+                let pose = Pose::new(&scenario.target.frame, &settings);
                 let turn = pose.exit + pose.direction * reach;
                 // From there against x of the nozzle, to where the centre is a radius above z = 0.
                 let flight = (turn.z - radius) / pose.up.z;
                 let expected = turn - pose.up * flight - Vector3::z() * radius;
-                let impact = first_impact(&setup, &choice, &Deviate::NONE);
+                let impact = first_impact(&scenario, &settings, &ShotSample::NONE);
                 let what = format!("{incidence} deg, {azimuth} deg: {impact:?}");
                 assert!((impact.point - expected).norm() < 1e-12, "{what}");
                 let normal_speed = 20.0 * pose.up.z;
-                let impulse = 1.5 * setup.problem.shot.mass() * normal_speed;
+                let impulse = 1.5 * scenario.problem.shot.mass() * normal_speed;
                 assert!(
                     (impact.normal_impulse / impulse - 1.0).abs() < 1e-12,
                     "{what}"
@@ -105,8 +105,8 @@ fn a_mirror_on_the_nozzle_turns_the_jet_wherever_the_nozzle_is() {
 
 #[test]
 fn along_the_wall_the_height_does_not_matter_but_for_the_flight() {
-    let setup = mirror(false);
-    let impact = first_impact(&setup, &choice(0.0, 0.0), &Deviate::NONE);
+    let scenario = mirror(false);
+    let impact = first_impact(&scenario, &settings(0.0, 0.0), &ShotSample::NONE);
     // The aim point is 1 mm along and -2 mm across; b = a x n = -y.
     assert!((impact.point.coords - Vector3::new(1e-3, 2e-3, 0.0)).norm() < 1e-12);
 }
@@ -114,28 +114,28 @@ fn along_the_wall_the_height_does_not_matter_but_for_the_flight() {
 #[test]
 fn turning_the_pose_turns_the_path() {
     for shot_size in [false, true] {
-        let setup = mirror(shot_size);
-        let samples = Samples::new(&setup.problem, Stream::Search, 200);
-        let (start, turned) = (choice(10.0, 0.0), choice(10.0, 75.0));
+        let scenario = mirror(shot_size);
+        let samples = Samples::new(&scenario.problem, Stream::Search, 200);
+        let (start, turned) = (settings(10.0, 0.0), settings(10.0, 75.0));
         // The aim points differ by the turn as well.
-        let turned = Choice {
+        let turned = Settings {
             aim_along: 0.0,
             aim_across: 0.0,
             ..turned
         };
-        let start = Choice {
+        let start = Settings {
             aim_along: 0.0,
             aim_across: 0.0,
             ..start
         };
-        let axis = Unit::new_normalize(setup.target.frame.normal);
-        let across = setup.target.frame.across;
-        let along = setup.target.frame.along;
+        let axis = Unit::new_normalize(scenario.target.frame.normal);
+        let across = scenario.target.frame.across;
+        let along = scenario.target.frame.along;
         let angle = 75.0_f64.to_radians() * along.cross(&across).dot(&axis).signum();
         let turn = Rotation3::from_axis_angle(&axis, angle);
-        for deviate in &samples.deviates {
-            let before = first_impact(&setup, &start, deviate);
-            let after = first_impact(&setup, &turned, deviate);
+        for sample in &samples.shots {
+            let before = first_impact(&scenario, &start, sample);
+            let after = first_impact(&scenario, &turned, sample);
             assert!((turn * before.point - after.point).norm() < 1e-12);
             assert!((turn * before.velocity - after.velocity).norm() < 1e-9);
             assert!((turn * before.rolling - after.rolling).norm() < 1e-9);
@@ -145,29 +145,29 @@ fn turning_the_pose_turns_the_path() {
 
 #[test]
 fn scenes_know_their_moving_parts() {
-    let setup = mirror(true);
-    assert!(setup.scene.moves_with_nozzle());
+    let scenario = mirror(true);
+    assert!(scenario.scene.moves_with_nozzle());
     // Distances are to what stands, and the mirror is in front of every exit.
     let nozzle = Nozzle {
         body: vec![Body::Ball { radius: 20e-3 }],
         clearance: 0.0,
     };
-    let pose = Pose::new(&setup.target.frame, &choice(0.0, 0.0));
-    let scene = &setup.scene;
+    let pose = Pose::new(&scenario.target.frame, &settings(0.0, 0.0));
+    let scene = &scenario.scene;
     let nearest = scene.clearance(&nozzle, &pose.exit, &pose.direction, f64::INFINITY);
     let (gap, surface) = nearest.unwrap();
     assert!((gap + 5e-3).abs() < 1e-12, "{gap}");
     assert_eq!(scene.surfaces()[surface as usize], "wall.face");
-    let mut problem = setup.problem.clone();
+    let mut problem = scenario.problem.clone();
     problem.target.surface = "mirror.face".into();
-    let faults = Setup::new(problem, Walls::Exact).err().unwrap();
+    let faults = Scenario::new(problem, Walls::Exact).err().unwrap();
     assert_eq!(faults[0].key, "target.surface");
     assert!(faults[0].message.contains("moves with the nozzle"));
 }
 
-fn shipped() -> Setup {
+fn shipped() -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/deflector.yaml");
-    let loaded = Setup::load(&path);
+    let loaded = Scenario::load(&path);
     loaded
         .unwrap_or_else(|fault| panic!("{}", fault.render(false)))
         .0
@@ -175,15 +175,15 @@ fn shipped() -> Setup {
 
 /// Share of the shots whose first hit is on the target, with more than sin(45 deg) of their speed at
 /// the exit against it.
-fn useful_share(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> f64 {
-    let contact = setup.problem.contacts[choice.contact].at(choice.static_friction);
-    let restitution = contact.restitution.at(choice.speed);
-    let full = (1.0 + restitution) * setup.problem.shot.mass() * choice.speed;
-    let tracer = Tracer::new(setup, choice, choice.speed);
+fn useful_share(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> f64 {
+    let contact = scenario.problem.contacts[settings.contact].at(settings.static_friction);
+    let restitution = contact.restitution.at(settings.speed);
+    let full = (1.0 + restitution) * scenario.problem.shot.mass() * settings.speed;
+    let tracer = Tracer::new(scenario, settings, settings.speed);
     let mut useful = 0;
-    for deviate in shots {
-        let least = full * deviate.speed * 45.0_f64.to_radians().sin();
-        tracer.follow(deviate, |impact| {
+    for sample in shots {
+        let least = full * sample.speed * 45.0_f64.to_radians().sin();
+        tracer.follow(sample, |impact| {
             let counts = impact.number == 1 && impact.on_target;
             useful += usize::from(counts && impact.normal_impulse > least);
         });
@@ -192,7 +192,7 @@ fn useful_share(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> f64 {
 }
 
 /// Poses all round the target and as far away as the mouth of the bore and beyond.
-fn poses() -> impl Iterator<Item = Choice> {
+fn poses() -> impl Iterator<Item = Settings> {
     let steps = |from: f64, to: f64, count: u32| {
         (0..count).map(move |i| from + (to - from) * f64::from(i) / f64::from(count - 1))
     };
@@ -201,13 +201,13 @@ fn poses() -> impl Iterator<Item = Choice> {
     let angles = angles.flat_map(move |a| steps(2e-3, 50e-3, 25).map(move |s| (a, s)));
     let aims = angles.flat_map(move |(a, s)| steps(-6e-3, 6e-3, 5).map(move |along| (a, s, along)));
     aims.flat_map(move |((incidence, azimuth), standoff, along)| {
-        steps(0.0, 6e-3, 3).map(move |above| Choice {
+        steps(0.0, 6e-3, 3).map(move |above| Settings {
             standoff,
             aim_along: along,
             aim_across: 0.0,
             aim_above: above,
             speed: 40.0,
-            ..choice(incidence, azimuth)
+            ..settings(incidence, azimuth)
         })
     })
 }
@@ -224,18 +224,18 @@ fn without_the_pin_no_pose_reaches_the_wall_steeply() {
     // The lance alone, as near to the walls as can be.
     problem.nozzle.body.truncate(1);
     problem.nozzle.clearance = 0.0;
-    let setup = Setup::new(problem, Walls::Exact).unwrap();
-    let samples = Samples::new(&setup.problem, Stream::Search, 64);
+    let scenario = Scenario::new(problem, Walls::Exact).unwrap();
+    let samples = Samples::new(&scenario.problem, Stream::Search, 64);
     let (mut fitting, mut best, mut with) = (0, 0.0_f64, None);
-    for choice in poses() {
+    for settings in poses() {
         // Round the bore is solid metal, of which the scene has the wall only.
-        let exit = Pose::new(&setup.target.frame, &choice).exit;
+        let exit = Pose::new(&scenario.target.frame, &settings).exit;
         let in_bore = exit.x.hypot(exit.y) < 6e-3;
-        if in_bore && infeasibility(&setup, &choice).is_none() {
+        if in_bore && infeasibility(&scenario, &settings).is_none() {
             fitting += 1;
-            let share = useful_share(&setup, &choice, &samples.deviates);
+            let share = useful_share(&scenario, &settings, &samples.shots);
             if share > best {
-                (best, with) = (share, Some(choice));
+                (best, with) = (share, Some(settings));
             }
         }
     }
@@ -247,6 +247,6 @@ fn without_the_pin_no_pose_reaches_the_wall_steeply() {
     let mut exact = with_pin.clone();
     exact.problem.tolerance = Tolerance::default();
     let samples = Samples::new(&exact.problem, Stream::Search, 4096);
-    let share = useful_share(&exact, &answer.choice, &samples.deviates);
+    let share = useful_share(&exact, &answer.settings, &samples.shots);
     assert!(share > 0.98, "{share}");
 }

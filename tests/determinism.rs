@@ -6,7 +6,7 @@ mod program;
 use std::path::Path;
 
 use peenpose::jet::{Samples, Stream};
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use serde_json::Value;
 
 fn record(file: &str, arguments: &[&str]) -> Value {
@@ -61,12 +61,12 @@ fn the_seed_of_the_file_is_the_one_of_the_argument() {
 #[test]
 fn other_seeds_give_other_shots_but_nearly_the_same_answer() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
-    let (mut setup, _) = Setup::load(&path)
+    let (mut scenario, _) = Scenario::load(&path)
         .map_err(|fault| fault.render(false))
         .unwrap();
     let mut shots = |seed| {
-        setup.problem.seed = seed;
-        Samples::new(&setup.problem, Stream::Search, 64).deviates
+        scenario.problem.seed = seed;
+        Samples::new(&scenario.problem, Stream::Search, 64).shots
     };
     assert_ne!(shots(1), shots(2));
     assert_ne!(shots(1), shots(1 + (1 << 32)));

@@ -6,10 +6,10 @@ use std::path::Path;
 use nalgebra::{Point3, Vector3};
 use peenpose::evidence::{Evidence, Flight, Place, SHOTS, Shape, broken_by};
 use peenpose::problem;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
 use peenpose::record::{EvidenceRecord, RoleRecord};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::trace::End;
 use peenpose::verdict::Subject;
 use tempfile::TempDir;
@@ -34,27 +34,27 @@ goals:
   rebound: { allow: 380 pN.s }
 ";
 
-fn setup(text: &str) -> Setup {
+fn scenario(text: &str) -> Scenario {
     // N* of a mean shot is m v (1 + e) = 4/3 pi (1e-5 m)^3 7000 kg/m3 10 m/s 1.25.
     let text = text.replace("366 pN.s", "0.3665 nN.s");
     let text = text.replace("380 pN.s", "0.38 nN.s");
     let reading = problem::read_text(&text, Path::new("scene.yaml")).unwrap();
     let faults = problem::render(&reading.source, &reading.faults, false);
     let problem = reading.problem.unwrap_or_else(|| panic!("{faults}"));
-    Setup::new(problem, Walls::Exact).unwrap_or_else(|faults| panic!("{faults:?}"))
+    Scenario::new(problem, Walls::Exact).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
 /// The middle of all settings.
-fn middle(setup: &Setup) -> Choice {
-    setup.problem.settings.middle()
+fn middle(scenario: &Scenario) -> Settings {
+    scenario.problem.ranges.middle()
 }
 
-fn shipped(name: &str) -> Setup {
-    Setup::load(&Path::new("problems").join(name)).unwrap().0
+fn shipped(name: &str) -> Scenario {
+    Scenario::load(&Path::new("problems").join(name)).unwrap().0
 }
 
-fn keyway_choice() -> Choice {
-    Choice {
+fn keyway_choice() -> Settings {
+    Settings {
         incidence: 67.3_f64.to_radians(),
         azimuth: 0.0,
         standoff: 6.7e-3,
@@ -88,24 +88,24 @@ fn the_target_is_cut_out_of_its_surface() {
         "gear-root.yaml",
         "keyway-blind.yaml",
     ] {
-        let setup = shipped(name);
-        let evidence = Evidence::of(&setup, &middle(&setup), 0);
+        let scenario = shipped(name);
+        let evidence = Evidence::of(&scenario, &middle(&scenario), 0);
         let shapes = &evidence.shapes;
-        let surface = setup.target.surface;
+        let surface = scenario.target.surface;
         assert!(shapes[0].is_target && shapes[0].surface == surface);
         assert!(shapes[1..].iter().all(|shape| !shape.is_target));
         assert!(
-            (area(&shapes[0]) / setup.target.area - 1.0).abs() < 1e-9,
+            (area(&shapes[0]) / scenario.target.area - 1.0).abs() < 1e-9,
             "{name}"
         );
         let inside = |p: &Point3<f64>| {
             let margin = Vector3::repeat(1e-12);
-            let (low, high) = setup.target.within.unwrap();
+            let (low, high) = scenario.target.within.unwrap();
             (low - margin).inf(p) == low - margin && (high + margin).sup(p) == high + margin
         };
         assert!(shapes[0].points.iter().all(inside), "{name}");
         // Nothing is lost: patch and rest make up the surface.
-        let whole: f64 = setup
+        let whole: f64 = scenario
             .scene
             .surface_triangles(surface)
             .map(|[a, b, c]| (b - a).cross(&(c - a)).norm() / 2.0)
@@ -116,7 +116,7 @@ fn the_target_is_cut_out_of_its_surface() {
             "{name}"
         );
         // Every surface is there, and every corner is used.
-        assert_eq!(shapes.len(), setup.surfaces.len() + 1);
+        assert_eq!(shapes.len(), scenario.surfaces.len() + 1);
         for shape in shapes {
             let mut used = vec![false; shape.points.len()];
             for &corner in shape.triangles.as_flattened() {
@@ -130,29 +130,29 @@ fn the_target_is_cut_out_of_its_surface() {
 
 #[test]
 fn parts_on_the_nozzle_are_where_it_stands() {
-    let setup = shipped("deflector.yaml");
-    let mut choice = middle(&setup);
-    let pin = |choice: &Choice| {
-        let evidence = Evidence::of(&setup, choice, 0);
-        let cut = setup.scene.surface_named("pin.cut").unwrap();
+    let scenario = shipped("deflector.yaml");
+    let mut settings = middle(&scenario);
+    let pin = |settings: &Settings| {
+        let evidence = Evidence::of(&scenario, settings, 0);
+        let cut = scenario.scene.surface_named("pin.cut").unwrap();
         let shape = evidence
             .shapes
             .into_iter()
             .find(|shape| shape.surface == cut);
         shape.unwrap().points
     };
-    let before = pin(&choice);
-    choice.standoff += 3e-3;
+    let before = pin(&settings);
+    settings.standoff += 3e-3;
     // The lance runs along z, so 3 mm more standoff is 3 mm back along z.
-    for (before, after) in before.iter().zip(&pin(&choice)) {
+    for (before, after) in before.iter().zip(&pin(&settings)) {
         assert!((after - before + Vector3::z() * 3e-3).norm() < 1e-12);
     }
 }
 
 #[test]
 fn flights_go_from_the_exit_over_every_impact_out_of_the_scene() {
-    let setup = shipped("deflector.yaml");
-    let evidence = Evidence::of(&setup, &middle(&setup), 2000);
+    let scenario = shipped("deflector.yaml");
+    let evidence = Evidence::of(&scenario, &middle(&scenario), 2000);
     let shapes = || evidence.shapes.iter().flat_map(|shape| &shape.points);
     let low = shapes().fold(Point3::from(Vector3::repeat(1.0)), |low, p| low.inf(p));
     let high = shapes().fold(Point3::from(Vector3::repeat(-1.0)), |high, p| high.sup(p));
@@ -173,9 +173,9 @@ fn flights_go_from_the_exit_over_every_impact_out_of_the_scene() {
         let counted: Vec<usize> = numbers.iter().copied().filter(|&n| n > 0).collect();
         assert_eq!(counted, (1..=counted.len()).collect::<Vec<_>>());
         for impact in &flight.impacts {
-            let name = &setup.scene.surfaces()[impact.surface as usize];
+            let name = &scenario.scene.surfaces()[impact.surface as usize];
             assert_eq!(impact.number == 0, name.starts_with("pin."));
-            let touches = impact.centre - impact.normal * setup.problem.shot.radius;
+            let touches = impact.centre - impact.normal * scenario.problem.shot.radius;
             assert!((touches - impact.point).norm() < 1e-9);
         }
         deflected += usize::from(numbers.first() == Some(&0));
@@ -188,16 +188,16 @@ fn flights_go_from_the_exit_over_every_impact_out_of_the_scene() {
 
 #[test]
 fn what_breaks_is_what_the_verdicts_count() {
-    let setup = setup(MASKED);
-    let evidence = Evidence::of(&setup, &middle(&setup), SHOTS);
+    let scenario = scenario(MASKED);
+    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
     let share = |subject: Subject| {
         let broken = evidence
             .flights
             .iter()
-            .filter(|f| f.broken(&setup).contains(&subject));
+            .filter(|f| f.broken(&scenario).contains(&subject));
         broken.count() as f64 / SHOTS as f64
     };
-    let mask = setup.scene.surface_named("mask.z_max").unwrap();
+    let mask = scenario.scene.surface_named("mask.z_max").unwrap();
     // The chord at 0.5 mm cuts this share off a disc with a radius of 2 mm.
     let half_angle = 0.25_f64.acos();
     let hidden = (half_angle - 0.25 * half_angle.sin()) / std::f64::consts::PI;
@@ -211,11 +211,11 @@ fn what_breaks_is_what_the_verdicts_count() {
     let tail = (all - error_function((over - 1.0) / 0.05 / 2.0_f64.sqrt())) / (2.0 * all);
     assert!((share(Subject::Surface(mask)) - tail * hidden).abs() < 0.006);
     for flight in &evidence.flights {
-        let by_impact = flight.impacts.iter().flat_map(|i| broken_by(i, &setup));
+        let by_impact = flight.impacts.iter().flat_map(|i| broken_by(i, &scenario));
         let mut by_impact: Vec<Subject> = by_impact.collect();
         by_impact.sort();
         by_impact.dedup();
-        assert_eq!(by_impact, flight.broken(&setup));
+        assert_eq!(by_impact, flight.broken(&scenario));
     }
 }
 
@@ -232,15 +232,15 @@ fn error_function(x: f64) -> f64 {
 
 #[test]
 fn shots_that_break_a_limit_are_shown_however_rare_they_are() {
-    let setup = shipped("gear-root.yaml");
-    let choice = Choice {
+    let scenario = shipped("gear-root.yaml");
+    let settings = Settings {
         incidence: 57.9_f64.to_radians(),
         standoff: 30.1e-3,
         speed: 31.9,
-        ..middle(&setup)
+        ..middle(&scenario)
     };
-    let evidence = Evidence::of(&setup, &choice, SHOTS);
-    let breaks = |flight: &Flight| flight.broken(&setup);
+    let evidence = Evidence::of(&scenario, &settings, SHOTS);
+    let breaks = |flight: &Flight| flight.broken(&scenario);
     let shown = &evidence.shown;
     assert_eq!(shown.len(), 200);
     let as_they_come: Vec<usize> = shown
@@ -271,11 +271,11 @@ fn shots_that_break_a_limit_are_shown_however_rare_they_are() {
 
 #[test]
 fn the_edge_of_a_mask_is_the_shadow_edge() {
-    let setup = setup(MASKED);
-    let evidence = Evidence::of(&setup, &middle(&setup), SHOTS);
+    let scenario = scenario(MASKED);
+    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
     let edge = place(&evidence, "shadow_edge").unwrap();
     // A shot touches the mask's edge with its rim.
-    let expected = 0.5e-3 - setup.problem.shot.radius;
+    let expected = 0.5e-3 - scenario.problem.shot.radius;
     assert!((edge.point.x - expected).abs() < 0.04e-3, "{edge:?}");
     assert!(edge.point.z.abs() < 1e-12);
     assert_eq!(edge.normal, Vector3::z());
@@ -285,14 +285,14 @@ fn the_edge_of_a_mask_is_the_shadow_edge() {
         edge.text
     );
     // Without the mask the jet ends by itself, 2 mm from its middle.
-    let open = self::setup(&MASKED.replace("[0.5, -10, 2]", "[9, -10, 2]"));
+    let open = self::scenario(&MASKED.replace("[0.5, -10, 2]", "[9, -10, 2]"));
     let evidence = Evidence::of(&open, &middle(&open), SHOTS);
     let edge = place(&evidence, "shadow_edge").unwrap();
     assert!((edge.value - 2e-3).abs() < 0.03e-3, "{edge:?}");
     assert!(edge.text.contains("nothing is in its way"), "{}", edge.text);
     // Where the whole target is hit, there is none.
     let within = "within: { min: [-1, -1, -1], max: [1, 1, 1] }, aim";
-    let small = self::setup(&MASKED.replace("[0.5, -10, 2]", "[9, -10, 2]").replace(
+    let small = self::scenario(&MASKED.replace("[0.5, -10, 2]", "[9, -10, 2]").replace(
         "surface: plate.z_max, aim",
         &format!("surface: plate.z_max, {within}"),
     ));
@@ -310,8 +310,8 @@ fn the_places_are_where_the_extremes_are() {
             "exit_diameter: 0 mm, divergence: 10 deg",
         )
         .replace("incidence: 90 deg", "incidence: 45 deg");
-    let setup = setup(&slanting);
-    let evidence = Evidence::of(&setup, &middle(&setup), SHOTS);
+    let scenario = scenario(&slanting);
+    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
     let lowest = place(&evidence, "lowest_normal_impulse").unwrap();
     let grazing = place(&evidence, "most_grazing").unwrap();
     assert!((35.0..37.0).contains(&grazing.value), "{grazing:?}");
@@ -331,7 +331,7 @@ fn the_places_are_where_the_extremes_are() {
     }
     assert!(place(&evidence, "strongest_rebound").is_none());
     // On the mask the strongest impact is the fastest shot's.
-    let masked = self::setup(MASKED);
+    let masked = self::scenario(MASKED);
     let evidence = Evidence::of(&masked, &middle(&masked), SHOTS);
     let mask = masked.scene.surface_named("mask.z_max").unwrap();
     let of_mask = evidence
@@ -354,8 +354,8 @@ fn the_places_are_where_the_extremes_are() {
 
 #[test]
 fn one_ray_is_one_shot() {
-    let setup = shipped("plate.yaml");
-    let evidence = Evidence::of(&setup, &middle(&setup), SHOTS);
+    let scenario = shipped("plate.yaml");
+    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
     assert_eq!((evidence.flights.len(), evidence.shown.len()), (1, 1));
     let grazing = place(&evidence, "most_grazing").unwrap();
     assert!((grazing.value - 60.0).abs() < 1e-9);
@@ -368,8 +368,8 @@ fn one_ray_is_one_shot() {
 
 #[test]
 fn a_nozzle_that_does_not_fit_fires_no_shots() {
-    let setup = setup(MASKED);
-    let evidence = Evidence::of(&setup, &middle(&setup), 0);
+    let scenario = scenario(MASKED);
+    let evidence = Evidence::of(&scenario, &middle(&scenario), 0);
     assert!(evidence.flights.is_empty() && evidence.shown.is_empty());
     assert!(evidence.places.is_empty());
     assert_eq!(evidence.shapes[0].triangles.len(), 2);
@@ -411,11 +411,11 @@ fn fine_meshes_are_thinned_but_for_the_target() {
         .replace("366 pN.s", "0.3665 nN.s")
         .replace("380 pN.s", "0.38 nN.s");
     std::fs::write(&file, text).unwrap();
-    let (setup, _) = Setup::load(&file).unwrap_or_else(|rejection| panic!("{rejection}"));
-    let evidence = Evidence::of(&setup, &middle(&setup), 0);
+    let (scenario, _) = Scenario::load(&file).unwrap_or_else(|rejection| panic!("{rejection}"));
+    let evidence = Evidence::of(&scenario, &middle(&scenario), 0);
     let [target, rest] = [&evidence.shapes[0], &evidence.shapes[1]];
     assert_eq!(target.share_drawn, 1.0);
-    assert!((area(target) / setup.target.area - 1.0).abs() < 1e-12);
+    assert!((area(target) / scenario.target.area - 1.0).abs() < 1e-12);
     let all: usize = evidence
         .shapes
         .iter()
@@ -435,10 +435,10 @@ fn fine_meshes_are_thinned_but_for_the_target() {
 
 #[test]
 fn the_record_keeps_what_pictures_need_and_no_more() {
-    let setup = shipped("keyway.yaml");
-    let choice = keyway_choice();
-    let evidence = Evidence::of(&setup, &choice, SHOTS);
-    let record = EvidenceRecord::new(&setup, &choice, &evidence);
+    let scenario = shipped("keyway.yaml");
+    let settings = keyway_choice();
+    let evidence = Evidence::of(&scenario, &settings, SHOTS);
+    let record = EvidenceRecord::new(&scenario, &settings, &evidence);
     assert_eq!(record.hits.shots, SHOTS);
     let hits: Vec<_> = evidence
         .flights
@@ -473,12 +473,12 @@ fn the_record_keeps_what_pictures_need_and_no_more() {
 
 #[test]
 fn threads_make_no_difference() {
-    let setup = shipped("deflector.yaml");
+    let scenario = shipped("deflector.yaml");
     let with = |threads: usize| {
         let pool = rayon_pool(threads);
-        let choice = middle(&setup);
-        let evidence = pool.install(|| Evidence::of(&setup, &choice, 4096));
-        EvidenceRecord::new(&setup, &choice, &evidence)
+        let settings = middle(&scenario);
+        let evidence = pool.install(|| Evidence::of(&scenario, &settings, 4096));
+        EvidenceRecord::new(&scenario, &settings, &evidence)
     };
     let one = with(1);
     assert!(!one.rebounds.points_m.is_empty());

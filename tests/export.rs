@@ -3,24 +3,24 @@
 use std::path::Path;
 
 use peenpose::evidence::Evidence;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
 use peenpose::record::{EvidenceRecord, Record, RoleRecord};
 use peenpose::report::export::{Format, export};
+use peenpose::scenario::Scenario;
 use peenpose::scene::mesh_file;
-use peenpose::setup::Setup;
 use tempfile::TempDir;
 
 /// A record with a deflector, and with rebounds and paths that break a limit.
 fn record() -> Record {
-    let (setup, _) = Setup::load(Path::new("problems/deflector.yaml")).unwrap();
+    let (scenario, _) = Scenario::load(Path::new("problems/deflector.yaml")).unwrap();
     let text = std::fs::read_to_string("tests/data/sheets/keyway.json").unwrap();
     let mut record = Record::from_json(&text).unwrap();
-    let choice = Choice {
+    let settings = Settings {
         speed: 46.0,
-        ..setup.problem.settings.middle()
+        ..scenario.problem.ranges.middle()
     };
-    let evidence = Evidence::of(&setup, &choice, 3000);
-    record.evidence = Some(EvidenceRecord::new(&setup, &choice, &evidence));
+    let evidence = Evidence::of(&scenario, &settings, 3000);
+    record.evidence = Some(EvidenceRecord::new(&scenario, &settings, &evidence));
     record
 }
 

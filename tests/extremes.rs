@@ -8,13 +8,13 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use peenpose::evaluate::{evaluate, evaluate_drawn, evaluate_focused};
+use peenpose::evaluate::{evaluate, evaluate_adaptively, evaluate_streamed};
 use peenpose::feasibility::infeasibility;
-use peenpose::jet::{Draw, Fresh, Replicates, purpose};
+use peenpose::jet::{Draw, Replicates, ValidationSample, purpose};
 use peenpose::problem;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
-use peenpose::solve::spread_choices;
+use peenpose::solve::spread_settings;
 use program::{Run, peenpose};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -269,17 +269,17 @@ fn j_is_finite_at_every_pose_that_fits() {
         .unwrap()
         .problem
         .unwrap();
-    let setup = Setup::new(problem, Walls::Exact).unwrap();
-    for contact in 0..setup.problem.contacts.len() {
-        for choice in spread_choices(&setup, contact, 256) {
-            if infeasibility(&setup, &choice).is_some_and(|it| it.violation > 0.0) {
+    let scenario = Scenario::new(problem, Walls::Exact).unwrap();
+    for contact in 0..scenario.problem.contacts.len() {
+        for settings in spread_settings(&scenario, contact, 256) {
+            if infeasibility(&scenario, &settings).is_some_and(|it| it.violation > 0.0) {
                 continue;
             }
             feasible += 1;
-            let shots = Replicates::new(&setup.problem, 0, 128);
-            let evaluation = evaluate(&setup, &choice, &shots);
-            assert!(evaluation.terms.total().is_finite(), "{choice:?}");
-            assert!(evaluation.standard_error.is_finite(), "{choice:?}");
+            let shots = Replicates::new(&scenario.problem, 0, 128);
+            let evaluation = evaluate(&scenario, &settings, &shots);
+            assert!(evaluation.terms.total().is_finite(), "{settings:?}");
+            assert!(evaluation.standard_error.is_finite(), "{settings:?}");
         }
     }
     assert!(feasible > 100, "{feasible}");
@@ -289,16 +289,16 @@ fn j_is_finite_at_every_pose_that_fits() {
 fn shots_that_are_forgotten_once_fired_give_the_same_figures() {
     for (text, name) in [(KEYWAY, "keyway.yaml"), (PLATE, "plate.yaml")] {
         let problem = problem::read_text(text, Path::new(name)).unwrap().problem;
-        let setup = Setup::new(problem.unwrap(), Walls::Exact).unwrap();
-        let choice = spread_choices(&setup, 0, 1)[0];
-        let kept = Fresh::new(&setup.problem, purpose::ANSWERS, 1000);
-        let drawn = Draw::new(&setup.problem, purpose::ANSWERS, 1000);
+        let scenario = Scenario::new(problem.unwrap(), Walls::Exact).unwrap();
+        let settings = spread_settings(&scenario, 0, 1)[0];
+        let kept = ValidationSample::new(&scenario.problem, purpose::ANSWERS, 1000);
+        let drawn = Draw::new(&scenario.problem, purpose::ANSWERS, 1000);
         let [kept, drawn] = [
-            evaluate_focused(&setup, &choice, &kept),
-            evaluate_drawn(&setup, &choice, &drawn),
+            evaluate_adaptively(&scenario, &settings, &kept),
+            evaluate_streamed(&scenario, &settings, &drawn),
         ];
         assert_eq!(format!("{kept:?}"), format!("{drawn:?}"));
-        assert_eq!((drawn.shots, drawn.rim_shots), (1024, 512));
+        assert_eq!((drawn.shots, drawn.boundary_shots), (1024, 512));
     }
 }
 

@@ -10,16 +10,16 @@ use std::path::Path;
 use peenpose::impact::Restitution;
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 
 const SHOTS: usize = 1 << 18;
 
 /// One pose of a shipped problem, its shots, and what they do to exact walls.
 struct Case {
-    exact: Setup,
-    choice: Choice,
+    exact: Scenario,
+    settings: Settings,
     shots: Samples,
     tally: Tally,
 }
@@ -29,10 +29,10 @@ impl Case {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("problems")
             .join(file);
-        let (exact, _) = Setup::load(&path).unwrap();
+        let (exact, _) = Scenario::load(&path).unwrap();
         let contacts = &exact.problem.contacts;
         let oiled = contacts.iter().position(|contact| contact.name == "oiled");
-        let choice = Choice {
+        let settings = Settings {
             incidence: incidence_deg.to_radians(),
             azimuth: 0.0,
             standoff: 9e-3,
@@ -44,10 +44,10 @@ impl Case {
             static_friction: 0.0,
         };
         let shots = Samples::new(&exact.problem, Stream::Search, SHOTS);
-        let tally = Tally::trace(&exact, &choice, speed, &shots.deviates);
+        let tally = Tally::trace(&exact, &settings, speed, &shots.shots);
         Self {
             exact,
-            choice,
+            settings,
             shots,
             tally,
         }
@@ -55,21 +55,24 @@ impl Case {
 
     /// The same shots from the same pose, on facets.
     fn on_facets(&self, chord_angle: f64) -> Tally {
-        let mut setup =
-            Setup::new(self.exact.problem.clone(), Walls::Facets { chord_angle }).unwrap();
+        let mut scenario = Scenario::new(
+            self.exact.problem.clone(),
+            Walls::TriangleMesh { chord_angle },
+        )
+        .unwrap();
         // The facet at the aim point has another normal, which would turn the whole jet.
-        setup.target.frame = self.exact.target.frame;
+        scenario.target.frame = self.exact.target.frame;
         Tally::trace(
-            &setup,
-            &self.choice,
-            self.choice.speed,
-            &self.shots.deviates,
+            &scenario,
+            &self.settings,
+            self.settings.speed,
+            &self.shots.shots,
         )
     }
 
     fn objective(&self, tally: &Tally) -> f64 {
         let goals = &self.exact.problem.goals;
-        tally.terms(goals, self.choice.speed).total()
+        tally.terms(goals, self.settings.speed).total()
     }
 
     /// J on facets less J on exact walls, relative to the latter.
@@ -146,11 +149,11 @@ fn facets_agree_with_exact_walls_whatever_effect_is_left_out() {
         }
         let whole = case.exact.clone();
         for effect in whole.problem.effects() {
-            case.exact = whole.without(&[effect], &case.choice);
+            case.exact = whole.without(&[effect], &case.settings);
             case.shots = Samples::new(&case.exact.problem, Stream::Search, SHOTS / 8);
-            let tally = |setup: &Setup| {
-                let (choice, shots) = (&case.choice, &case.shots.deviates);
-                Tally::trace(setup, choice, choice.speed, shots)
+            let tally = |scenario: &Scenario| {
+                let (settings, shots) = (&case.settings, &case.shots.shots);
+                Tally::trace(scenario, settings, settings.speed, shots)
             };
             let exact = case.objective(&tally(&case.exact));
             let facets = case.objective(&case.on_facets(1_f64.to_radians()));

@@ -253,7 +253,7 @@ fn shots_that_bounce_for_ever_stay_inside() {
                     origin: centre,
                     direction,
                 };
-                leaving = Some(hit.spot);
+                leaving = Some(hit.hit_id);
             }
         }
     }

@@ -6,7 +6,7 @@ mod program;
 
 use std::path::Path;
 
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 
 /// What comes of a file.
 enum Outcome {
@@ -64,9 +64,9 @@ const FILES: [(&str, Outcome); 21] = [
 fn each_file_is_read_or_refused_with_its_true_reason() {
     for (name, outcome) in FILES {
         let path = format!("tests/found/{name}.yaml");
-        match (outcome, Setup::load(path.as_ref())) {
-            (Read(words), Ok((setup, _))) => {
-                let warnings = setup.scene.warnings().join("\n");
+        match (outcome, Scenario::load(path.as_ref())) {
+            (Read(words), Ok((scenario, _))) => {
+                let warnings = scenario.scene.warnings().join("\n");
                 assert!(warnings.contains(words), "{name}: {warnings}");
                 assert!(
                     !words.is_empty() || warnings.is_empty(),
@@ -95,8 +95,8 @@ fn meshes_that_are_read_are_peened_from_the_free_side() {
         "stl_same_names",
     ] {
         let path = format!("tests/found/{name}.yaml");
-        let (setup, _) = Setup::load(path.as_ref()).expect("it is sound");
-        let up = setup.target.frame.normal.y;
+        let (scenario, _) = Scenario::load(path.as_ref()).expect("it is sound");
+        let up = scenario.target.frame.normal.y;
         assert!(up > 0.999_999, "{name}: {up}");
     }
 }

@@ -10,26 +10,26 @@ use std::path::Path;
 
 use nalgebra::{Point3, Vector3};
 use peenpose::feasibility::{Obstacle, gap_within_tolerance, infeasibility};
+use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::part::{Part, Place, Shape};
-use peenpose::problem::rule::Rule;
 use peenpose::problem::setting::Setting;
+use peenpose::scenario::Scenario;
 use peenpose::scene::{Scene, Walls};
-use peenpose::setup::Setup;
-use peenpose::solve::{Control, passing_windows, solve, spread_choices};
+use peenpose::solve::{Control, passing_windows, solve, spread_settings};
 use peenpose::verdict::Subject;
 use rayon::prelude::*;
 
 use kinds::Free;
 
-fn shipped(name: &str) -> Setup {
+fn shipped(name: &str) -> Scenario {
     let path = format!("tests/free_space/{name}.yaml");
-    Setup::load(path.as_ref()).expect("it is sound").0
+    Scenario::load(path.as_ref()).expect("it is sound").0
 }
 
 fn quick() -> Control<'static> {
     Control {
         most_shots: 1024,
-        fresh_shots: 4096,
+        validation_shots: 4096,
         ..Control::default()
     }
 }
@@ -41,18 +41,18 @@ fn meshes_that_are_nearly_sound_are_peened_from_outside() {
         "inside_out_with_lug",
         "one_of_two_mirrored",
     ] {
-        let setup = shipped(name);
-        assert_eq!(setup.target.frame.normal, Vector3::y(), "{name}");
-        let solution = solve(&setup, &quick());
+        let scenario = shipped(name);
+        assert_eq!(scenario.target.frame.normal, Vector3::y(), "{name}");
+        let solution = solve(&scenario, &quick());
         let best = &solution.answers[0];
         assert!(best.passes(), "{name}");
-        assert_eq!(infeasibility(&setup, &best.choice), None, "{name}");
+        assert_eq!(infeasibility(&scenario, &best.settings), None, "{name}");
     }
 }
 
 #[test]
 fn a_nozzle_in_the_metal_is_named() {
-    let only = |setup: &Setup| spread_choices(setup, 0, 1)[0];
+    let only = |scenario: &Scenario| spread_settings(scenario, 0, 1)[0];
     for (name, reason) in [
         ("exit_in_bore_wall", "the nozzle's exit is inside hole"),
         (
@@ -64,11 +64,11 @@ fn a_nozzle_in_the_metal_is_named() {
             "the nozzle comes too near to disc.flanks",
         ),
     ] {
-        let setup = shipped(name);
-        let found = infeasibility(&setup, &only(&setup)).expect("it is infeasible");
-        assert_eq!(found.obstacle.reason(&setup), reason);
+        let scenario = shipped(name);
+        let found = infeasibility(&scenario, &only(&scenario)).expect("it is infeasible");
+        assert_eq!(found.obstacle.reason(&scenario), reason);
         assert!(found.violation > 0.0);
-        let solution = solve(&setup, &quick());
+        let solution = solve(&scenario, &quick());
         assert!(!solution.answers[0].passes(), "{name}");
     }
 }
@@ -78,32 +78,32 @@ fn a_nozzle_in_the_metal_is_named() {
 fn each_kind_of_mesh_is_decided_rightly_or_refused() {
     let folder = tempfile::tempdir().expect("there is space");
     for kind in kinds::all() {
-        let setup = kind.setup(folder.path(), None);
-        match (kind.free, setup) {
-            (Free::Outside, Ok(setup)) => {
-                let away = (setup.target.frame.normal - kind.outward).norm();
+        let scenario = kind.scenario(folder.path(), None);
+        match (kind.free, scenario) {
+            (Free::Outside, Ok(scenario)) => {
+                let away = (scenario.target.frame.normal - kind.outward).norm();
                 assert!(
                     away < 1e-6,
                     "{}: {:?}",
                     kind.name,
-                    setup.target.frame.normal
+                    scenario.target.frame.normal
                 );
             }
             (Free::Refused, Err(rules)) => {
-                assert_eq!(rules, [Rule::FreeSideUnclear], "{}", kind.name);
+                assert_eq!(rules, [FaultCode::FreeSideUnclear], "{}", kind.name);
             }
             (free, found) => panic!(
                 "{}: {free:?} expected, found {:?}",
                 kind.name,
-                found.map(|setup| setup.target.frame.normal)
+                found.map(|scenario| scenario.target.frame.normal)
             ),
         }
         // Told the side, it is peened from there; and what is solid refuses the other one.
-        let told = kind.setup(folder.path(), Some(kind.outward));
+        let told = kind.scenario(folder.path(), Some(kind.outward));
         let told = told.unwrap_or_else(|rules| panic!("{}: {rules:?}", kind.name));
         assert!((told.target.frame.normal - kind.outward).norm() < 1e-6);
-        let choice = spread_choices(&told, 0, 1)[0];
-        assert_eq!(infeasibility(&told, &choice), None, "{}", kind.name);
+        let settings = spread_settings(&told, 0, 1)[0];
+        assert_eq!(infeasibility(&told, &settings), None, "{}", kind.name);
     }
 }
 
@@ -114,12 +114,12 @@ fn the_exit_behind_the_target_is_infeasible() {
     // Behind a skin of a micrometre there is free space again.
     let kinds = kinds::all().into_iter();
     for kind in kinds.filter(|kind| kind.name != "a skin of a micrometre") {
-        let setup = kind.setup(folder.path(), Some(kind.outward));
-        let mut setup = setup.unwrap_or_else(|rules| panic!("{}: {rules:?}", kind.name));
-        setup.problem.nozzle.body.clear();
-        setup.target.frame.normal = -setup.target.frame.normal;
-        let choice = spread_choices(&setup, 0, 1)[0];
-        let found = infeasibility(&setup, &choice);
+        let scenario = kind.scenario(folder.path(), Some(kind.outward));
+        let mut scenario = scenario.unwrap_or_else(|rules| panic!("{}: {rules:?}", kind.name));
+        scenario.problem.nozzle.body.clear();
+        scenario.target.frame.normal = -scenario.target.frame.normal;
+        let settings = spread_settings(&scenario, 0, 1)[0];
+        let found = infeasibility(&scenario, &settings);
         let found = found.unwrap_or_else(|| panic!("{} fits inside", kind.name));
         let is_named = matches!(found.obstacle, Obstacle::Material(_) | Obstacle::Surface(_));
         assert!(is_named, "{}: {found:?}", kind.name);
@@ -174,7 +174,7 @@ fn the_gap_within_tolerance_is_that_of_the_worst_of_many_poses() {
         let folder = tempfile::tempdir().expect("there is space");
         let path = folder.path().join("hub.yaml");
         std::fs::write(&path, text).expect("there is space");
-        Setup::load(&path).expect("it is sound").0
+        Scenario::load(&path).expect("it is sound").0
     };
     for nozzle in [
         "  body: [ { ball: { radius: 2 mm } } ]",
@@ -182,21 +182,21 @@ fn the_gap_within_tolerance_is_that_of_the_worst_of_many_poses() {
         "  body: [ { capsule: { length: 80 mm, radius: 2 mm, direction: [0, 0.2, -1] } } ]",
         "  body: []",
     ] {
-        let setup = with(nozzle);
-        let tolerance = setup.problem.tolerance;
-        let mut exact = setup.clone();
+        let scenario = with(nozzle);
+        let tolerance = scenario.problem.tolerance;
+        let mut exact = scenario.clone();
         exact.problem.tolerance = Default::default();
-        let choices = spread_choices(&setup, 0, 24);
-        choices.par_iter().for_each(|choice| {
-            if infeasibility(&exact, choice).is_some() {
+        let choices = spread_settings(&scenario, 0, 24);
+        choices.par_iter().for_each(|settings| {
+            if infeasibility(&exact, settings).is_some() {
                 return;
             }
-            let found = gap_within_tolerance(&setup, choice)
+            let found = gap_within_tolerance(&scenario, settings)
                 .expect("it is near")
                 .distance;
             let mut least = f64::INFINITY;
             for (inc, az, off) in grid(4) {
-                let mut set = *choice;
+                let mut set = *settings;
                 set = Setting::Incidence.with(&set, set.incidence + inc * tolerance.incidence);
                 set = Setting::Azimuth.with(&set, set.azimuth + az * tolerance.azimuth);
                 set = Setting::Standoff.with(&set, set.standoff + off * tolerance.standoff);
@@ -207,10 +207,13 @@ fn the_gap_within_tolerance_is_that_of_the_worst_of_many_poses() {
             }
             // The lance is 80 mm long; its end turns by 1 deg and 2 deg.
             let bulge = 0.12 * (0.0175_f64.powi(2) + 0.035_f64.powi(2)) / 2.0;
-            assert!(found < least + 1e-9, "{nozzle} {choice:?}: {found} {least}");
+            assert!(
+                found < least + 1e-9,
+                "{nozzle} {settings:?}: {found} {least}"
+            );
             assert!(
                 found > (least - bulge).min(-1e-3) || found > least - bulge,
-                "{nozzle} {choice:?}: {found} {least}"
+                "{nozzle} {settings:?}: {found} {least}"
             );
         });
     }
@@ -227,8 +230,8 @@ fn grid(steps: i32) -> impl Iterator<Item = (f64, f64, f64)> {
 /// The windows of an answer end where the verdict on the clearance turns, errors included.
 #[test]
 fn windows_and_the_verdict_on_the_clearance_agree() {
-    let setup = shipped("lance_in_hub");
-    let solution = solve(&setup, &quick());
+    let scenario = shipped("lance_in_hub");
+    let solution = solve(&scenario, &quick());
     let best = &solution.answers[0];
     assert!(best.passes());
     let clearance = best
@@ -236,14 +239,14 @@ fn windows_and_the_verdict_on_the_clearance_agree() {
         .iter()
         .find(|it| it.subject == Subject::Clearance);
     assert!(clearance.expect("it is judged").passes());
-    let gap = gap_within_tolerance(&setup, &best.choice).expect("it is near");
-    assert!(gap.distance >= setup.problem.nozzle.clearance, "{gap:?}");
+    let gap = gap_within_tolerance(&scenario, &best.settings).expect("it is near");
+    assert!(gap.distance >= scenario.problem.nozzle.clearance, "{gap:?}");
     let mut ends = 0;
-    for window in passing_windows(&setup, &solution) {
-        let start = window.setting.of(&best.choice);
+    for window in passing_windows(&scenario, &solution) {
+        let start = window.setting.of(&best.settings);
         for drift in [window.down, window.up] {
             let fits = |value: f64| {
-                infeasibility(&setup, &window.setting.with(&best.choice, value)).is_none()
+                infeasibility(&scenario, &window.setting.with(&best.settings, value)).is_none()
             };
             assert!(fits(drift.to), "{window:?}");
             if drift.turns == Some(peenpose::solve::Turn::Clearance) {

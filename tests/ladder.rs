@@ -5,23 +5,23 @@ use std::path::Path;
 use peenpose::precision::Precision;
 use peenpose::problem::model::{Effect, Model};
 use peenpose::problem::setting::Tolerance;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Control, Solution, solve};
 
-fn shipped(file: &str) -> Setup {
+fn shipped(file: &str) -> Scenario {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
-    let (setup, _) = Setup::load(&folder.join(file)).unwrap();
-    setup
+    let (scenario, _) = Scenario::load(&folder.join(file)).unwrap();
+    scenario
 }
 
 /// J of shots whose impulses are what is wanted but for rounding, at most.
 const ROUNDING_OF_OBJECTIVE: f64 = 1e-28;
 
-fn with_model(setup: &Setup, model: Model) -> Solution {
-    let mut setup = setup.clone();
-    setup.problem.model = model;
-    solve(&setup, &Control::default())
+fn with_model(scenario: &Scenario, model: Model) -> Solution {
+    let mut scenario = scenario.clone();
+    scenario.problem.model = model;
+    solve(&scenario, &Control::default())
 }
 
 /// J and its standard error.
@@ -31,11 +31,11 @@ fn objective(solution: &Solution) -> (f64, f64) {
 }
 
 /// Solves with the model left to the program and with the whole one; returns what was left out.
-fn same_answer(setup: &Setup) -> Vec<Effect> {
-    let auto = with_model(setup, Model::Auto);
-    let full = with_model(setup, Model::Full);
+fn same_answer(scenario: &Scenario) -> Vec<Effect> {
+    let auto = with_model(scenario, Model::Auto);
+    let full = with_model(scenario, Model::Full);
     let ((found, error), (expected, other)) = (objective(&auto), objective(&full));
-    let accuracy = setup.problem.accuracy * expected + 2.0 * error.hypot(other);
+    let accuracy = scenario.problem.accuracy * expected + 2.0 * error.hypot(other);
     assert!(
         found - expected <= accuracy.max(ROUNDING_OF_OBJECTIVE),
         "{found} {expected} {accuracy}"
@@ -43,7 +43,7 @@ fn same_answer(setup: &Setup) -> Vec<Effect> {
     assert!(full.ladder.rungs.is_empty() && full.ladder.left_out().is_empty());
     // Everything that the problem has was measured.
     let measured: Vec<Effect> = auto.ladder.rungs.iter().map(|rung| rung.effect).collect();
-    assert_eq!(measured, setup.problem.effects());
+    assert_eq!(measured, scenario.problem.effects());
     for rung in &auto.ladder.rungs {
         assert!(rung.change.abs() <= rung.largest_change, "{rung:?}");
         assert!(
@@ -55,21 +55,21 @@ fn same_answer(setup: &Setup) -> Vec<Effect> {
 }
 
 /// The precision that is chosen after screening.
-fn precision(setup: &Setup) -> Precision {
+fn precision(scenario: &Scenario) -> Precision {
     let control = Control {
         most_shots: 64,
-        fresh_shots: 64,
+        validation_shots: 64,
         ..Control::default()
     };
-    solve(setup, &control).ladder.precision
+    solve(scenario, &control).ladder.precision
 }
 
 #[test]
 fn single_precision_is_for_exact_walls_where_it_changes_next_to_nothing() {
     let keyway = shipped("keyway.yaml");
     assert_eq!(precision(&keyway), Precision::F32);
-    let facets = Walls::Facets { chord_angle: 0.1 };
-    let of_facets = Setup::new(keyway.problem.clone(), facets).unwrap();
+    let facets = Walls::TriangleMesh { chord_angle: 0.1 };
+    let of_facets = Scenario::new(keyway.problem.clone(), facets).unwrap();
     assert_eq!(precision(&of_facets), Precision::F64);
     let mut demanding = keyway;
     demanding.problem.accuracy = 1e-9;
@@ -80,8 +80,8 @@ fn single_precision_is_for_exact_walls_where_it_changes_next_to_nothing() {
 
 #[test]
 fn on_a_plate_nothing_matters_and_one_ray_is_enough() {
-    let setup = shipped("plate.yaml");
-    let left_out = same_answer(&setup);
+    let scenario = shipped("plate.yaml");
+    let left_out = same_answer(&scenario);
     assert_eq!(
         left_out,
         [
@@ -91,7 +91,7 @@ fn on_a_plate_nothing_matters_and_one_ray_is_enough() {
             Effect::Spin
         ]
     );
-    let solution = with_model(&setup, Model::Auto);
+    let solution = with_model(&scenario, Model::Auto);
     let evaluation = solution.answers[0].evaluation.as_ref().unwrap();
     assert!(evaluation.is_exact && evaluation.shots == 1);
     assert!(solution.rays < 200, "{}", solution.rays);
@@ -121,11 +121,11 @@ fn in_a_keyway_rebounds_and_the_size_of_the_shot_matter() {
 /// them until the jet is half a degree from the cliff that they make.
 #[test]
 fn what_makes_a_cliff_is_not_left_out_from_afar() {
-    let mut setup = shipped("keyway.yaml");
-    setup.problem.tolerance = Tolerance::default();
+    let mut scenario = shipped("keyway.yaml");
+    scenario.problem.tolerance = Tolerance::default();
     for seed in [1, 2, 3, 10] {
-        setup.problem.seed = seed;
-        let ladder = with_model(&setup, Model::Auto).ladder;
+        scenario.problem.seed = seed;
+        let ladder = with_model(&scenario, Model::Auto).ladder;
         let size = &ladder.rungs[0];
         assert_eq!(size.effect, Effect::ShotSize);
         assert_eq!(
@@ -155,28 +155,28 @@ fn in_a_blind_keyway_given_as_a_mesh() {
 
 #[test]
 fn a_list_of_effects_is_what_figures_come_from() {
-    let setup = shipped("keyway-long.yaml");
-    let points: Vec<Effect> = setup
+    let scenario = shipped("keyway-long.yaml");
+    let points: Vec<Effect> = scenario
         .problem
         .effects()
         .into_iter()
         .filter(|e| *e != Effect::ShotSize)
         .collect();
-    let asked = with_model(&setup, Model::Only(points.clone()));
+    let asked = with_model(&scenario, Model::Only(points.clone()));
     assert_eq!(asked.ladder.left_out(), [Effect::ShotSize]);
     assert_eq!(asked.ladder.rungs.len(), 1);
-    let mut by_hand = setup.clone();
+    let mut by_hand = scenario.clone();
     by_hand.problem.paths.shot_size = false;
     by_hand.problem.model = Model::Full;
     let expected = solve(&by_hand, &Control::default());
     assert_eq!(objective(&asked), objective(&expected));
-    assert_eq!(asked.answers[0].choice, expected.answers[0].choice);
+    assert_eq!(asked.answers[0].settings, expected.answers[0].settings);
     // And the size of the shot does matter there.
-    assert!(asked.ladder.rungs[0].regret > setup.problem.accuracy);
+    assert!(asked.ladder.rungs[0].regret > scenario.problem.accuracy);
 }
 
 /// A plate whose only spread is one that cannot matter there.
-fn wide_jet_on_a_plate(extra: &str) -> Setup {
+fn wide_jet_on_a_plate(extra: &str) -> Scenario {
     let text = format!(
         "
 format: 1
@@ -196,16 +196,16 @@ goals:
     let problem = reading
         .problem
         .unwrap_or_else(|| panic!("{:?}", reading.faults));
-    Setup::new(problem, peenpose::scene::Walls::Exact).unwrap()
+    Scenario::new(problem, peenpose::scene::Walls::Exact).unwrap()
 }
 
 #[test]
 fn a_parallel_jet_on_a_plate_needs_one_ray() {
-    let setup = wide_jet_on_a_plate("");
-    let left_out = same_answer(&setup);
+    let scenario = wide_jet_on_a_plate("");
+    let left_out = same_answer(&scenario);
     assert!(left_out.contains(&Effect::ExitWidth), "{left_out:?}");
     // Screening and the first descents have the whole jet; afterwards there is one ray a pose.
-    let [auto, full] = [Model::Auto, Model::Full].map(|model| with_model(&setup, model));
+    let [auto, full] = [Model::Auto, Model::Full].map(|model| with_model(&scenario, model));
     assert!(auto.rays < full.rays, "{} {}", auto.rays, full.rays);
 }
 
@@ -213,23 +213,24 @@ fn a_parallel_jet_on_a_plate_needs_one_ray() {
 fn restitution_that_falls_with_speed_is_searched_with_where_it_matters() {
     // Its own value at 10 m/s, whatever the speed, against one that falls steeply.
     let falling = "".to_owned();
-    let mut setup = wide_jet_on_a_plate(&falling);
-    setup.problem.contacts[0].contact.restitution = peenpose::impact::Restitution::Falling {
+    let mut scenario = wide_jet_on_a_plate(&falling);
+    scenario.problem.contacts[0].contact.restitution = peenpose::impact::Restitution::Falling {
         reference: 0.5,
         speed: 10.0,
         exponent: 0.25,
     };
-    let auto = with_model(&setup, Model::Auto);
+    let auto = with_model(&scenario, Model::Auto);
     // The best of a fine grid over both settings, on single rays.
     let mut least = f64::INFINITY;
     for i in 0..=400 {
         for k in 0..=400 {
-            let mut choice = auto.answers[0].choice;
-            choice.incidence = setup.problem.settings.incidence.at(f64::from(i) / 400.0);
-            choice.speed = setup.problem.settings.speed.at(f64::from(k) / 400.0);
-            let shot = peenpose::jet::Deviate::NONE;
-            let tally = peenpose::objective::Tally::trace(&setup, &choice, choice.speed, &[shot]);
-            least = least.min(tally.terms(&setup.problem.goals, choice.speed).total());
+            let mut settings = auto.answers[0].settings;
+            settings.incidence = scenario.problem.ranges.incidence.at(f64::from(i) / 400.0);
+            settings.speed = scenario.problem.ranges.speed.at(f64::from(k) / 400.0);
+            let shot = peenpose::jet::ShotSample::NONE;
+            let tally =
+                peenpose::objective::Tally::trace(&scenario, &settings, settings.speed, &[shot]);
+            least = least.min(tally.terms(&scenario.problem.goals, settings.speed).total());
         }
     }
     let (found, _) = objective(&auto);

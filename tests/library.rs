@@ -117,7 +117,7 @@ fn contacts_of_the_library_stand_beside_those_of_the_file() {
     let names: Vec<&str> = problem
         .contacts
         .iter()
-        .map(|choice| choice.name.as_str())
+        .map(|settings| settings.name.as_str())
         .collect();
     // What the file gives under the same name goes before the library's.
     assert_eq!(
@@ -143,7 +143,7 @@ fn contacts_of_the_library_stand_beside_those_of_the_file() {
     assert_eq!(problem.contacts[1].library, Some(known));
     assert_eq!(problem.contacts[2].library, None);
     assert_eq!(problem.contacts[4].dynamic_ratio, Some(0.9));
-    assert_eq!(problem.settings.contact, [0, 1, 2, 3, 4]);
+    assert_eq!(problem.ranges.contact, [0, 1, 2, 3, 4]);
 }
 
 /// Restitution was measured on slow impacts; shot arrives ten times as fast.
@@ -225,10 +225,10 @@ mod sheets {
     use std::path::Path;
 
     use peenpose::problem;
-    use peenpose::record::{Circumstances, Record, WorkRecord};
+    use peenpose::record::{Record, RunInfo, WorkRecord};
     use peenpose::report::sheet;
+    use peenpose::scenario::Scenario;
     use peenpose::scene::Walls;
-    use peenpose::setup::Setup;
     use peenpose::solve::{Control, passing_windows, solve};
     use peenpose::unknowns::Unknowns;
 
@@ -237,16 +237,16 @@ mod sheets {
     fn record(more: &[&str]) -> Record {
         let text = format!("{REST}{}", more.concat());
         let reading = problem::read_text(&text, Path::new("test.yaml")).unwrap();
-        let setup = Setup::new(reading.problem.unwrap(), Walls::Exact).unwrap();
+        let scenario = Scenario::new(reading.problem.unwrap(), Walls::Exact).unwrap();
         let solution = solve(
-            &setup,
+            &scenario,
             &Control {
                 most_shots: 64,
-                fresh_shots: 64,
+                validation_shots: 64,
                 ..Control::default()
             },
         );
-        let circumstances = Circumstances {
+        let run = RunInfo {
             ladder: &solution.ladder,
             source: &reading.source,
             status: solution.status.into(),
@@ -258,15 +258,15 @@ mod sheets {
                 seconds: 0.0,
             },
         };
-        let windows = passing_windows(&setup, &solution);
-        let unknowns = Unknowns::of(&setup, &solution.answers[0].choice);
+        let windows = passing_windows(&scenario, &solution);
+        let unknowns = Unknowns::of(&scenario, &solution.answers[0].settings);
         Record::new(
-            &setup,
+            &scenario,
             &solution.answers,
             &windows,
             Vec::new(),
             unknowns,
-            circumstances,
+            run,
         )
         .unwrap()
     }

@@ -13,23 +13,23 @@ use peenpose::feasibility::infeasibility;
 use peenpose::impact::Restitution;
 use peenpose::jet::{Replicate, Replicates, Samples, Stream};
 use peenpose::map::{Axis, Control, Map, Place, standard_maps};
-use peenpose::problem::setting::{Choice, Range, Setting};
+use peenpose::problem::setting::{Range, Setting, Settings};
 use peenpose::record::{MapRecord, MapTerm};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::verdict::Verdict;
 use tempfile::TempDir;
 
 const SHOTS: usize = 512;
 
-fn keyway() -> Setup {
+fn keyway() -> Scenario {
     let mut problem = common::keyway(40e-3);
     problem.paths.shot_size = true;
-    Setup::new(problem, Walls::Exact).unwrap()
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
-fn good() -> Choice {
-    Choice {
+fn good() -> Settings {
+    Settings {
         incidence: 67_f64.to_radians(),
         azimuth: 0.0,
         standoff: 8e-3,
@@ -47,31 +47,31 @@ fn axis(setting: Setting, min: f64, max: f64, steps: usize) -> Axis {
 }
 
 /// Every place of a map against an evaluation on the same shots.
-fn agrees_with_evaluations(setup: &Setup, map: &Map) {
+fn agrees_with_evaluations(scenario: &Scenario, map: &Map) {
     let same_shots = Samples::new(
-        &setup.problem,
-        Stream::Fresh(Replicates::COUNT as u32),
+        &scenario.problem,
+        Stream::ValidationSample(Replicates::COUNT as u32),
         SHOTS,
     );
     let shots = Replicates {
         sets: vec![Replicate {
             jet: same_shots,
-            rim: Samples { deviates: vec![] },
+            boundary: Samples { shots: vec![] },
         }],
     };
     let columns = map.x.values.len();
     let (mut blocked, mut failing) = (0, 0);
     for (index, place) in map.places.iter().enumerate() {
         let across = map.x.setting.with(&good(), map.x.values[index % columns]);
-        let choice = map.y.setting.with(&across, map.y.values[index / columns]);
+        let settings = map.y.setting.with(&across, map.y.values[index / columns]);
         let Place::Open(cell) = place else {
             assert_eq!(*place, Place::Blocked);
-            assert!(infeasibility(setup, &choice).is_some());
+            assert!(infeasibility(scenario, &settings).is_some());
             blocked += 1;
             continue;
         };
-        assert!(infeasibility(setup, &choice).is_none());
-        let there = evaluate(setup, &choice, &shots);
+        assert!(infeasibility(scenario, &settings).is_none());
+        let there = evaluate(scenario, &settings, &shots);
         let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-9 * b.abs() + 1e-15, "{a} {b}");
         close(cell.terms.normal_impulse, there.terms.normal_impulse);
         close(
@@ -80,7 +80,7 @@ fn agrees_with_evaluations(setup: &Setup, map: &Map) {
         );
         close(cell.terms.rebound, there.terms.rebound);
         close(cell.terms.miss, there.terms.miss);
-        let fails: Vec<_> = Verdict::all(setup, &there)
+        let fails: Vec<_> = Verdict::all(scenario, &there)
             .into_iter()
             .filter(|verdict| !verdict.passes())
             .map(|verdict| verdict.subject)
@@ -96,23 +96,23 @@ fn agrees_with_evaluations(setup: &Setup, map: &Map) {
 
 #[test]
 fn a_map_without_speed_is_what_evaluations_say() {
-    let setup = keyway();
+    let scenario = keyway();
     let x = axis(Setting::Incidence, 0.6, 1.4, 9);
     let y = axis(Setting::Azimuth, -0.6, 0.6, 7);
-    let map = Map::of(&setup, &good(), x, y, SHOTS, &Control::default());
+    let map = Map::of(&scenario, &good(), x, y, SHOTS, &Control::default());
     assert!(map.places.contains(&Place::Blocked));
-    agrees_with_evaluations(&setup, &map);
+    agrees_with_evaluations(&scenario, &map);
 }
 
 #[test]
 fn one_set_of_paths_does_for_every_speed() {
-    let setup = keyway();
+    let scenario = keyway();
     let standoff = || axis(Setting::Standoff, 2e-3, 34e-3, 6);
     let speed = || axis(Setting::Speed, 5.0, 20.0, 9);
     agrees_with_evaluations(
-        &setup,
+        &scenario,
         &Map::of(
-            &setup,
+            &scenario,
             &good(),
             standoff(),
             speed(),
@@ -121,9 +121,9 @@ fn one_set_of_paths_does_for_every_speed() {
         ),
     );
     agrees_with_evaluations(
-        &setup,
+        &scenario,
         &Map::of(
-            &setup,
+            &scenario,
             &good(),
             speed(),
             standoff(),
@@ -135,8 +135,8 @@ fn one_set_of_paths_does_for_every_speed() {
 
 #[test]
 fn every_speed_has_its_own_paths_where_restitution_falls() {
-    let mut setup = keyway();
-    for contact in &mut setup.problem.contacts {
+    let mut scenario = keyway();
+    for contact in &mut scenario.problem.contacts {
         contact.contact.restitution = Restitution::Falling {
             reference: 0.4,
             speed: 5.0,
@@ -146,29 +146,30 @@ fn every_speed_has_its_own_paths_where_restitution_falls() {
     let x = axis(Setting::Speed, 5.0, 15.0, 5);
     let y = axis(Setting::Incidence, 1.0, 1.3, 4);
     agrees_with_evaluations(
-        &setup,
-        &Map::of(&setup, &good(), x, y, SHOTS, &Control::default()),
+        &scenario,
+        &Map::of(&scenario, &good(), x, y, SHOTS, &Control::default()),
     );
 }
 
 #[test]
 fn on_a_plate_the_map_is_a_formula() {
     let path = Path::new("problems/plate.yaml");
-    let (setup, _) = Setup::load(path).unwrap();
-    let choice = Choice {
+    let (scenario, _) = Scenario::load(path).unwrap();
+    let settings = Settings {
         contact: 0,
-        ..setup.problem.settings.middle()
+        ..scenario.problem.ranges.middle()
     };
     let x = axis(Setting::Incidence, 0.5, 1.5, 11);
     let y = axis(Setting::Speed, 2.0, 20.0, 10);
-    let map = Map::of(&setup, &choice, x, y, SHOTS, &Control::default());
+    let map = Map::of(&scenario, &settings, x, y, SHOTS, &Control::default());
     assert_eq!(map.shots, 1);
-    let restitution = setup.problem.contacts[0].contact.restitution.reference();
-    let target = setup.problem.goals.normal_impulse.target;
+    let restitution = scenario.problem.contacts[0].contact.restitution.reference();
+    let target = scenario.problem.goals.normal_impulse.target;
     for (index, place) in map.places.iter().enumerate() {
         let (incidence, speed) = (map.x.values[index % 11], map.y.values[index / 11]);
-        let normal = setup.problem.shot.mass() * speed * incidence.sin() * (1.0 + restitution);
-        let expected = setup.problem.goals.normal_impulse.weight * (normal / target - 1.0).powi(2);
+        let normal = scenario.problem.shot.mass() * speed * incidence.sin() * (1.0 + restitution);
+        let expected =
+            scenario.problem.goals.normal_impulse.weight * (normal / target - 1.0).powi(2);
         let found = place.cell().unwrap().terms.normal_impulse;
         assert!((found - expected).abs() < 1e-9 * (1.0 + expected));
     }
@@ -177,15 +178,15 @@ fn on_a_plate_the_map_is_a_formula() {
 /// What is known of it is what the whole map says, and the rest is told apart from places without room.
 #[test]
 fn a_map_that_is_stopped_shows_what_is_known() {
-    let setup = keyway();
+    let scenario = keyway();
     let map = |control: &Control| {
         let x = axis(Setting::Incidence, 0.6, 1.4, 20);
         let y = axis(Setting::Azimuth, -0.6, 0.6, 40);
-        Map::of(&setup, &good(), x, y, SHOTS, control)
+        Map::of(&scenario, &good(), x, y, SHOTS, control)
     };
     let whole = map(&Control::default());
     let folder = TempDir::new().unwrap();
-    let checkpoint = Checkpoint::open(folder.path(), &setup).unwrap();
+    let checkpoint = Checkpoint::open(folder.path(), &scenario).unwrap();
     let stop = AtomicBool::new(false);
     let control = Control {
         stop: &stop,
@@ -208,7 +209,7 @@ fn a_map_that_is_stopped_shows_what_is_known() {
     assert!(pairs.all(|(place, there)| place == there));
     assert!(!whole.places.contains(&Place::Unknown));
 
-    let record = MapRecord::new(&setup, &stopped);
+    let record = MapRecord::new(&scenario, &stopped);
     assert_eq!(record.known_places(), count);
     for (place, kept) in stopped.places.iter().zip(&record.cells) {
         assert_eq!(*place != Place::Unknown, kept.is_known());
@@ -222,11 +223,11 @@ fn a_map_that_is_stopped_shows_what_is_known() {
 
 #[test]
 fn records_keep_seven_digits_and_name_what_fails() {
-    let setup = keyway();
+    let scenario = keyway();
     let x = axis(Setting::Incidence, 0.6, 1.4, 5);
     let y = axis(Setting::Azimuth, -0.6, 0.6, 4);
-    let map = Map::of(&setup, &good(), x, y, SHOTS, &Control::default());
-    let record = MapRecord::new(&setup, &map);
+    let map = Map::of(&scenario, &good(), x, y, SHOTS, &Control::default());
+    let record = MapRecord::new(&scenario, &map);
     assert_eq!(record.x.setting, "incidence_deg");
     assert!((record.x.values[0] - 0.6_f64.to_degrees()).abs() < 1e-6);
     assert_eq!(record.subjects.last().unwrap(), "clearance");
@@ -245,9 +246,9 @@ fn records_keep_seven_digits_and_name_what_fails() {
 #[test]
 fn a_report_has_maps_of_what_is_free() {
     let axes = |file: &str| -> Vec<(Setting, Setting)> {
-        let (setup, _) = Setup::load(&Path::new("problems").join(file)).unwrap();
-        let middle = setup.problem.settings.middle();
-        let maps = standard_maps(&setup, &middle);
+        let (scenario, _) = Scenario::load(&Path::new("problems").join(file)).unwrap();
+        let middle = scenario.problem.ranges.middle();
+        let maps = standard_maps(&scenario, &middle);
         for map in &maps {
             let values = [&map.x.values, &map.y.values];
             assert!(values.iter().all(|values| (9..=41).contains(&values.len())));
@@ -265,9 +266,9 @@ fn a_report_has_maps_of_what_is_free() {
     // Nothing but the contact is left open on the plate.
     assert_eq!(axes("plate.yaml"), []);
 
-    let mut setup = keyway();
-    setup.problem.settings.azimuth = Range::held(0.0);
-    let axes: Vec<_> = standard_maps(&setup, &good())
+    let mut scenario = keyway();
+    scenario.problem.ranges.azimuth = Range::held(0.0);
+    let axes: Vec<_> = standard_maps(&scenario, &good())
         .iter()
         .map(|map| (map.x.setting, map.y.setting))
         .collect();

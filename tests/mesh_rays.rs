@@ -12,7 +12,7 @@ mod walk;
 
 use std::time::Instant;
 
-use peenpose::scene::ray::{Ray, Spot};
+use peenpose::scene::ray::{HitId, Ray};
 use rayon::prelude::*;
 use rooms::{Room, rooms};
 use walk::{Count, Walk};
@@ -108,7 +108,7 @@ fn all_meet_fronts(name: &str, rays: &[Leaving]) {
             origin: origin.into(),
             direction: direction.into(),
         };
-        let leaving = Spot {
+        let leaving = HitId {
             part: 0,
             piece,
             front: !room.is_hollow,
@@ -117,7 +117,7 @@ fn all_meet_fronts(name: &str, rays: &[Leaving]) {
             .scene
             .first_hit(&ray, Some(leaving))
             .expect("the mesh is closed");
-        assert!(room.shows(&hit.spot), "{piece}: {hit:?}");
+        assert!(room.shows(&hit.hit_id), "{piece}: {hit:?}");
     }
 }
 

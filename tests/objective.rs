@@ -7,23 +7,23 @@ mod common;
 use cases::cases;
 use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::impact::{Regime, Restitution};
-use peenpose::jet::{Deviate, Replicates, Samples, Stream};
+use peenpose::jet::{Replicates, Samples, ShotSample, Stream};
 use peenpose::objective::{Impulses, Sums, Tally, Terms};
 use peenpose::problem::Problem;
 use peenpose::problem::equipment::Spread;
 use peenpose::problem::goal::{Goals, TangentialImpulse};
-use peenpose::problem::setting::{Choice, Range, Tolerance};
+use peenpose::problem::setting::{Range, Settings, Tolerance};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::trace::{PathImpact, Tracer};
 use proptest::prelude::*;
 
-fn setup(length: f64) -> Setup {
-    Setup::new(common::keyway(length), Walls::Exact).unwrap()
+fn scenario(length: f64) -> Scenario {
+    Scenario::new(common::keyway(length), Walls::Exact).unwrap()
 }
 
-fn choice(incidence_deg: f64, azimuth_deg: f64, standoff: f64, contact: usize) -> Choice {
-    Choice {
+fn settings(incidence_deg: f64, azimuth_deg: f64, standoff: f64, contact: usize) -> Settings {
+    Settings {
         incidence: incidence_deg.to_radians(),
         azimuth: azimuth_deg.to_radians(),
         standoff,
@@ -37,12 +37,12 @@ fn choice(incidence_deg: f64, azimuth_deg: f64, standoff: f64, contact: usize) -
 }
 
 /// Settings all over the range: good ones, ones that hit walls, ones that miss.
-fn choices() -> Vec<Choice> {
+fn choices() -> Vec<Settings> {
     let mut choices = Vec::new();
     for incidence in [30.0, 45.0, 67.0, 85.0] {
         for azimuth in [-80.0, 0.0, 35.0] {
             for (standoff, contact) in [(6e-3, 0), (9e-3, 1), (20e-3, 2)] {
-                choices.push(choice(incidence, azimuth, standoff, contact));
+                choices.push(settings(incidence, azimuth, standoff, contact));
             }
         }
     }
@@ -97,11 +97,11 @@ fn check_best_speed(tally: &Tally, goals: &Goals, range: Range) {
 #[test]
 fn the_best_speed_of_traced_shots_is_the_least_of_j() {
     for length in [40e-3, 200e-3] {
-        let setup = setup(length);
-        let goals = &setup.problem.goals;
-        let samples = Samples::with_rim(&setup.problem, Stream::Search, 1000);
-        for choice in choices() {
-            let tally = Tally::trace(&setup, &choice, 1.0, &samples.deviates);
+        let scenario = scenario(length);
+        let goals = &scenario.problem.goals;
+        let samples = Samples::with_boundary(&scenario.problem, Stream::Search, 1000);
+        for settings in choices() {
+            let tally = Tally::trace(&scenario, &settings, 1.0, &samples.shots);
             for (min, max) in [
                 (5.0, 40.0),
                 (0.01, 1000.0),
@@ -215,72 +215,77 @@ fn mean_over_speeds(of_factor: &dyn Fn(f64) -> f64, _: f64) -> f64 {
 fn terms_follow_from_the_impacts_as_defined() {
     // By hand, shot by shot, from the definition of the objective: each path at all the speeds that the
     // shot may have, but for what exceeds a limit.
-    let setup = setup(40e-3);
-    for choice in choices() {
-        check_terms(&setup, &choice, mean_over_speeds, &[choice.speed, 1.0]);
+    let scenario = scenario(40e-3);
+    for settings in choices() {
+        check_terms(
+            &scenario,
+            &settings,
+            mean_over_speeds,
+            &[settings.speed, 1.0],
+        );
     }
 }
 
 #[test]
 fn where_paths_depend_on_the_speed_every_shot_has_its_own() {
-    let mut setup = setup(40e-3);
-    for contact in &mut setup.problem.contacts {
+    let mut scenario = scenario(40e-3);
+    for contact in &mut scenario.problem.contacts {
         contact.contact.restitution = Restitution::Falling {
             reference: 0.25,
             speed: 5.0,
             exponent: 0.25,
         };
     }
-    for choice in choices() {
+    for settings in choices() {
         let own = |of_factor: &dyn Fn(f64) -> f64, factor: f64| of_factor(factor);
-        check_terms(&setup, &choice, own, &[choice.speed]);
+        check_terms(&scenario, &settings, own, &[settings.speed]);
     }
 }
 
 /// Terms by hand, where `mean` averages over the factors on the speed of a shot that has one of them.
 fn check_terms(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     mean: impl Fn(&dyn Fn(f64) -> f64, f64) -> f64,
     traced_at: &[f64],
 ) {
-    let problem = &setup.problem;
+    let problem = &scenario.problem;
     let goals = &problem.goals;
     let limit = goals.tangential_impulse.unwrap();
     let rebound = goals.rebound.unwrap();
-    let mut samples = Samples::new(problem, Stream::Fresh(3), 500);
+    let mut samples = Samples::new(problem, Stream::ValidationSample(3), 500);
     // As if drawn towards the rim.
-    for deviate in samples.deviates.iter_mut().step_by(3) {
-        (deviate.weight, deviate.of_jet) = (0.5, false);
+    for sample in samples.shots.iter_mut().step_by(3) {
+        (sample.weight, sample.of_jet) = (0.5, false);
     }
-    let tracer = Tracer::new(setup, choice, choice.speed);
+    let tracer = Tracer::new(scenario, settings, settings.speed);
     let (mut normal, mut tangential, mut harm) = (0.0, 0.0, 0.0);
     let (mut weight, mut hits, mut hits_of_jet) = (0.0, 0.0, 0.0);
     let mut rays = 0;
-    for deviate in &samples.deviates {
+    for sample in &samples.shots {
         let mut path: Vec<PathImpact> = Vec::new();
-        let (_, of_path) = tracer.follow(deviate, |impact| path.push(*impact));
+        let (_, of_path) = tracer.follow(sample, |impact| path.push(*impact));
         rays += of_path;
-        weight += deviate.weight;
+        weight += sample.weight;
         assert!(
             path.iter()
                 .enumerate()
                 .all(|(index, impact)| impact.number == index + 1)
         );
-        let over_own = |factor: f64| factor / deviate.speed;
+        let over_own = |factor: f64| factor / sample.speed;
         if let Some(first) = path.first().filter(|first| first.on_target) {
-            hits += deviate.weight;
-            if deviate.of_jet {
+            hits += sample.weight;
+            if sample.of_jet {
                 hits_of_jet += 1.0;
                 let impulse = first.normal_impulse / goals.normal_impulse.target;
-                normal += mean(&|s| (impulse * over_own(s) - 1.0).powi(2), deviate.speed);
+                normal += mean(&|s| (impulse * over_own(s) - 1.0).powi(2), sample.speed);
             }
             let excess = first.tangential_impulse / limit.limit - 1.0;
-            tangential += deviate.weight * excess.max(0.0).powi(2);
+            tangential += sample.weight * excess.max(0.0).powi(2);
         }
         for impact in path.iter().filter(|impact| !impact.on_target) {
             let impulse = impact.normal_impulse / rebound.allow;
-            harm += deviate.weight * mean(&|s| (impulse * over_own(s)).powi(2), deviate.speed);
+            harm += sample.weight * mean(&|s| (impulse * over_own(s)).powi(2), sample.speed);
         }
     }
     let share = |sum: f64, hits: f64| if hits > 0.0 { sum / hits } else { 0.0 };
@@ -292,9 +297,9 @@ fn check_terms(
     };
     // Traced at this speed, and at another one with the impulses scaled.
     for &traced_at in traced_at {
-        let tally = Tally::trace(setup, choice, traced_at, &samples.deviates);
-        assert_eq!((tally.shots, tally.rays), (samples.deviates.len(), rays));
-        let found = tally.terms(goals, choice.speed);
+        let tally = Tally::trace(scenario, settings, traced_at, &samples.shots);
+        assert_eq!((tally.shots, tally.rays), (samples.shots.len(), rays));
+        let found = tally.terms(goals, settings.speed);
         for part in [
             |t: &Terms| t.normal_impulse,
             |t: &Terms| t.tangential_impulse,
@@ -315,17 +320,20 @@ fn check_terms(
 
 #[test]
 fn an_evaluation_counts_what_every_surface_receives() {
-    let setup = setup(40e-3);
-    let goals = &setup.problem.goals;
-    for choice in [choice(45.0, 35.0, 9e-3, 1), choice(35.0, 80.0, 15e-3, 0)] {
-        let fresh = Replicates::new(&setup.problem, 7, 32 * 100);
-        let found = evaluate(&setup, &choice, &fresh);
-        let tracer = Tracer::new(&setup, &choice, choice.speed);
+    let scenario = scenario(40e-3);
+    let goals = &scenario.problem.goals;
+    for settings in [
+        settings(45.0, 35.0, 9e-3, 1),
+        settings(35.0, 80.0, 15e-3, 0),
+    ] {
+        let validation = Replicates::new(&scenario.problem, 7, 32 * 100);
+        let found = evaluate(&scenario, &settings, &validation);
+        let tracer = Tracer::new(&scenario, &settings, settings.speed);
         let mut paths: Vec<Vec<PathImpact>> = Vec::new();
-        for samples in &fresh.sets {
-            for deviate in &samples.jet.deviates {
+        for samples in &validation.sets {
+            for sample in &samples.jet.shots {
                 let mut path = Vec::new();
-                tracer.follow(deviate, |impact| path.push(*impact));
+                tracer.follow(sample, |impact| path.push(*impact));
                 paths.push(path);
             }
         }
@@ -379,20 +387,20 @@ fn an_evaluation_counts_what_every_surface_receives() {
 
 #[test]
 fn the_reported_error_covers_the_scatter_of_independent_evaluations() {
-    let setup = setup(40e-3);
+    let scenario = scenario(40e-3);
     // One with many kinds of events, one where a few per cent miss, one near the optimum, where no shot
     // does harm: what the worst could do is far more than the scatter there.
-    for (choice, most) in [
-        (choice(45.0, 35.0, 9e-3, 1), 5.0),
-        (choice(40.0, 80.0, 15e-3, 0), 5.0),
-        (choice(67.0, 0.0, 8e-3, 2), f64::INFINITY),
+    for (settings, most) in [
+        (settings(45.0, 35.0, 9e-3, 1), 5.0),
+        (settings(40.0, 80.0, 15e-3, 0), 5.0),
+        (settings(67.0, 0.0, 8e-3, 2), f64::INFINITY),
     ] {
         let evaluations: Vec<_> = (0..30)
             .map(|number| {
                 evaluate(
-                    &setup,
-                    &choice,
-                    &Replicates::new(&setup.problem, 100 + number, 2048),
+                    &scenario,
+                    &settings,
+                    &Replicates::new(&scenario.problem, 100 + number, 2048),
                 )
             })
             .collect();
@@ -403,7 +411,7 @@ fn the_reported_error_covers_the_scatter_of_independent_evaluations() {
             let scatter = (deviations.sum::<f64>() / 29.0).sqrt();
             let squares: f64 = evaluations.iter().map(|it| error(it).powi(2)).sum();
             let ratio = (squares / 30.0).sqrt() / scatter;
-            assert!(ratio > 0.6 && ratio < most, "{choice:?}: {ratio}");
+            assert!(ratio > 0.6 && ratio < most, "{settings:?}: {ratio}");
         };
         check(|it| it.terms.total(), |it| it.standard_error, most);
         check(
@@ -415,13 +423,17 @@ fn the_reported_error_covers_the_scatter_of_independent_evaluations() {
 }
 
 /// J of independent streams of samples: mean and its standard error.
-fn mean_objective(setup: &Setup, choice: &Choice, draw: impl Fn(u32) -> Samples) -> (f64, f64) {
+fn mean_objective(
+    scenario: &Scenario,
+    settings: &Settings,
+    draw: impl Fn(u32) -> Samples,
+) -> (f64, f64) {
     const STREAMS: u32 = 32;
-    let goals = &setup.problem.goals;
+    let goals = &scenario.problem.goals;
     let sums: Vec<Sums> = (0..STREAMS)
         .map(|number| {
-            let tally = Tally::trace(setup, choice, choice.speed, &draw(number).deviates);
-            tally.sums(goals, choice.speed)
+            let tally = Tally::trace(scenario, settings, settings.speed, &draw(number).shots);
+            tally.sums(goals, settings.speed)
         })
         .collect();
     let totals: Vec<f64> = sums.iter().map(|sums| sums.terms(goals).total()).collect();
@@ -447,23 +459,23 @@ fn rim_shots_estimate_the_same_objective() {
         },
     ] {
         problem.tolerance = tolerance;
-        let setup = Setup::new(problem.clone(), Walls::Exact).unwrap();
-        for choice in [
-            choice(67.0, 0.0, 8e-3, 2),
-            choice(45.0, 35.0, 9e-3, 1),
-            choice(40.0, 80.0, 15e-3, 0),
+        let scenario = Scenario::new(problem.clone(), Walls::Exact).unwrap();
+        for settings in [
+            settings(67.0, 0.0, 8e-3, 2),
+            settings(45.0, 35.0, 9e-3, 1),
+            settings(40.0, 80.0, 15e-3, 0),
         ] {
-            let problem = &setup.problem;
-            let (plain, plain_error) = mean_objective(&setup, &choice, |number| {
-                Samples::new(problem, Stream::Fresh(number), 2048)
+            let problem = &scenario.problem;
+            let (plain, plain_error) = mean_objective(&scenario, &settings, |number| {
+                Samples::new(problem, Stream::ValidationSample(number), 2048)
             });
-            let (rim, rim_error) = mean_objective(&setup, &choice, |number| {
-                Samples::with_rim(problem, Stream::Fresh(number), 2048)
+            let (boundary, rim_error) = mean_objective(&scenario, &settings, |number| {
+                Samples::with_boundary(problem, Stream::ValidationSample(number), 2048)
             });
             let error = plain_error.hypot(rim_error);
             assert!(
-                (plain - rim).abs() < 4.0 * error,
-                "{plain} {rim} +- {error}"
+                (plain - boundary).abs() < 4.0 * error,
+                "{plain} {boundary} +- {error}"
             );
         }
     }
@@ -473,65 +485,68 @@ fn rim_shots_estimate_the_same_objective() {
 fn rim_weights_average_to_one() {
     let mut problem = common::keyway(40e-3);
     problem.tolerance.incidence = 0.03;
-    let weights: Vec<f64> = weights_of(&Samples::with_rim(&problem, Stream::Search, 1 << 15));
+    let weights: Vec<f64> = weights_of(&Samples::with_boundary(&problem, Stream::Search, 1 << 15));
     let mean = weights.iter().sum::<f64>() / weights.len() as f64;
     assert!((mean - 1.0).abs() < 0.01, "{mean}");
     assert!(weights.iter().all(|&weight| weight > 0.0 && weight <= 4.0));
     // Every second shot is drawn to the rim, of many three out of four, and stands for less.
     for (count, turn) in [(64, 2), (1024, 2), (2048, 4), (1 << 15, 4)] {
-        let shots = Samples::with_rim(&problem, Stream::Search, count).deviates;
-        let is_of_jet = |(index, shot): (usize, &Deviate)| shot.of_jet == (index % turn == 0);
+        let shots = Samples::with_boundary(&problem, Stream::Search, count).shots;
+        let is_of_jet = |(index, shot): (usize, &ShotSample)| shot.of_jet == (index % turn == 0);
         assert!(shots.iter().enumerate().all(is_of_jet), "{count}");
         let average = |of_jet: bool| {
             let chosen = shots.iter().filter(|shot| shot.of_jet == of_jet);
             chosen.clone().map(|shot| shot.weight).sum::<f64>() / chosen.count() as f64
         };
-        let (jet, rim) = (average(true), average(false));
-        assert!(rim < 0.9 * jet, "{count}: {jet} {rim}");
+        let (jet, boundary) = (average(true), average(false));
+        assert!(boundary < 0.9 * jet, "{count}: {jet} {boundary}");
     }
     // Without anything that has a rim all shots are alike.
     problem.tolerance = Tolerance::default();
     problem.jet.exit_diameter = 0.0;
     problem.jet.divergence = 0.0;
-    let weights = weights_of(&Samples::with_rim(&problem, Stream::Search, 64));
+    let weights = weights_of(&Samples::with_boundary(&problem, Stream::Search, 64));
     assert!(weights.iter().all(|&weight| weight == 1.0));
 }
 
 fn weights_of(samples: &Samples) -> Vec<f64> {
-    samples
-        .deviates
-        .iter()
-        .map(|deviate| deviate.weight)
-        .collect()
+    samples.shots.iter().map(|sample| sample.weight).collect()
 }
 
 #[test]
 fn samples_are_pure_functions_of_their_number() {
     let problem = common::keyway(40e-3);
-    for draw in [Samples::new, Samples::with_rim] {
-        let long = draw(&problem, Stream::Fresh(5), 70_000).deviates;
-        let short = draw(&problem, Stream::Fresh(5), 3000).deviates;
+    for draw in [Samples::new, Samples::with_boundary] {
+        let long = draw(&problem, Stream::ValidationSample(5), 70_000).shots;
+        let short = draw(&problem, Stream::ValidationSample(5), 3000).shots;
         assert_eq!(long[..3000], short);
-        assert_ne!(draw(&problem, Stream::Fresh(6), 3000).deviates, short);
-        assert_ne!(draw(&problem, Stream::Search, 3000).deviates, short);
+        assert_ne!(
+            draw(&problem, Stream::ValidationSample(6), 3000).shots,
+            short
+        );
+        assert_ne!(draw(&problem, Stream::Search, 3000).shots, short);
         // The sequence does not start again after 2^16 points.
         assert_ne!(long[1 << 16..][..1000], long[..1000]);
     }
 }
 
-fn mean(samples: &Samples, value: impl Fn(&Deviate) -> f64) -> f64 {
+fn mean(samples: &Samples, value: impl Fn(&ShotSample) -> f64) -> f64 {
     let weighted = samples
-        .deviates
+        .shots
         .iter()
-        .map(|deviate| deviate.weight * value(deviate));
-    let weight: f64 = samples.deviates.iter().map(|deviate| deviate.weight).sum();
+        .map(|sample| sample.weight * value(sample));
+    let weight: f64 = samples.shots.iter().map(|sample| sample.weight).sum();
     weighted.sum::<f64>() / weight
 }
 
 /// Both kinds of samples must have these moments, the second kind by its weights.
 fn with_both(problem: &Problem, check: impl Fn(&Samples)) {
-    check(&Samples::new(problem, Stream::Fresh(0), 1 << 14));
-    check(&Samples::with_rim(problem, Stream::Fresh(0), 1 << 16));
+    check(&Samples::new(problem, Stream::ValidationSample(0), 1 << 14));
+    check(&Samples::with_boundary(
+        problem,
+        Stream::ValidationSample(0),
+        1 << 16,
+    ));
 }
 
 fn near(found: f64, expected: f64, slack: f64) {
@@ -545,8 +560,8 @@ fn directions_fill_the_cone_uniformly_in_solid_angle() {
         problem.jet.divergence = half_angle;
         with_both(&problem, |samples| {
             let versine = 1.0 - half_angle.cos();
-            for deviate in &samples.deviates {
-                let [x, y, z] = deviate.cone;
+            for sample in &samples.shots {
+                let [x, y, z] = sample.cone;
                 near(x * x + y * y + z * z, 1.0, 1e-14);
                 assert!(1.0 - z <= versine * (1.0 + 1e-9));
             }
@@ -584,9 +599,9 @@ fn a_gaussian_cone_is_denser_inside_and_cut_at_its_edge() {
     problem.jet.spread = Spread::Gaussian;
     let half_angle = problem.jet.divergence;
     with_both(&problem, |samples| {
-        let angle = |deviate: &Deviate| deviate.cone[0].hypot(deviate.cone[1]).asin();
-        for deviate in &samples.deviates {
-            assert!(angle(deviate) <= half_angle * (1.0 + 1e-9));
+        let angle = |sample: &ShotSample| sample.cone[0].hypot(sample.cone[1]).asin();
+        for sample in &samples.shots {
+            assert!(angle(sample) <= half_angle * (1.0 + 1e-9));
         }
         // Shares inside one and 1.5 standard deviations of half the half-angle.
         let inside = |deviations: f64| 1.0 - (-0.5 * deviations * deviations).exp();
@@ -605,12 +620,12 @@ fn the_exit_disc_is_filled_uniformly() {
     let problem = common::keyway(40e-3);
     with_both(&problem, |samples| {
         let radius = problem.jet.exit_diameter / 2.0;
-        let square = |d: &Deviate| (d.exit[0].powi(2) + d.exit[1].powi(2)) / radius.powi(2);
+        let square = |d: &ShotSample| (d.exit[0].powi(2) + d.exit[1].powi(2)) / radius.powi(2);
         assert!(
             samples
-                .deviates
+                .shots
                 .iter()
-                .all(|deviate| square(deviate) <= 1.0 + 1e-12)
+                .all(|sample| square(sample) <= 1.0 + 1e-12)
         );
         near(mean(samples, square), 0.5, 0.01);
         near(mean(samples, |d| square(d).powi(2)), 1.0 / 3.0, 0.01);
@@ -630,17 +645,17 @@ fn scatter_is_normal_and_cut_at_two_deviations() {
     // Variance of a normal deviate cut at two: 1 - 4 phi(2) / (2 Phi(2) - 1).
     let variance = 1.0 - 4.0 * 0.053_990_966_513_188 / 0.954_499_736_103_642;
     with_both(&problem, |samples| {
-        let speed = |d: &Deviate| (d.speed - 1.0) / 0.05;
-        let size = |d: &Deviate| (d.size - 1.0) / 0.02;
-        for deviate in &samples.deviates {
-            assert!(speed(deviate).abs() <= 2.0 + 1e-9 && size(deviate).abs() <= 2.0 + 1e-9);
+        let speed = |d: &ShotSample| (d.speed - 1.0) / 0.05;
+        let size = |d: &ShotSample| (d.size - 1.0) / 0.02;
+        for sample in &samples.shots {
+            assert!(speed(sample).abs() <= 2.0 + 1e-9 && size(sample).abs() <= 2.0 + 1e-9);
         }
         near(mean(samples, speed), 0.0, 0.02);
         near(mean(samples, |d| speed(d).powi(2)), variance, 0.02);
         near(mean(samples, size), 0.0, 0.02);
         near(mean(samples, |d| size(d).powi(2)), variance, 0.02);
         near(mean(samples, |d| speed(d) * size(d)), 0.0, 0.02);
-        let largest = samples.deviates.iter().map(speed).fold(0.0, f64::max);
+        let largest = samples.shots.iter().map(speed).fold(0.0, f64::max);
         assert!(largest > 1.95, "{largest}");
     });
 }
@@ -661,7 +676,7 @@ fn set_up_errors_fill_their_box_uniformly() {
         friction: 0.2,
     };
     with_both(&problem, |samples| {
-        let errors: [fn(&Deviate) -> f64; 8] = [
+        let errors: [fn(&ShotSample) -> f64; 8] = [
             |d| d.incidence[0].atan2(d.incidence[1]) / 0.03,
             |d| d.azimuth[0].atan2(d.azimuth[1]) / 0.02,
             |d| d.standoff / 1e-3,
@@ -672,12 +687,7 @@ fn set_up_errors_fill_their_box_uniformly() {
             |d| (d.friction - 1.0) / 0.2,
         ];
         for (index, error) in errors.iter().enumerate() {
-            assert!(
-                samples
-                    .deviates
-                    .iter()
-                    .all(|d| error(d).abs() <= 1.0 + 1e-9)
-            );
+            assert!(samples.shots.iter().all(|d| error(d).abs() <= 1.0 + 1e-9));
             // A weighted mean over eight crowded dimensions is uncertain.
             near(mean(samples, error), 0.0, 0.05);
             near(mean(samples, |d| error(d).powi(2)), 1.0 / 3.0, 0.05);

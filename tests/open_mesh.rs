@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 
 use peenpose::evaluate::evaluate;
 use peenpose::jet::Replicates;
-use peenpose::problem::rule::Rule;
-use peenpose::problem::setting::Choice;
-use peenpose::setup::Setup;
+use peenpose::problem::fault_code::FaultCode;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 
 /// The keyway of the shipped problem with chords of about 1 degree, in mm.
 fn mesh(flipped: bool) -> String {
@@ -40,7 +40,7 @@ fn mesh(flipped: bool) -> String {
     text
 }
 
-fn setup(flipped: bool, facing: &str) -> Result<Setup, Vec<Rule>> {
+fn scenario(flipped: bool, facing: &str) -> Result<Scenario, Vec<FaultCode>> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("hub.obj"), mesh(flipped)).unwrap();
     let problem = include_str!("../problems/keyway.yaml")
@@ -55,16 +55,16 @@ fn setup(flipped: bool, facing: &str) -> Result<Setup, Vec<Rule>> {
     assert!(problem.contains("hub.obj"));
     let file = folder.path().join("keyway.yaml");
     std::fs::write(&file, problem).unwrap();
-    match Setup::load(&file) {
-        Ok((setup, _)) => Ok(setup),
+    match Scenario::load(&file) {
+        Ok((scenario, _)) => Ok(scenario),
         Err(rejection) => Err(rejection.faults.iter().map(|fault| fault.rule).collect()),
     }
 }
 
 #[test]
 fn the_target_of_an_open_mesh_faces_the_enclosed_side_if_its_triangles_do() {
-    let exact = Setup::load("problems/keyway.yaml".as_ref()).unwrap().0;
-    let choice = Choice {
+    let exact = Scenario::load("problems/keyway.yaml".as_ref()).unwrap().0;
+    let settings = Settings {
         incidence: 60_f64.to_radians(),
         azimuth: 20_f64.to_radians(),
         standoff: 9e-3,
@@ -75,19 +75,19 @@ fn the_target_of_an_open_mesh_faces_the_enclosed_side_if_its_triangles_do() {
         contact: 1,
         static_friction: 0.0,
     };
-    let total = |setup: &Setup| {
-        let fresh = Replicates::new(&setup.problem, 0, 1 << 14);
-        evaluate(setup, &choice, &fresh).terms.total()
+    let total = |scenario: &Scenario| {
+        let fresh = Replicates::new(&scenario.problem, 0, 1 << 14);
+        evaluate(scenario, &settings, &fresh).terms.total()
     };
     let expected = total(&exact);
-    let refused = setup(true, "").err();
-    assert_eq!(refused, Some(vec![Rule::FreeSideUnclear]));
+    let refused = scenario(true, "").err();
+    assert_eq!(refused, Some(vec![FaultCode::FreeSideUnclear]));
     let facing = "  facing: [0, -1, 0]";
     for (flipped, facing) in [(false, ""), (false, facing), (true, facing)] {
-        let setup = setup(flipped, facing).unwrap();
-        let away = setup.target.frame.normal - exact.target.frame.normal;
+        let scenario = scenario(flipped, facing).unwrap();
+        let away = scenario.target.frame.normal - exact.target.frame.normal;
         assert!(away.norm() < 1e-12);
-        let found = total(&setup);
+        let found = total(&scenario);
         assert!(
             (found / expected - 1.0).abs() < 5e-3,
             "{found} {expected}, flipped: {flipped}"

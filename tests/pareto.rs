@@ -8,24 +8,24 @@ use peenpose::feasibility::infeasibility;
 use peenpose::problem::Problem;
 use peenpose::problem::goal::TangentialImpulse;
 use peenpose::record::FrontRecord;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
-use peenpose::solve::{Control, Front, Risks, front, risks, solve};
+use peenpose::solve::{Control, Front, Objectives, front, objectives, solve};
 
 fn control() -> Control<'static> {
     Control {
         most_shots: 1024,
-        fresh_shots: 1 << 14,
+        validation_shots: 1 << 14,
         ..Control::default()
     }
 }
 
-fn front_of(setup: &Setup) -> Front {
-    let solution = solve(setup, &control());
-    front(setup, &solution.answers, &control())
+fn front_of(scenario: &Scenario) -> Front {
+    let solution = solve(scenario, &control());
+    front(scenario, &solution.answers, &control())
 }
 
-fn all_risks(front: &Front) -> Vec<(Risks, Risks)> {
+fn all_risks(front: &Front) -> Vec<(Objectives, Objectives)> {
     let evaluations = front
         .answers
         .iter()
@@ -35,18 +35,18 @@ fn all_risks(front: &Front) -> Vec<(Risks, Risks)> {
             let errors = &it.term_errors;
             let target = errors.normal_impulse.hypot(errors.miss);
             let of_risks = [target, errors.tangential_impulse, errors.rebound];
-            (risks(&it.terms), of_risks)
+            (objectives(&it.terms), of_risks)
         })
         .collect()
 }
 
 /// One shot on a plate at 60 deg, sliding: only the speed is free.
-fn plate(limit_share: f64) -> Setup {
-    let (setup, _) = Setup::load(Path::new("problems/plate.yaml")).unwrap();
-    let mut problem: Problem = setup.problem;
-    problem.settings.contact = vec![4];
-    problem.settings.speed.min = 1.0;
-    problem.settings.speed.max = 40.0;
+fn plate(limit_share: f64) -> Scenario {
+    let (scenario, _) = Scenario::load(Path::new("problems/plate.yaml")).unwrap();
+    let mut problem: Problem = scenario.problem;
+    problem.ranges.contact = vec![4];
+    problem.ranges.speed.min = 1.0;
+    problem.ranges.speed.max = 40.0;
     let normal = problem.goals.normal_impulse.target;
     let friction = problem.contacts[4].contact.dynamic_friction;
     problem.goals.tangential_impulse = Some(TangentialImpulse {
@@ -54,7 +54,7 @@ fn plate(limit_share: f64) -> Setup {
         share: 0.05,
         weight: 1.0,
     });
-    Setup::new(problem, Walls::Exact).unwrap()
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
 #[test]
@@ -87,36 +87,36 @@ fn without_a_conflict_there_is_one_answer() {
     assert_eq!(front.recommended, Some(0));
 }
 
-fn keyway() -> Setup {
+fn keyway() -> Scenario {
     let mut problem = common::keyway(40e-3);
-    problem.settings.contact = vec![0, 2];
-    Setup::new(problem, Walls::Exact).unwrap()
+    problem.ranges.contact = vec![0, 2];
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
 #[test]
 fn a_front_is_feasible_not_dominated_and_has_the_best_ends() {
-    let setup = keyway();
-    let front = front_of(&setup);
+    let scenario = keyway();
+    let front = front_of(&scenario);
     let points = all_risks(&front);
     assert!(points.len() >= 4);
     assert!(points.is_sorted_by(|a, b| a.0[0] <= b.0[0]));
     for answer in &front.answers {
-        assert!(infeasibility(&setup, &answer.choice).is_none());
+        assert!(infeasibility(&scenario, &answer.settings).is_none());
     }
-    for (index, (risks, errors)) in points.iter().enumerate() {
+    for (index, (objectives, errors)) in points.iter().enumerate() {
         for (other_index, (other, other_errors)) in points.iter().enumerate() {
             let beyond = |risk: usize| {
                 let error = errors[risk].hypot(other_errors[risk]);
-                other[risk] < risks[risk] - 2.0 * error - 1e-9
+                other[risk] < objectives[risk] - 2.0 * error - 1e-9
             };
-            let nowhere_worse = (0..3).all(|risk| other[risk] <= risks[risk]);
+            let nowhere_worse = (0..3).all(|risk| other[risk] <= objectives[risk]);
             let is_dominated = nowhere_worse && (0..3).any(beyond);
             assert!(!is_dominated, "{index} by {other_index}: {points:?}");
         }
     }
     // A search for one risk alone finds nothing that is better than the end of the front.
     for alone in 0..3 {
-        let mut single = setup.clone();
+        let mut single = scenario.clone();
         let goals = &mut single.problem.goals;
         let keep = |risk: usize| if risk == alone { 1.0 } else { 1e-6 };
         goals.normal_impulse.weight *= keep(0);
@@ -129,10 +129,10 @@ fn a_front_is_feasible_not_dominated_and_has_the_best_ends() {
         }
         let solution = solve(&single, &control());
         let best = solution.answers[0].evaluation.as_ref().unwrap();
-        let found = risks(&best.terms)[alone];
+        let found = objectives(&best.terms)[alone];
         let ends = points
             .iter()
-            .map(|(risks, errors)| (risks[alone], errors[alone]));
+            .map(|(objectives, errors)| (objectives[alone], errors[alone]));
         let (end, error) = ends.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
         let allowed = 0.02 * found + 4.0 * error.max(best.standard_error);
         assert!(end <= found + allowed, "{alone}: {end} {found} {allowed}");
@@ -141,11 +141,11 @@ fn a_front_is_feasible_not_dominated_and_has_the_best_ends() {
 
 #[test]
 fn a_front_does_not_depend_on_the_threads() {
-    let setup = keyway();
+    let scenario = keyway();
     let records = [1, 2].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let front = pool.unwrap().install(|| front_of(&setup));
-        FrontRecord::all(&setup, &front)
+        let front = pool.unwrap().install(|| front_of(&scenario));
+        FrontRecord::all(&scenario, &front)
     });
     assert!(!records[0].is_empty());
     assert_eq!(records[0], records[1]);

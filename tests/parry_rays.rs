@@ -66,7 +66,7 @@ fn agrees_with_parry(scene: &Scene, length: f64) {
 #[test]
 fn a_keyway_of_facets() {
     for degrees in [15.0_f64, 1.0] {
-        let walls = Walls::Facets {
+        let walls = Walls::TriangleMesh {
             chord_angle: degrees.to_radians(),
         };
         let scene = Scene::build(&common::keyway(40e-3).parts, walls).unwrap();

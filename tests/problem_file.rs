@@ -10,10 +10,10 @@ use cases::cases;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use peenpose::impact::{Contact, Law, Restitution};
 use peenpose::problem::equipment::{Body, Jet, Nozzle, PathLimits, Role, Shot, Spread};
+use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
 use peenpose::problem::model::{Effect, Model};
 use peenpose::problem::part::{Ends, Keyway, Part, Place, Shape, Target};
-use peenpose::problem::rule::Rule;
 use peenpose::problem::setting::{Range, Tolerance};
 use peenpose::problem::{self, LengthUnit, Problem, Reading};
 use proptest::prelude::*;
@@ -94,7 +94,7 @@ fn the_keyway_is_read_in_si() {
         Contact::new(0.15, 0.135, 0.25).unwrap()
     );
     assert!(problem.contacts[1].static_friction.is_held());
-    let settings = &problem.settings;
+    let settings = &problem.ranges;
     assert_eq!(
         settings.azimuth,
         Range {
@@ -154,7 +154,7 @@ fn the_keyway_is_read_in_si() {
 fn the_plate_holds_every_setting_of_the_pose() {
     let reading = problem::read(Path::new("problems/plate.yaml")).unwrap();
     let problem = reading.problem.unwrap();
-    let settings = &problem.settings;
+    let settings = &problem.ranges;
     assert!((settings.incidence.min - FRAC_PI_3).abs() < 1e-15);
     for range in [
         settings.incidence,
@@ -397,7 +397,7 @@ fn every_other_key_is_read() {
     let on_nozzle: Vec<bool> = problem.parts.iter().map(|part| part.on_nozzle).collect();
     assert_eq!(on_nozzle, [false, false, true, false, true]);
     assert_eq!(problem.parts[4].place.shift.z, 0.04);
-    let settings = &problem.settings;
+    let settings = &problem.ranges;
     assert_eq!(settings.incidence, Range::held(FRAC_PI_2));
     assert_eq!(settings.azimuth, Range { min: -PI, max: PI });
     assert_eq!(
@@ -478,7 +478,7 @@ fn a_root_may_be_half_as_wide_as_the_groove() {
 #[test]
 fn a_range_may_be_a_single_value() {
     let text = KEYWAY.replace("speed: [5 m/s, 40 m/s]", "speed: [10 m/s, 10 m/s]");
-    assert_eq!(sound(&text).settings.speed, Range::held(10.0));
+    assert_eq!(sound(&text).ranges.speed, Range::held(10.0));
 }
 
 /// Such a file has nothing that is in that unit; what is said of places is then in mm.
@@ -511,7 +511,10 @@ fn a_model_is_chosen_or_searched() {
 
 #[test]
 fn an_empty_text_is_not_taken_for_a_bad_number() {
-    for (radius, rule) in [("''", Rule::EmptyText), ("'wide'", Rule::NotAQuantity)] {
+    for (radius, rule) in [
+        ("''", FaultCode::EmptyText),
+        ("'wide'", FaultCode::NotAQuantity),
+    ] {
         let text = KEYWAY.replace("radius: 0.5 mm", &format!("radius: {radius}"));
         let faults = reading(&text).faults;
         let found: Vec<_> = faults.iter().map(|it| (it.key.as_str(), it.rule)).collect();
@@ -610,7 +613,7 @@ fn unreadable_files_are_faults() {
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), &huge).unwrap();
     let fault = problem::read(file.path()).unwrap_err();
-    assert_eq!(fault.rule, Rule::FileTooLarge);
+    assert_eq!(fault.rule, FaultCode::FileTooLarge);
 }
 
 #[test]

@@ -6,15 +6,15 @@ use std::path::Path;
 use peenpose::evaluate::evaluate;
 use peenpose::jet::{Replicates, purpose};
 use peenpose::problem;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::verdict::{Subject, Verdict};
 
 const SEEDS: u64 = 200;
 
 /// A parallel jet of 4 mm straight down, aimed within 2 mm along x; the target ends this far from where it is
 /// aimed at, m. Misses come from a corner of what exit and tolerance allow.
-fn cut_off_at(distance: f64) -> Setup {
+fn cut_off_at(distance: f64) -> Scenario {
     let text = format!(
         "
 format: 1
@@ -34,7 +34,7 @@ paths: {{ impacts: 1 }}
     let reading = problem::read_text(&text, Path::new("plate.yaml")).unwrap();
     let faults = problem::render(&reading.source, &reading.faults, false);
     let problem = reading.problem.unwrap_or_else(|| panic!("{faults}"));
-    Setup::new(problem, Walls::Exact).unwrap()
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
 /// The share of shots beyond a distance, in units of the disc's radius, which is the tolerance, too: the mean over
@@ -67,17 +67,18 @@ fn where_beyond(share: f64) -> f64 {
 #[test]
 fn intervals_hold_rare_shares_as_often_as_they_say() {
     for share in [1e-4, 1e-3] {
-        let mut setup = cut_off_at(where_beyond(share));
-        let choice = setup.problem.settings.middle();
+        let mut scenario = cut_off_at(where_beyond(share));
+        let settings = scenario.problem.ranges.middle();
         for shots in [2000, 16_384] {
             let mut held = 0;
             let mut missed = 0;
             let mut fired = 0;
             for seed in 1..=SEEDS {
-                setup.problem.seed = seed;
-                let fresh = Replicates::without_rim(&setup.problem, purpose::ANSWERS, shots);
-                let evaluation = evaluate(&setup, &choice, &fresh);
-                let verdicts = Verdict::all(&setup, &evaluation);
+                scenario.problem.seed = seed;
+                let fresh =
+                    Replicates::without_boundary(&scenario.problem, purpose::ANSWERS, shots);
+                let evaluation = evaluate(&scenario, &settings, &fresh);
+                let verdicts = Verdict::all(&scenario, &evaluation);
                 let miss = verdicts.iter().find(|it| it.subject == Subject::Miss);
                 let miss = miss.expect("misses are judged");
                 let [low, high] = miss.interval();

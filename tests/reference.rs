@@ -6,11 +6,11 @@ mod common;
 use nalgebra::{Point3, Vector3};
 use peenpose::evaluate::evaluate;
 use peenpose::impact::{Contact, Regime};
-use peenpose::jet::{Deviate, Pose, Replicates};
-use peenpose::problem::setting::{Choice, Tolerance};
+use peenpose::jet::{Pose, Replicates, ShotSample};
+use peenpose::problem::setting::{Settings, Tolerance};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
 use peenpose::scene::ray::Ray;
-use peenpose::setup::Setup;
 use peenpose::trace::Tracer;
 use serde_json::Value;
 
@@ -29,7 +29,7 @@ fn walls(case: &Value) -> Walls {
         "mesh" => {
             let lip = (15.0_f64 * 15.0 - 16.0).sqrt();
             let sweep = std::f64::consts::TAU - 2.0 * 4.0_f64.atan2(lip);
-            Walls::Facets {
+            Walls::TriangleMesh {
                 chord_angle: sweep / 330.0,
             }
         }
@@ -54,13 +54,13 @@ fn single_paths_agree_impact_by_impact() {
     for path in file["rays"].as_array().unwrap() {
         let mut problem = common::keyway(number(&path["length_mm"]) * 1e-3);
         problem.contacts[0].contact = contact(path);
-        let setup = Setup::new(problem, walls(path)).unwrap();
+        let scenario = Scenario::new(problem, walls(path)).unwrap();
         let velocity = vector(&path["velocity_m_s"]);
         let start = Ray {
             origin: Point3::from(vector(&path["start_m"])),
             direction: velocity.normalize(),
         };
-        let choice = Choice {
+        let settings = Settings {
             incidence: 1.0,
             azimuth: 0.0,
             standoff: 0.01,
@@ -72,13 +72,16 @@ fn single_paths_agree_impact_by_impact() {
             static_friction: 0.0,
         };
         let mut found = Vec::new();
-        Tracer::new(&setup, &choice, choice.speed)
-            .follow_from(start, &Deviate::NONE, |impact| found.push(*impact));
+        Tracer::new(&scenario, &settings, settings.speed).follow_from(
+            start,
+            &ShotSample::NONE,
+            |impact| found.push(*impact),
+        );
         let expected = path["impacts"].as_array().unwrap();
         assert_eq!(found.len(), expected.len(), "{path}");
         for (ours, theirs) in found.iter().zip(expected) {
             impacts += 1;
-            let surface = &setup.scene.surfaces()[ours.surface as usize];
+            let surface = &scenario.scene.surfaces()[ours.surface as usize];
             assert_eq!(surface, theirs["surface"].as_str().unwrap());
             assert_eq!(ours.on_target, theirs["on_target_patch"].as_bool().unwrap());
             assert_eq!(
@@ -127,7 +130,7 @@ fn terms_agree_all_over_the_range() {
             };
         }
         let settings = &case["settings"];
-        let choice = Choice {
+        let settings = Settings {
             incidence: number(&settings["incidence_deg"]).to_radians(),
             azimuth: number(&settings["azimuth_deg"]).to_radians(),
             standoff: number(&settings["standoff_m"]),
@@ -138,19 +141,19 @@ fn terms_agree_all_over_the_range() {
             contact: 0,
             static_friction: 0.0,
         };
-        let setup = Setup::new(problem, walls(case)).unwrap();
-        let pose = Pose::new(&setup.target.frame, &choice);
+        let scenario = Scenario::new(problem, walls(case)).unwrap();
+        let pose = Pose::new(&scenario.target.frame, &settings);
         assert!((pose.direction - vector(&case["direction"])).norm() < 1e-12);
         assert!((pose.exit.coords - vector(&case["exit_m"])).norm() < 1e-12);
-        let nozzle = &setup.problem.nozzle;
-        let (clearance, _) = setup
+        let nozzle = &scenario.problem.nozzle;
+        let (clearance, _) = scenario
             .scene
             .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY)
             .unwrap();
         assert!((clearance - number(&case["clearance_m"])).abs() < 1e-6);
 
-        let fresh = Replicates::new(&setup.problem, 0, 1 << 16);
-        let found = evaluate(&setup, &choice, &fresh);
+        let fresh = Replicates::new(&scenario.problem, 0, 1 << 16);
+        let found = evaluate(&scenario, &settings, &fresh);
         let (terms, errors) = (&case["terms"], &case["term_errors"]);
         let mut check = |name: &str, ours: f64, our_error: f64, theirs: f64, their_error: f64| {
             let error = our_error.hypot(their_error);
@@ -211,7 +214,7 @@ fn terms_agree_all_over_the_range() {
             number(&case["over_limit"][0]),
             number(&case["over_limit"][1]),
         );
-        for (index, name) in setup.scene.surfaces().iter().enumerate() {
+        for (index, name) in scenario.scene.surfaces().iter().enumerate() {
             let share = found.surfaces[index].over as f64 / found.shots as f64;
             let theirs = &case["surfaces"][name];
             check(

@@ -5,12 +5,12 @@ use std::path::Path;
 use peenpose::evaluate::{Counts, evaluate};
 use peenpose::jet::{Replicates, purpose};
 use peenpose::problem;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::trace::Tracer;
 
 /// A jet of large shot at the mouth of a keyway: a fifth of the hits on its floor touch the rim of that.
-fn mouth(low: f64) -> Setup {
+fn mouth(low: f64) -> Scenario {
     let text = format!(
         "
 format: 1
@@ -28,15 +28,15 @@ paths: {{ impacts: 1 }}
     let reading = problem::read_text(&text, Path::new("mouth.yaml")).unwrap();
     let faults = problem::render(&reading.source, &reading.faults, false);
     let problem = reading.problem.unwrap_or_else(|| panic!("{faults}"));
-    Setup::new(problem, Walls::Exact).unwrap()
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
 #[test]
 fn hits_on_a_rim_in_a_face_of_the_box_are_on_target() {
     let (exact, wider) = (mouth(0.0), mouth(-0.1));
-    let choice = exact.problem.settings.middle();
-    let shots = Replicates::without_rim(&exact.problem, purpose::ANSWERS, 16_384);
-    let counts = |setup: &Setup| Counts::of(&evaluate(setup, &choice, &shots));
+    let settings = exact.problem.ranges.middle();
+    let shots = Replicates::without_boundary(&exact.problem, purpose::ANSWERS, 16_384);
+    let counts = |scenario: &Scenario| Counts::of(&evaluate(scenario, &settings, &shots));
     let found = counts(&exact);
     // There is no floor beyond its end, so a box that goes on holds no more of it.
     assert_eq!(found, counts(&wider));
@@ -44,10 +44,10 @@ fn hits_on_a_rim_in_a_face_of_the_box_are_on_target() {
     assert!((share - 0.948).abs() < 0.005, "{share}");
 
     // Shot by shot as many at once.
-    let tracer = Tracer::new(&exact, &choice, choice.speed);
+    let tracer = Tracer::new(&exact, &settings, settings.speed);
     let (mut hits, mut rims) = (0, 0);
-    for deviate in shots.sets.iter().flat_map(|set| &set.jet.deviates) {
-        tracer.follow(deviate, |first| {
+    for sample in shots.sets.iter().flat_map(|set| &set.jet.shots) {
+        tracer.follow(sample, |first| {
             hits += usize::from(first.on_target);
             rims += usize::from(first.on_target && first.point.z.abs() < 1e-9);
         });

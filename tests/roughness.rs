@@ -6,16 +6,16 @@ use nalgebra::Vector3;
 use peenpose::impact::{Contact, rebound};
 use peenpose::jet::{Samples, Stream};
 use peenpose::problem;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::trace::Tracer;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// A rough plate under a jet of equal shots.
-fn plate(roughness_deg: f64) -> Setup {
+fn plate(roughness_deg: f64) -> Scenario {
     let text = format!(
         "
 format: 1
@@ -34,7 +34,7 @@ surfaces: {{ plate.z_max: {{ roughness: {roughness_deg} deg }} }}
     let problem = reading
         .problem
         .unwrap_or_else(|| panic!("{:?}", reading.faults));
-    Setup::new(problem, Walls::Exact).unwrap()
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
 /// Elevation over the plate, and azimuth from the jet's own, rad.
@@ -52,8 +52,8 @@ fn mean_and_deviation(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
 
 const SHOTS: usize = 400_000;
 
-fn traced(setup: &Setup, incidence: f64) -> Vec<[f64; 2]> {
-    let choice = Choice {
+fn traced(scenario: &Scenario, incidence: f64) -> Vec<[f64; 2]> {
+    let settings = Settings {
         incidence,
         azimuth: 0.0,
         standoff: 10e-3,
@@ -64,11 +64,11 @@ fn traced(setup: &Setup, incidence: f64) -> Vec<[f64; 2]> {
         contact: 0,
         static_friction: 0.1,
     };
-    let samples = Samples::new(&setup.problem, Stream::Search, SHOTS);
-    let tracer = Tracer::new(setup, &choice, choice.speed);
+    let samples = Samples::new(&scenario.problem, Stream::Search, SHOTS);
+    let tracer = Tracer::new(scenario, &settings, settings.speed);
     let mut found = Vec::new();
-    for deviate in &samples.deviates {
-        tracer.follow(deviate, |impact| {
+    for sample in &samples.shots {
+        tracer.follow(sample, |impact| {
             if impact.number == 1 {
                 found.push(angles(&impact.velocity));
             }
@@ -83,7 +83,7 @@ fn simulated(incidence: f64, roughness: f64) -> Vec<[f64; 2]> {
     let velocity = Vector3::new(incidence.cos(), 0.0, -incidence.sin()) * 10.0;
     let mut random = Xoshiro256PlusPlus::seed_from_u64(7);
     let normal = Normal::standard();
-    let mut deviate = || {
+    let mut sample = || {
         // Never 0 or 1.
         let uniform = ((random.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64;
         roughness * normal.inverse_cdf(uniform)
@@ -93,7 +93,7 @@ fn simulated(incidence: f64, roughness: f64) -> Vec<[f64; 2]> {
         Some(after.velocity).filter(|velocity| velocity.z > 0.0)
     };
     let shot = |_| {
-        let tilted = Vector3::new(deviate(), deviate(), 1.0).normalize();
+        let tilted = Vector3::new(sample(), sample(), 1.0).normalize();
         let after = one(&tilted).or_else(|| one(&Vector3::z()));
         angles(&after.unwrap())
     };
@@ -134,8 +134,8 @@ fn a_smooth_plate_does_not_scatter() {
 fn the_same_shot_meets_the_same_tilt_in_every_pose() {
     // At nearly the same incidence a shot rebounds nearly as it did, but for the few that stick there
     // and slide here.
-    let setup = plate(5.0);
-    let (one, other) = (traced(&setup, 1.0), traced(&setup, 1.0 + 1e-7));
+    let scenario = plate(5.0);
+    let (one, other) = (traced(&scenario, 1.0), traced(&scenario, 1.0 + 1e-7));
     let pairs = one.iter().zip(&other);
     let strays = pairs.filter(|(one, other)| (one[0] - other[0]).abs() > 1e-5);
     assert!(strays.count() < SHOTS / 10_000);

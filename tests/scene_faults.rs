@@ -7,20 +7,20 @@ use std::path::Path;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::impact::Contact;
-use peenpose::jet::{Deviate, Pose, Replicates, Samples, Stream};
+use peenpose::jet::{Pose, Replicates, Samples, ShotSample, Stream};
 use peenpose::objective::Tally;
 use peenpose::problem::Problem;
 use peenpose::problem::equipment::{Body, Nozzle, Role, SurfaceRule};
 use peenpose::problem::part::{Ends, Part, Place, Segment, Shape, Target};
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::ray::Ray;
 use peenpose::scene::{Scene, Walls};
-use peenpose::setup::Setup;
 use peenpose::trace::{PathImpact, Tracer};
 use peenpose::verdict::{Subject, Verdict};
 
-fn choice(incidence_deg: f64, azimuth_deg: f64, standoff: f64) -> Choice {
-    Choice {
+fn settings(incidence_deg: f64, azimuth_deg: f64, standoff: f64) -> Settings {
+    Settings {
         incidence: incidence_deg.to_radians(),
         azimuth: azimuth_deg.to_radians(),
         standoff,
@@ -34,30 +34,30 @@ fn choice(incidence_deg: f64, azimuth_deg: f64, standoff: f64) -> Choice {
 }
 
 /// Settings whose shots hit everything there is.
-fn choices() -> [Choice; 5] {
+fn choices() -> [Settings; 5] {
     [
-        choice(67.0, 0.0, 8e-3),
-        choice(45.0, 35.0, 12e-3),
-        choice(35.0, 80.0, 15e-3),
-        choice(85.0, -20.0, 18e-3),
-        choice(30.0, -60.0, 20e-3),
+        settings(67.0, 0.0, 8e-3),
+        settings(45.0, 35.0, 12e-3),
+        settings(35.0, 80.0, 15e-3),
+        settings(85.0, -20.0, 18e-3),
+        settings(30.0, -60.0, 20e-3),
     ]
 }
 
-fn exact(problem: Problem) -> Setup {
-    Setup::new(problem, Walls::Exact).unwrap()
+fn exact(problem: Problem) -> Scenario {
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
-fn objective(setup: &Setup, choice: &Choice) -> f64 {
-    let samples = Samples::new(&setup.problem, Stream::Search, 4096);
-    let tally = Tally::trace(setup, choice, choice.speed, &samples.deviates);
-    tally.terms(&setup.problem.goals, choice.speed).total()
+fn objective(scenario: &Scenario, settings: &Settings) -> f64 {
+    let samples = Samples::new(&scenario.problem, Stream::Search, 4096);
+    let tally = Tally::trace(scenario, settings, settings.speed, &samples.shots);
+    tally.terms(&scenario.problem.goals, settings.speed).total()
 }
 
-fn same_objective(one: &Setup, other: &Setup) {
-    for choice in choices() {
-        let (a, b) = (objective(one, &choice), objective(other, &choice));
-        assert!((a - b).abs() <= 1e-9 * a, "{choice:?}: {a} {b}");
+fn same_objective(one: &Scenario, other: &Scenario) {
+    for settings in choices() {
+        let (a, b) = (objective(one, &settings), objective(other, &settings));
+        assert!((a - b).abs() <= 1e-9 * a, "{settings:?}: {a} {b}");
     }
 }
 
@@ -74,8 +74,8 @@ fn gap(scene: &Scene, body: Body, exit: Point3<f64>, jet: Vector3<f64>) -> f64 {
 
 #[test]
 fn a_ball_and_a_lance_in_a_keyway_keep_the_distance_of_the_drawing() {
-    let setup = exact(common::keyway(40e-3));
-    let scene = &setup.scene;
+    let scenario = exact(common::keyway(40e-3));
+    let scene = &scenario.scene;
     let ball = Body::Ball { radius: 3e-3 };
     let jet = Vector3::y();
     // Chords of 1 degree lie up to 0.6 um inside the bore.
@@ -126,11 +126,11 @@ fn a_ball_and_a_lance_in_a_keyway_keep_the_distance_of_the_drawing() {
     near(gap(scene, through, at(0.0, 0.0), jet), -3e-3);
 }
 
-fn shipped(file: &str) -> Setup {
+fn shipped(file: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("problems")
         .join(file);
-    Setup::load(&path)
+    Scenario::load(&path)
         .map_err(|fault| fault.render(false))
         .unwrap()
         .0
@@ -138,28 +138,28 @@ fn shipped(file: &str) -> Setup {
 
 #[test]
 fn a_lance_along_a_blind_keyway_keeps_the_distance_of_the_drawing() {
-    let setup = shipped("keyway-blind.yaml");
+    let scenario = shipped("keyway-blind.yaml");
     let mut checked = 0;
     for incidence in [42.0, 50.0, 63.0, 75.0, 85.0] {
         for azimuth in [-55.0, -20.0, 0.0, 10.0, 40.0] {
             for standoff in [6.5e-3, 8e-3, 12e-3, 19e-3] {
-                let choice = choice(incidence, azimuth, standoff);
-                let pose = Pose::new(&setup.target.frame, &choice);
-                let nozzle = &setup.problem.nozzle;
-                let found = setup
+                let settings = settings(incidence, azimuth, standoff);
+                let pose = Pose::new(&scenario.target.frame, &settings);
+                let nozzle = &scenario.problem.nozzle;
+                let found = scenario
                     .scene
                     .clearance(nozzle, &pose.exit, &pose.direction, f64::INFINITY)
                     .unwrap()
                     .0;
                 // The lance passes through the round bore in front of the groove.
-                let (s, inc, az) = (standoff * 1e3, choice.incidence, choice.azimuth);
+                let (s, inc, az) = (standoff * 1e3, settings.incidence, settings.azimuth);
                 let from_axis = (s * inc.cos() * az.sin()).hypot(18.3 - s * inc.sin());
                 let expected = (15.0 - 3.0 - from_axis) * 1e-3;
                 if found > 0.0 || expected > 0.0 {
                     // Facets of at most 2 degrees lie up to 2.3 um inside the bore.
                     assert!(
                         (found - expected).abs() < 3e-6,
-                        "{choice:?}: {found}, not {expected}"
+                        "{settings:?}: {found}, not {expected}"
                     );
                     checked += 1;
                 }
@@ -233,39 +233,39 @@ fn surfaces_are_two_sided() {
     let pin = exact(problem);
     assert!((bore.target.frame.normal + Vector3::y()).norm() < 1e-9);
     assert!((pin.target.frame.normal - Vector3::y()).norm() < 1e-9);
-    for setup in [&bore, &pin] {
-        let choice = choice(60.0, 0.0, 5e-3);
-        let path = path(setup, &choice, &Deviate::NONE);
-        let shot = setup.problem.shot.mass();
+    for scenario in [&bore, &pin] {
+        let settings = settings(60.0, 0.0, 5e-3);
+        let path = path(scenario, &settings, &ShotSample::NONE);
+        let shot = scenario.problem.shot.mass();
         let expected = shot * 1.25 * 10.0 * 60.0_f64.to_radians().sin();
         assert!((path[0].normal_impulse / expected - 1.0).abs() < 1e-9);
         assert!(path[0].on_target);
     }
     // Inside, the shot flies on to the other side of the bore; outside it is gone.
-    assert!(path(&bore, &choice(60.0, 0.0, 5e-3), &Deviate::NONE).len() > 1);
+    assert!(path(&bore, &settings(60.0, 0.0, 5e-3), &ShotSample::NONE).len() > 1);
     assert_eq!(
-        path(&pin, &choice(60.0, 0.0, 5e-3), &Deviate::NONE).len(),
+        path(&pin, &settings(60.0, 0.0, 5e-3), &ShotSample::NONE).len(),
         1
     );
 }
 
-fn path(setup: &Setup, choice: &Choice, deviate: &Deviate) -> Vec<PathImpact> {
+fn path(scenario: &Scenario, settings: &Settings, sample: &ShotSample) -> Vec<PathImpact> {
     let mut path = Vec::new();
-    Tracer::new(setup, choice, choice.speed).follow(deviate, |impact| path.push(*impact));
+    Tracer::new(scenario, settings, settings.speed).follow(sample, |impact| path.push(*impact));
     path
 }
 
-fn paths(setup: &Setup, choice: &Choice) -> Vec<Vec<PathImpact>> {
-    let samples = Samples::new(&setup.problem, Stream::Search, 4096);
+fn paths(scenario: &Scenario, settings: &Settings) -> Vec<Vec<PathImpact>> {
+    let samples = Samples::new(&scenario.problem, Stream::Search, 4096);
     samples
-        .deviates
+        .shots
         .iter()
-        .map(|deviate| path(setup, choice, deviate))
+        .map(|sample| path(scenario, settings, sample))
         .collect()
 }
 
-fn surface(setup: &Setup, name: &str) -> usize {
-    setup.scene.surface_named(name).unwrap() as usize
+fn surface(scenario: &Scenario, name: &str) -> usize {
+    scenario.scene.surface_named(name).unwrap() as usize
 }
 
 #[test]
@@ -289,9 +289,13 @@ fn the_rest_of_a_target_surface_is_secondary() {
         ..whole.clone()
     };
     let (whole, narrow) = (exact(whole), exact(narrow));
-    let choice = choice(67.0, 0.0, 8e-3);
-    let found = |setup: &Setup| -> Evaluation {
-        evaluate(setup, &choice, &Replicates::new(&setup.problem, 0, 8192))
+    let settings = settings(67.0, 0.0, 8e-3);
+    let found = |scenario: &Scenario| -> Evaluation {
+        evaluate(
+            scenario,
+            &settings,
+            &Replicates::new(&scenario.problem, 0, 8192),
+        )
     };
     let (on_whole, on_narrow) = (found(&whole), found(&narrow));
     assert_eq!(on_whole.target.hits, on_whole.shots);
@@ -302,8 +306,8 @@ fn the_rest_of_a_target_surface_is_secondary() {
     assert!(on_whole.surfaces[floor].impacts_by_number.is_empty());
     // All of those are far above what a secondary surface may take.
     assert_eq!(on_narrow.surfaces[floor].over_by_number[0], direct);
-    let miss = |setup: &Setup, evaluation: &Evaluation| {
-        let verdicts = Verdict::all(setup, evaluation);
+    let miss = |scenario: &Scenario, evaluation: &Evaluation| {
+        let verdicts = Verdict::all(scenario, evaluation);
         *verdicts
             .iter()
             .find(|verdict| verdict.subject == Subject::Miss)
@@ -365,20 +369,20 @@ fn a_root_radius_is_a_round_between_floor_and_walls() {
 
 /// The objective on independent shots agrees within three standard errors, and `slack` of it for
 /// what facets do to the scene itself.
-fn agree_within_errors(one: &Setup, other: &Setup, slack: f64) {
-    for choice in choices() {
+fn agree_within_errors(one: &Scenario, other: &Scenario, slack: f64) {
+    for settings in choices() {
         let (a, b) = (
-            evaluate(one, &choice, &Replicates::new(&one.problem, 0, 1 << 15)),
+            evaluate(one, &settings, &Replicates::new(&one.problem, 0, 1 << 15)),
             evaluate(
                 other,
-                &choice,
+                &settings,
                 &Replicates::new(&other.problem, 500, 1 << 15),
             ),
         );
         let error = a.standard_error.hypot(b.standard_error);
         let (a, b) = (a.terms.total(), b.terms.total());
         let allowed = 3.0 * error + slack * a;
-        assert!((a - b).abs() < allowed, "{choice:?}: {a} {b} +- {error}");
+        assert!((a - b).abs() < allowed, "{settings:?}: {a} {b} +- {error}");
     }
 }
 
@@ -386,9 +390,9 @@ fn agree_within_errors(one: &Setup, other: &Setup, slack: f64) {
 /// bore that changes J by this much; it goes away with finer facets.
 const FACETS_OF_ONE_DEGREE: f64 = 3e-3;
 
-fn faceted(problem: Problem, chord_deg: f64) -> Setup {
+fn faceted(problem: Problem, chord_deg: f64) -> Scenario {
     let chord_angle = chord_deg.to_radians();
-    Setup::new(problem, Walls::Facets { chord_angle }).unwrap()
+    Scenario::new(problem, Walls::TriangleMesh { chord_angle }).unwrap()
 }
 
 #[test]
@@ -447,10 +451,13 @@ fn a_closed_end_stops_what_would_leave() {
         },
     };
     let (open, closed) = (exact(common::keyway(40e-3)), exact(problem));
-    let choice = choice(67.0, 0.0, 8e-3);
+    let settings = settings(67.0, 0.0, 8e-3);
     let far = surface(&closed, "hub.far") as u32;
     let mut stopped = 0;
-    for (open_path, closed_path) in paths(&open, &choice).iter().zip(paths(&closed, &choice)) {
+    for (open_path, closed_path) in paths(&open, &settings)
+        .iter()
+        .zip(paths(&closed, &settings))
+    {
         match closed_path.iter().position(|impact| impact.surface == far) {
             Some(at) => {
                 stopped += 1;
@@ -478,7 +485,7 @@ fn rule(surface: &str) -> SurfaceRule {
     }
 }
 
-fn with_rules(rules: &[SurfaceRule]) -> Setup {
+fn with_rules(rules: &[SurfaceRule]) -> Scenario {
     exact(Problem {
         surfaces: rules.to_vec(),
         ..common::keyway(40e-3)
@@ -486,7 +493,7 @@ fn with_rules(rules: &[SurfaceRule]) -> Setup {
 }
 
 /// The same with the whole floor as the target.
-fn with_rules_and_whole_floor(rules: &[SurfaceRule]) -> Setup {
+fn with_rules_and_whole_floor(rules: &[SurfaceRule]) -> Scenario {
     let mut problem = Problem {
         surfaces: rules.to_vec(),
         ..common::keyway(40e-3)
@@ -509,15 +516,15 @@ fn hits_on_a_deflector_belong_to_the_flight() {
             .iter()
             .any(|wall| surface(&plain, wall) == impact.surface as usize)
     };
-    let choice = Choice {
+    let settings = Settings {
         aim_across: 3.5e-3,
         aim_above: 0.0,
-        ..choice(60.0, 90.0, 15e-3)
+        ..settings(60.0, 90.0, 15e-3)
     };
     let mut banked = 0;
-    for (before, after) in paths(&plain, &choice)
+    for (before, after) in paths(&plain, &settings)
         .iter()
-        .zip(paths(&deflecting, &choice))
+        .zip(paths(&deflecting, &settings))
     {
         assert!(!after.iter().any(is_wall));
         assert!(
@@ -536,10 +543,10 @@ fn hits_on_a_deflector_belong_to_the_flight() {
     }
     assert!(banked > 100, "{banked}");
     let (before, after) = (
-        evaluate(&plain, &choice, &Replicates::new(&plain.problem, 0, 4096)),
+        evaluate(&plain, &settings, &Replicates::new(&plain.problem, 0, 4096)),
         evaluate(
             &deflecting,
-            &choice,
+            &settings,
             &Replicates::new(&deflecting.problem, 0, 4096),
         ),
     );
@@ -564,11 +571,14 @@ fn a_surface_may_have_its_own_contact() {
         ..rule("hub.floor")
     }]);
     for contact in 0..3 {
-        let choice = Choice {
+        let settings = Settings {
             contact,
-            ..choice(67.0, 0.0, 8e-3)
+            ..settings(67.0, 0.0, 8e-3)
         };
-        for (before, after) in paths(&plain, &choice).iter().zip(paths(&deadened, &choice)) {
+        for (before, after) in paths(&plain, &settings)
+            .iter()
+            .zip(paths(&deadened, &settings))
+        {
             // (1 + E) m v_n with E = 0 in place of 0.25; there the shot stays.
             assert!((after[0].normal_impulse * 1.25 / before[0].normal_impulse - 1.0).abs() < 1e-9);
             assert_eq!(after.len(), 1);
@@ -582,27 +592,27 @@ fn a_surface_may_have_its_own_contact() {
     same_first_hits(&plain, &mask);
 }
 
-fn same_first_hits(one: &Setup, other: &Setup) {
-    let choice = choice(67.0, 0.0, 8e-3);
-    for (a, b) in paths(one, &choice).iter().zip(paths(other, &choice)) {
+fn same_first_hits(one: &Scenario, other: &Scenario) {
+    let settings = settings(67.0, 0.0, 8e-3);
+    for (a, b) in paths(one, &settings).iter().zip(paths(other, &settings)) {
         assert_eq!(a[0], b[0]);
     }
 }
 
 #[test]
 fn a_surface_may_have_its_own_limits() {
-    let choice = choice(35.0, 80.0, 15e-3);
+    let settings = settings(35.0, 80.0, 15e-3);
     let strict = SurfaceRule {
         allow: Some(2e-6),
         share: Some(0.001),
         weight: Some(3.0),
         ..rule("hub.bore")
     };
-    let mut setup = with_rules(&[strict]);
-    setup.problem.jet.speed_spread = 0.0;
-    let bore = surface(&setup, "hub.bore") as u32;
+    let mut scenario = with_rules(&[strict]);
+    scenario.problem.jet.speed_spread = 0.0;
+    let bore = surface(&scenario, "hub.bore") as u32;
     let (mut harm, mut over) = (0.0, 0);
-    let paths = paths(&setup, &choice);
+    let paths = paths(&scenario, &settings);
     for path in &paths {
         over += usize::from(
             path.iter()
@@ -617,16 +627,16 @@ fn a_surface_may_have_its_own_limits() {
             harm += weight * (impact.normal_impulse / allow).powi(2) / paths.len() as f64;
         }
     }
-    let samples = Samples::new(&setup.problem, Stream::Search, 4096);
-    let tally = Tally::trace(&setup, &choice, choice.speed, &samples.deviates);
-    let found = tally.terms(&setup.problem.goals, choice.speed).rebound;
+    let samples = Samples::new(&scenario.problem, Stream::Search, 4096);
+    let tally = Tally::trace(&scenario, &settings, settings.speed, &samples.shots);
+    let found = tally.terms(&scenario.problem.goals, settings.speed).rebound;
     assert!((found / harm - 1.0).abs() < 1e-9, "{found} {harm}");
     let evaluation = evaluate(
-        &setup,
-        &choice,
-        &Replicates::new(&setup.problem, 0, 1 << 14),
+        &scenario,
+        &settings,
+        &Replicates::new(&scenario.problem, 0, 1 << 14),
     );
-    let verdicts = Verdict::all(&setup, &evaluation);
+    let verdicts = Verdict::all(&scenario, &evaluation);
     let verdict = verdicts
         .iter()
         .find(|v| v.subject == Subject::Surface(bore))
@@ -647,7 +657,7 @@ fn rules_for_a_surface_that_is_not_there_are_a_fault() {
         surfaces: vec![rule("hub.brim")],
         ..common::keyway(40e-3)
     };
-    let Err(faults) = Setup::new(problem, Walls::Exact) else {
+    let Err(faults) = Scenario::new(problem, Walls::Exact) else {
         panic!("it must be refused")
     };
     assert_eq!(faults.len(), 1);

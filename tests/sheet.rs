@@ -220,8 +220,8 @@ fn sticking_that_makes_friction_irrelevant_is_said_in_so_many_words() {
         "{text}"
     );
     // Contacts that slide are no proof of it.
-    for choice in &mut record.choices {
-        if let Some(target) = &mut choice.target {
+    for settings in &mut record.choices {
+        if let Some(target) = &mut settings.target {
             target.share_sticking = 0.5;
         }
     }

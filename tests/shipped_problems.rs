@@ -6,8 +6,8 @@ use std::path::Path;
 use nalgebra::Vector2;
 use peenpose::problem::curve::Curve;
 use peenpose::problem::part::Shape;
+use peenpose::scenario::Scenario;
 use peenpose::scene::profile::Profile;
-use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Control, Solution, Status, solve};
 
 /// Where the best answer for one contact must lie.
@@ -70,20 +70,20 @@ fn expectations(file: &str) -> Vec<Expectation> {
     }
 }
 
-fn load(file: &str) -> Setup {
+fn load(file: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("problems")
         .join(file);
-    let loaded = Setup::load(&path);
+    let loaded = Scenario::load(&path);
     loaded
         .unwrap_or_else(|fault| panic!("{}", fault.render(false)))
         .0
 }
 
-fn solved(file: &str) -> (Setup, Solution) {
-    let setup = load(file);
-    let solution = solve(&setup, &Control::default());
-    (setup, solution)
+fn solved(file: &str) -> (Scenario, Solution) {
+    let scenario = load(file);
+    let solution = solve(&scenario, &Control::default());
+    (scenario, solution)
 }
 
 fn objective(answer: &Answer) -> f64 {
@@ -116,7 +116,7 @@ fn every_file_is_solved_in_the_right_valley() {
     assert!(files.len() >= 7, "{files:?}");
     for file in &files {
         let expected = expectations(file);
-        let (setup, solution) = solved(file);
+        let (scenario, solution) = solved(file);
         assert_eq!(solution.status, Status::Converged, "{file}");
         assert_eq!(solution.answers.len(), expected.len(), "{file}");
         let totals: Vec<f64> = solution.answers.iter().map(objective).collect();
@@ -127,16 +127,16 @@ fn every_file_is_solved_in_the_right_valley() {
         );
         for (rank, expected) in expected.iter().enumerate() {
             let name = |answer: &&Answer| {
-                setup.problem.contacts[answer.choice.contact].name == expected.contact
+                scenario.problem.contacts[answer.settings.contact].name == expected.contact
             };
             let answer = solution.answers.iter().find(name).expect("every contact");
-            let (j, incidence) = (objective(answer), answer.choice.incidence.to_degrees());
+            let (j, incidence) = (objective(answer), answer.settings.incidence.to_degrees());
             let what = format!("{file}, {}: J {j} at {incidence} deg", expected.contact);
             assert!(expected.objective.contains(&j), "{what}");
             assert!(expected.incidence_deg.contains(&incidence), "{what}");
             assert_eq!(answer.passes(), expected.passes, "{what}");
             // What cannot win need not be known as well.
-            let wanted = if rank == 0 { 1.0 } else { 4.0 } * setup.problem.accuracy * j;
+            let wanted = if rank == 0 { 1.0 } else { 4.0 } * scenario.problem.accuracy * j;
             assert!(standard_error(answer) <= wanted, "{what}");
             if rank == 0 {
                 let slack =
@@ -166,8 +166,8 @@ fn directions(curve: &Curve) -> [Vector2<f64>; 2] {
 fn arcs_of_extrusions_are_tangent_to_what_they_join() {
     // Only the tips of the gear's teeth have edges.
     for (file, sharp) in [("firtree.yaml", 0), ("gear-root.yaml", 2)] {
-        let setup = load(file);
-        let Shape::Extrude { profile, .. } = &setup.problem.parts[0].shape else {
+        let scenario = load(file);
+        let Shape::Extrude { profile, .. } = &scenario.problem.parts[0].shape else {
             panic!("{file} is an extrusion");
         };
         let pieces = Profile::outline(profile).pieces;
@@ -202,11 +202,15 @@ fn the_plate_receives_what_the_paper_says() {
 
 #[test]
 fn the_long_keyway_has_friction_to_choose() {
-    let (setup, solution) = solved("keyway-long.yaml");
+    let (scenario, solution) = solved("keyway-long.yaml");
     let names: Vec<&str> = solution
         .answers
         .iter()
-        .map(|answer| setup.problem.contacts[answer.choice.contact].name.as_str())
+        .map(|answer| {
+            scenario.problem.contacts[answer.settings.contact]
+                .name
+                .as_str()
+        })
         .collect();
     assert_eq!(names, ["oiled", "damp", "dry"]);
     assert!(objective(&solution.answers[2]) > 10.0 * objective(&solution.answers[1]));

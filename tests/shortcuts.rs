@@ -6,45 +6,45 @@ use std::fs;
 use std::path::Path;
 
 use peenpose::checkpoint::Checkpoint;
-use peenpose::evaluate::evaluate_focused;
-use peenpose::jet::{Fresh, purpose};
+use peenpose::evaluate::evaluate_adaptively;
+use peenpose::jet::{ValidationSample, purpose};
 use peenpose::precision::Precision;
-use peenpose::problem::setting::{Choice, Range};
+use peenpose::problem::setting::{Range, Settings};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Control, Shortcuts, Solution, Status, solve};
 use serde_json::Value;
 use tempfile::TempDir;
 
-fn shipped(file: &str) -> Setup {
+fn shipped(file: &str) -> Scenario {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("problems")
         .join(file);
-    let loaded = Setup::load(&path).map_err(|fault| fault.render(false));
+    let loaded = Scenario::load(&path).map_err(|fault| fault.render(false));
     loaded.unwrap().0
 }
 
-fn searched(setup: &Setup, shortcuts: Shortcuts) -> Solution {
+fn searched(scenario: &Scenario, shortcuts: Shortcuts) -> Solution {
     let control = Control {
         shortcuts,
         ..Control::default()
     };
-    solve(setup, &control)
+    solve(scenario, &control)
 }
 
 /// The settings for each contact, best first.
-fn choices(solution: &Solution) -> Vec<Choice> {
+fn choices(solution: &Solution) -> Vec<Settings> {
     solution
         .answers
         .iter()
-        .map(|answer| answer.choice)
+        .map(|answer| answer.settings)
         .collect()
 }
 
 /// J of the answer for each contact, in the order of the file.
 fn objectives(solution: &Solution) -> Vec<f64> {
     let mut answers: Vec<_> = solution.answers.iter().collect();
-    answers.sort_by_key(|answer| answer.choice.contact);
+    answers.sort_by_key(|answer| answer.settings.contact);
     let evaluations = answers
         .iter()
         .map(|answer| answer.evaluation.as_ref().unwrap());
@@ -66,11 +66,11 @@ fn apart(one: &Solution, other: &Solution) -> f64 {
 const ALIKE: f64 = 0.1;
 
 /// Every figure is what an evaluation of these settings says by itself, which knows f64 alone.
-fn figures_are_those_of_evaluations(setup: &Setup, solution: &Solution) {
+fn figures_are_those_of_evaluations(scenario: &Scenario, solution: &Solution) {
     for answer in &solution.answers {
         let reported = answer.evaluation.as_ref().unwrap();
-        let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, reported.shots);
-        let found = evaluate_focused(setup, &answer.choice, &fresh);
+        let fresh = ValidationSample::new(&scenario.problem, purpose::ANSWERS, reported.shots);
+        let found = evaluate_adaptively(scenario, &answer.settings, &fresh);
         assert_eq!(format!("{reported:?}"), format!("{found:?}"));
     }
 }
@@ -82,17 +82,17 @@ fn searches_in_single_and_in_double_precision_find_answers_of_equal_objective() 
         ..Shortcuts::default()
     };
     for file in ["keyway.yaml", "keyway-long.yaml"] {
-        let setup = shipped(file).as_asked();
+        let scenario = shipped(file).as_asked();
         let (single, double) = (
-            searched(&setup, Shortcuts::default()),
-            searched(&setup, in_double),
+            searched(&scenario, Shortcuts::default()),
+            searched(&scenario, in_double),
         );
         assert_eq!(single.ladder.precision, Precision::F32, "{file}");
         assert_eq!(double.ladder.precision, Precision::F64, "{file}");
         let apart = apart(&single, &double);
-        assert!(apart < ALIKE * setup.problem.accuracy, "{file}: {apart}");
-        figures_are_those_of_evaluations(&setup, &single);
-        figures_are_those_of_evaluations(&setup, &double);
+        assert!(apart < ALIKE * scenario.problem.accuracy, "{file}: {apart}");
+        figures_are_those_of_evaluations(&scenario, &single);
+        figures_are_those_of_evaluations(&scenario, &double);
     }
 }
 
@@ -103,10 +103,10 @@ fn hopeless_poses_that_are_given_up_save_rays_and_change_no_answer() {
         ..Shortcuts::default()
     };
     for file in ["keyway.yaml", "keyway-long.yaml"] {
-        let setup = shipped(file).as_asked();
+        let scenario = shipped(file).as_asked();
         let (early, late) = (
-            searched(&setup, Shortcuts::default()),
-            searched(&setup, to_the_end),
+            searched(&scenario, Shortcuts::default()),
+            searched(&scenario, to_the_end),
         );
         assert_eq!(choices(&early), choices(&late), "{file}");
         assert!(
@@ -121,15 +121,15 @@ fn hopeless_poses_that_are_given_up_save_rays_and_change_no_answer() {
 #[test]
 fn a_search_that_looks_where_harm_comes_from_needs_fewer_shots() {
     let without = Shortcuts {
-        focus: false,
+        importance: false,
         ..Shortcuts::default()
     };
     let (mut rays, mut shots) = ([0; 2], [0; 2]);
     for seed in 1..=8 {
-        let mut setup = shipped("keyway.yaml").as_asked();
-        setup.problem.seed = seed;
+        let mut scenario = shipped("keyway.yaml").as_asked();
+        scenario.problem.seed = seed;
         for (index, shortcuts) in [Shortcuts::default(), without].into_iter().enumerate() {
-            let solution = searched(&setup, shortcuts);
+            let solution = searched(&scenario, shortcuts);
             assert_eq!(solution.status, Status::Converged, "{seed}");
             rays[index] += solution.rays;
             shots[index] = shots[index].max(solution.shots_per_pose);
@@ -143,15 +143,15 @@ fn a_search_that_looks_where_harm_comes_from_needs_fewer_shots() {
 
 /// A long slot of which one setting is searched for one contact, to more digits than any number of shots
 /// can tell: of 39 such searches this one alone is not within the error of its figures at the end.
-fn demanding() -> Setup {
+fn demanding() -> Scenario {
     let mut problem = common::keyway(200e-3);
-    problem.settings.azimuth = Range::held(0.0);
-    problem.settings.standoff = Range::held(8e-3);
-    problem.settings.contact = vec![2];
+    problem.ranges.azimuth = Range::held(0.0);
+    problem.ranges.standoff = Range::held(8e-3);
+    problem.ranges.contact = vec![2];
     problem.paths.impacts = IMPACTS;
     problem.accuracy = 1e-7;
     problem.seed = 22;
-    Setup::new(problem, Walls::Exact).unwrap()
+    Scenario::new(problem, Walls::Exact).unwrap()
 }
 
 const IMPACTS: usize = 2;
@@ -170,14 +170,14 @@ fn rays_of_poses(checkpoint: &Path) -> Vec<usize> {
 
 #[test]
 fn a_search_that_cannot_be_accurate_enough_stops_at_the_most_shots() {
-    let setup = demanding();
+    let scenario = demanding();
     let folder = TempDir::new().unwrap();
-    let checkpoint = Checkpoint::open(folder.path(), &setup).unwrap();
+    let checkpoint = Checkpoint::open(folder.path(), &scenario).unwrap();
     let control = Control {
         checkpoint: Some(&checkpoint),
         ..Control::default()
     };
-    let solution = solve(&setup, &control);
+    let solution = solve(&scenario, &control);
     checkpoint.finish().unwrap();
     assert_eq!(solution.status, Status::BudgetSpent);
     assert_eq!(solution.shots_per_pose, MOST_SHOTS);

@@ -5,11 +5,11 @@ use std::path::Path;
 use peenpose::evaluate::evaluate;
 use peenpose::jet::Replicates;
 use peenpose::problem;
-use peenpose::problem::setting::Choice;
-use peenpose::record::{Circumstances, Record, StatusRecord, WorkRecord};
+use peenpose::problem::setting::Settings;
+use peenpose::record::{Record, RunInfo, StatusRecord, WorkRecord};
 use peenpose::report::sheet;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Ladder};
 use peenpose::unknowns::{Quantity, Unknowns};
 use peenpose::verdict::Subject;
@@ -32,8 +32,8 @@ const MASS: f64 = 3.665_191_429_188_092e-6;
 
 struct Case {
     source: problem::Source,
-    setup: Setup,
-    choice: Choice,
+    scenario: Scenario,
+    settings: Settings,
 }
 
 fn case(changes: &[(&str, &str)]) -> Case {
@@ -43,13 +43,13 @@ fn case(changes: &[(&str, &str)]) -> Case {
         text = text.replace(old, new);
     }
     let reading = problem::read_text(&text, Path::new("plate.yaml")).unwrap();
-    let setup = Setup::new(reading.problem.unwrap(), Walls::Exact).unwrap();
-    let settings = &setup.problem.settings;
-    let choice = Choice {
-        incidence: settings.incidence.min,
+    let scenario = Scenario::new(reading.problem.unwrap(), Walls::Exact).unwrap();
+    let ranges = &scenario.problem.ranges;
+    let settings = Settings {
+        incidence: ranges.incidence.min,
         azimuth: 0.0,
-        standoff: settings.standoff.min,
-        speed: settings.speed.min,
+        standoff: ranges.standoff.min,
+        speed: ranges.speed.min,
         aim_along: 0.0,
         aim_across: 0.0,
         aim_above: 0.0,
@@ -58,13 +58,13 @@ fn case(changes: &[(&str, &str)]) -> Case {
     };
     Case {
         source: reading.source,
-        setup,
-        choice,
+        scenario,
+        settings,
     }
 }
 
 fn unknowns(case: &Case) -> Unknowns {
-    Unknowns::of(&case.setup, &case.choice).unwrap()
+    Unknowns::of(&case.scenario, &case.settings).unwrap()
 }
 
 /// Angle between path and surface after one impact without spin, deg.
@@ -177,7 +177,7 @@ fn falling_restitution_and_contacts_of_the_target_itself_are_followed() {
 #[test]
 fn what_is_known_is_not_asked() {
     let known = case(&[("restitution: 0.2, friction: 60 %", "speed: 3 %")]);
-    assert_eq!(Unknowns::of(&known.setup, &known.choice), None);
+    assert_eq!(Unknowns::of(&known.scenario, &known.settings), None);
     let one = case(&[("restitution: 0.2, friction: 60 %", "friction: 60 %")]);
     let ranges = unknowns(&one).ranges;
     assert_eq!(ranges.len(), 1);
@@ -185,14 +185,14 @@ fn what_is_known_is_not_asked() {
 }
 
 fn record(case: &Case) -> Record {
-    let fresh = Replicates::new(&case.setup.problem, 0, 4096);
-    let evaluation = evaluate(&case.setup, &case.choice, &fresh);
-    let answer = Answer::judged(&case.setup, &case.choice, Some(evaluation));
-    let circumstances = Circumstances {
+    let fresh = Replicates::new(&case.scenario.problem, 0, 4096);
+    let evaluation = evaluate(&case.scenario, &case.settings, &fresh);
+    let answer = Answer::evaluated(&case.scenario, &case.settings, Some(evaluation));
+    let run = RunInfo {
         source: &case.source,
         status: StatusRecord::Evaluated,
         command: "peenpose evaluate plate.yaml".into(),
-        ladder: &Ladder::of(&case.setup),
+        ladder: &Ladder::of(&case.scenario),
         work: WorkRecord {
             poses: 1,
             shots_per_pose: 4096,
@@ -200,8 +200,8 @@ fn record(case: &Case) -> Record {
             seconds: 0.0,
         },
     };
-    let unknowns = Unknowns::of(&case.setup, &case.choice);
-    Record::new(&case.setup, &[answer], &[], vec![], unknowns, circumstances).unwrap()
+    let unknowns = Unknowns::of(&case.scenario, &case.settings);
+    Record::new(&case.scenario, &[answer], &[], vec![], unknowns, run).unwrap()
 }
 
 #[test]

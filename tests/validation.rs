@@ -8,12 +8,12 @@ use nalgebra::{Point3, Vector3};
 use peenpose::impact::{
     Contact, Law, Motion, Oblique, Outcome, Rebound, Regime, Restitution, Sphere, impact, rebound,
 };
-use peenpose::jet::Deviate;
+use peenpose::jet::ShotSample;
 use peenpose::problem::part::{Part, Place, Shape, Target};
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
 use peenpose::scene::ray::Ray;
-use peenpose::setup::Setup;
 use peenpose::trace::{End, PathImpact, Tracer};
 
 fn close(value: f64, expected: f64, tolerance: f64) {
@@ -309,10 +309,10 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
     problem.paths.impacts = 10;
     problem.paths.least_energy = 0.0;
     problem.contacts[0].contact = contact;
-    let setup = Setup::new(problem, Walls::Exact).unwrap();
+    let scenario = Scenario::new(problem, Walls::Exact).unwrap();
     let along = Vector3::new(0.8, 0.6, 0.0);
     let velocity = along * ALONG - Vector3::z() * DOWNWARDS;
-    let choice = Choice {
+    let settings = Settings {
         incidence: 1.0,
         azimuth: 0.0,
         standoff: 0.01,
@@ -328,9 +328,11 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
         direction: velocity.normalize(),
     };
     let mut impacts = Vec::new();
-    let (end, _) =
-        Tracer::new(&setup, &choice, choice.speed)
-            .follow_from(start, &Deviate::NONE, |impact| impacts.push(*impact));
+    let (end, _) = Tracer::new(&scenario, &settings, settings.speed).follow_from(
+        start,
+        &ShotSample::NONE,
+        |impact| impacts.push(*impact),
+    );
     assert_eq!((end, impacts.len()), (End::Limit, 10));
     (impacts, along)
 }

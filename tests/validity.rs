@@ -11,9 +11,9 @@ use held::held;
 use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::jet::Replicates;
 use peenpose::problem;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::validity::{self, Note};
 
 /// A plate under a jet that stands still; tests replace what they are about.
@@ -32,7 +32,7 @@ goals: { normal_impulse: { target: 40 uN.s } }
 /// Mass of a shot of the plate, kg: 4/3 pi (0.5 mm)^3 7000 kg/m3.
 const MASS: f64 = 3.665_191_429_188_092e-6;
 
-fn setup_in(folder: &Path, changes: &[(&str, &str)]) -> Setup {
+fn setup_in(folder: &Path, changes: &[(&str, &str)]) -> Scenario {
     let mut text = PLATE.to_owned();
     for (old, new) in changes {
         assert!(text.contains(old), "{old}");
@@ -40,23 +40,23 @@ fn setup_in(folder: &Path, changes: &[(&str, &str)]) -> Setup {
     }
     let reading = problem::read_text(&text, &folder.join("plate.yaml")).unwrap();
     let shown = problem::render(&reading.source, &reading.faults, false);
-    Setup::new(reading.problem.expect(&shown), Walls::Exact).unwrap()
+    Scenario::new(reading.problem.expect(&shown), Walls::Exact).unwrap()
 }
 
-fn setup(changes: &[(&str, &str)]) -> Setup {
+fn scenario(changes: &[(&str, &str)]) -> Scenario {
     setup_in(Path::new(""), changes)
 }
 
-fn evaluated(setup: &Setup) -> Evaluation {
+fn evaluated(scenario: &Scenario) -> Evaluation {
     evaluate(
-        setup,
-        &held(setup),
-        &Replicates::new(&setup.problem, 0, 4096),
+        scenario,
+        &held(scenario),
+        &Replicates::new(&scenario.problem, 0, 4096),
     )
 }
 
-fn notes(setup: &Setup) -> Vec<Note> {
-    validity::notes(setup, &held(setup), None)
+fn notes(scenario: &Scenario) -> Vec<Note> {
+    validity::notes(scenario, &held(scenario), None)
 }
 
 fn find(notes: &[Note], name: &str) -> Option<Note> {
@@ -66,8 +66,8 @@ fn find(notes: &[Note], name: &str) -> Option<Note> {
     found
 }
 
-fn value(setup: &Setup, name: &str) -> f64 {
-    find(&notes(setup), name).expect(name).value
+fn value(scenario: &Scenario, name: &str) -> f64 {
+    find(&notes(scenario), name).expect(name).value
 }
 
 fn assert_close(found: f64, expected: f64, relative: f64) {
@@ -95,7 +95,7 @@ fn lost_by_small_steps(diameter: f64, density: f64, speed: f64, distance: f64) -
 
 #[test]
 fn steel_hardly_loses_speed() {
-    let steel = setup(&[
+    let steel = scenario(&[
         (
             "radius: 0.5 mm, density: 7000",
             "radius: 0.3 mm, density: 7800",
@@ -120,7 +120,7 @@ fn steel_hardly_loses_speed() {
 
 #[test]
 fn fine_glass_loses_much_of_its_speed() {
-    let glass = setup(&[
+    let glass = scenario(&[
         (
             "radius: 0.5 mm, density: 7000",
             "radius: 0.025 mm, density: 2500",
@@ -164,7 +164,7 @@ fn gained_by_small_steps(diameter: f64, density: f64, speed: f64, air: f64, dist
 fn the_air_of_a_nozzle_speeds_its_shot_up() {
     let in_air = |air: &str, radius: &str, speed: &str, standoff: &str| {
         let jet = format!("divergence: 4 deg{air}");
-        setup(&[
+        scenario(&[
             ("divergence: 4 deg", &jet),
             (
                 "radius: 0.5 mm, density: 7000",
@@ -229,7 +229,7 @@ fn the_air_of_a_nozzle_speeds_its_shot_up() {
 
 #[test]
 fn dust_may_stop_on_its_way() {
-    let dust = setup(&[
+    let dust = scenario(&[
         (
             "radius: 0.5 mm, density: 7000",
             "radius: 1 um, density: 1000",
@@ -246,18 +246,18 @@ fn dust_may_stop_on_its_way() {
 #[test]
 fn gravity_is_half_g_t_squared() {
     // 1 ms of flight.
-    assert_close(value(&setup(&[]), "gravity"), 0.5 * 9.80665e-6, 1e-12);
+    assert_close(value(&scenario(&[]), "gravity"), 0.5 * 9.80665e-6, 1e-12);
 }
 
 #[test]
 fn interference_straight_back_through_the_jet() {
     let jet = |flow: &str| {
-        setup(&[(
+        scenario(&[(
             "divergence: 4 deg",
             &format!("divergence: 4 deg, mass_flow: {flow}"),
         )])
     };
-    assert_eq!(find(&notes(&setup(&[])), "interference"), None);
+    assert_eq!(find(&notes(&scenario(&[])), "interference"), None);
     // 24 g/min of 10 m/s in a disc of 0.75 mm + 10 mm tan(4 deg) = 1.449 mm.
     let radius = 0.75e-3 + 10e-3 * 0.069_926_811_943_510_4;
     let density = 0.4e-3 / (MASS * 10.0 * PI * radius * radius);
@@ -265,7 +265,7 @@ fn interference_straight_back_through_the_jet() {
     let expected = density * PI * 1e-6 * 10e-3 * 3.0;
     assert_close(value(&jet("24 g/min"), "interference"), expected, 1e-9);
     assert!((0.155..0.157).contains(&expected), "{expected}");
-    let text = |setup: &Setup, name| find(&notes(setup), name).expect(name).text;
+    let text = |scenario: &Scenario, name| find(&notes(scenario), name).expect(name).text;
     assert!(text(&jet("24 g/min"), "interference").contains("are deflected"));
     assert!(text(&jet("6 g/min"), "interference").contains("too few"));
     let many = jet("60 g/min");
@@ -289,7 +289,7 @@ fn interference_straight_back_through_the_jet() {
 
 #[test]
 fn interference_out_of_the_side_of_the_jet() {
-    let slanting = setup(&[
+    let slanting = scenario(&[
         ("divergence: 4 deg", "divergence: 0 deg, mass_flow: 0.4 g/s"),
         ("incidence: 90 deg", "incidence: 45 deg"),
     ]);
@@ -306,7 +306,7 @@ fn interference_out_of_the_side_of_the_jet() {
 
 #[test]
 fn interference_grows_with_the_bounces_in_a_closed_scene() {
-    let closed = setup(&[
+    let closed = scenario(&[
         (
             "box: { min: [-50, -50, -10], max: [50, 50, 0] }",
             "bore: { diameter: 30 mm, length: 40 mm, ends: closed }",
@@ -333,7 +333,7 @@ fn interference_grows_with_the_bounces_in_a_closed_scene() {
         .find(|note| note.name.starts_with("interference"));
     assert_close(of_all.unwrap().value, 6.0 * of_one, 1e-12);
     // In the open every shot has one impact, and leaves.
-    let open = setup(&[("divergence: 4 deg", "divergence: 4 deg, mass_flow: 6 g/min")]);
+    let open = scenario(&[("divergence: 4 deg", "divergence: 4 deg, mass_flow: 6 g/min")]);
     let evaluation = evaluated(&open);
     assert_eq!(evaluation.impacts_per_shot, 1.0);
     let noted = validity::notes(&open, &held(&open), Some(&evaluation));
@@ -345,7 +345,7 @@ fn interference_grows_with_the_bounces_in_a_closed_scene() {
 
 #[test]
 fn shots_that_stay_in_the_jet_are_not_independent() {
-    let dull = setup(&[
+    let dull = scenario(&[
         (
             "divergence: 4 deg",
             "divergence: 4 deg, mass_flow: 0.001 g/min",
@@ -359,16 +359,16 @@ fn shots_that_stay_in_the_jet_are_not_independent() {
 #[test]
 fn behind_a_deflector_interference_is_not_estimated() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/deflector.yaml");
-    let (mut setup, _) = Setup::load(&path).unwrap();
-    let choice = setup.problem.settings.middle();
-    let has = |setup: &Setup, name| {
-        validity::notes(setup, &choice, None)
+    let (mut scenario, _) = Scenario::load(&path).unwrap();
+    let settings = scenario.problem.ranges.middle();
+    let has = |scenario: &Scenario, name| {
+        validity::notes(scenario, &settings, None)
             .iter()
             .any(|note| note.name == name)
     };
-    assert!(!has(&setup, "interference_unknown"));
-    setup.problem.jet.mass_flow = Some(1e-3);
-    assert!(has(&setup, "interference_unknown") && !has(&setup, "interference"));
+    assert!(!has(&scenario, "interference_unknown"));
+    scenario.problem.jet.mass_flow = Some(1e-3);
+    assert!(has(&scenario, "interference_unknown") && !has(&scenario, "interference"));
 }
 
 /// A prism with a regular polygon as its cross-section, open at both ends, as OBJ.
@@ -402,19 +402,19 @@ fn facets_turn_rebounds_by_the_angle_between_them() {
             ),
             ("part.z_max, aim: [0, 0, 0], along: [1, 0, 0]", &target),
         ];
-        let setup = setup_in(folder.path(), &changes);
-        find(&notes(&setup), "facets")
+        let scenario = setup_in(folder.path(), &changes);
+        find(&notes(&scenario), "facets")
     };
     assert_close(meshed(24).unwrap().value, 15.0, 1e-6);
     assert_close(meshed(90).unwrap().value, 4.0, 1e-6);
     // 36 deg is an edge, not a facet of something round.
     assert_eq!(meshed(10), None);
-    assert_eq!(find(&notes(&setup(&[])), "facets"), None);
+    assert_eq!(find(&notes(&scenario(&[])), "facets"), None);
 }
 
-fn keyway(rest: &str) -> Setup {
+fn keyway(rest: &str) -> Scenario {
     let shape = format!("keyway: {{ bore: 30 mm, depth: 3.3 mm, length: 40 mm, {rest} }}");
-    setup(&[
+    scenario(&[
         ("box: { min: [-50, -50, -10], max: [50, 50, 0] }", &shape),
         ("part.z_max, aim: [0, 0, 0], along: [1, 0, 0]", "part.floor"),
     ])
@@ -444,7 +444,7 @@ fn shots_fit_into_fillets_and_openings_of_a_keyway() {
 fn a_bore_is_an_opening_and_a_pin_is_none() {
     let round = |facing: &str| {
         let target = format!("part.wall, aim: [0, 1.5, 20]{facing}");
-        setup(&[
+        scenario(&[
             (
                 "box: { min: [-50, -50, -10], max: [50, 50, 0] }",
                 "bore: { diameter: 3 mm, length: 40 mm }",
@@ -457,7 +457,7 @@ fn a_bore_is_an_opening_and_a_pin_is_none() {
 }
 
 /// A slot with a round bottom that touches both walls.
-fn slot(width: f64) -> Setup {
+fn slot(width: f64) -> Scenario {
     let (half, bottom) = (width / 2.0, -width / 2.0);
     let profile = format!(
         "extrude: {{ length: 40 mm, profile: [ {{ from: [{}, 10], line_to: [{}, 0], surface: left }}, \
@@ -466,7 +466,7 @@ fn slot(width: f64) -> Setup {
         -half, -half
     );
     let target = format!("part.floor, aim: [0, {bottom}, 20]");
-    setup(&[
+    scenario(&[
         ("box: { min: [-50, -50, -10], max: [50, 50, 0] }", &profile),
         ("part.z_max, aim: [0, 0, 0], along: [1, 0, 0]", &target),
     ])
@@ -483,33 +483,33 @@ fn shots_fit_into_fillets_and_openings_of_an_outline() {
 /// The file says in a comment what ASTM B851 allows in it: fillets of 2 mm, an opening of 9.4 mm.
 #[test]
 fn the_narrowest_gap_of_a_firtree_is_between_its_lobes() {
-    let (mut setup, _) = Setup::load(Path::new("problems/firtree.yaml")).unwrap();
-    let settings = &setup.problem.settings;
+    let (mut scenario, _) = Scenario::load(Path::new("problems/firtree.yaml")).unwrap();
+    let ranges = &scenario.problem.ranges;
     let middle = |range: problem::setting::Range| range.at(0.5);
-    let choice = Choice {
-        incidence: middle(settings.incidence),
+    let settings = Settings {
+        incidence: middle(ranges.incidence),
         azimuth: 0.0,
-        standoff: middle(settings.standoff),
-        speed: middle(settings.speed),
+        standoff: middle(ranges.standoff),
+        speed: middle(ranges.speed),
         aim_along: 0.0,
         aim_across: 0.0,
         aim_above: 0.0,
         contact: 0,
         static_friction: 0.0,
     };
-    let noted = validity::notes(&setup, &choice, None);
+    let noted = validity::notes(&scenario, &settings, None);
     assert_eq!(find(&noted, "fillet"), None);
     assert_eq!(find(&noted, "opening"), None);
     // Between (-4.7123, 7.4804) and its mirror image.
-    setup.problem.shot.radius = 1.2e-3;
-    let noted = validity::notes(&setup, &choice, None);
+    scenario.problem.shot.radius = 1.2e-3;
+    let noted = validity::notes(&scenario, &settings, None);
     assert_close(find(&noted, "opening").unwrap().value, 2.4 / 9.4246, 1e-3);
     assert!(find(&noted, "fillet").unwrap().value > 1.0);
 }
 
 #[test]
 fn restitution_is_compared_with_the_speed_at_which_it_was_measured() {
-    let falling = setup(&[
+    let falling = scenario(&[
         (
             "restitution: 0.5",
             "restitution: { value: 0.5, at: 4 m/s, exponent: 0.25 }",
@@ -531,7 +531,7 @@ fn restitution_is_compared_with_the_speed_at_which_it_was_measured() {
     assert!(note.text.contains("gives 0.473"), "{}", note.text);
     assert_eq!(find(&noted, "constant_restitution"), None);
 
-    let far = setup(&[
+    let far = scenario(&[
         (
             "restitution: 0.5",
             "restitution: { value: 0.5, at: 1 m/s, exponent: 0.25 }",
@@ -543,5 +543,5 @@ fn restitution_is_compared_with_the_speed_at_which_it_was_measured() {
     assert_close(note.value, 10.0, 1e-9);
     assert!(note.text.contains("measure it nearer"), "{}", note.text);
 
-    assert_eq!(value(&setup(&[]), "constant_restitution"), 0.5);
+    assert_eq!(value(&scenario(&[]), "constant_restitution"), 0.5);
 }

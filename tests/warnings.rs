@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use common::announced;
 use peenpose::problem::render_warnings;
-use peenpose::problem::warning::Doubt;
-use peenpose::setup::Setup;
+use peenpose::problem::warning::WarningCode;
+use peenpose::scenario::Scenario;
 use peenpose::warnings;
 
 fn files(folder: &str) -> Vec<PathBuf> {
@@ -24,8 +24,8 @@ fn doubtful_files_get_the_warnings_that_their_comments_announce() {
     let files = files("tests/doubtful");
     assert!(files.len() >= 20);
     for path in files {
-        let (setup, source) = Setup::load(&path).unwrap();
-        let found: Vec<_> = warnings::of(&setup, &source)
+        let (scenario, source) = Scenario::load(&path).unwrap();
+        let found: Vec<_> = warnings::of(&scenario, &source)
             .into_iter()
             .map(|warning| {
                 let at = warning.at.unwrap();
@@ -42,28 +42,28 @@ fn doubtful_files_get_the_warnings_that_their_comments_announce() {
 fn every_doubt_is_raised_by_a_doubtful_file() {
     let mut raised = BTreeSet::new();
     for path in files("tests/doubtful") {
-        let (setup, source) = Setup::load(&path).unwrap();
-        let found = warnings::of(&setup, &source);
+        let (scenario, source) = Scenario::load(&path).unwrap();
+        let found = warnings::of(&scenario, &source);
         raised.extend(found.into_iter().map(|warning| warning.doubt));
     }
-    let doubts: BTreeSet<Doubt> = Doubt::ALL.iter().copied().collect();
-    let unraised: Vec<&Doubt> = doubts.difference(&raised).collect();
+    let doubts: BTreeSet<WarningCode> = WarningCode::ALL.iter().copied().collect();
+    let unraised: Vec<&WarningCode> = doubts.difference(&raised).collect();
     assert!(unraised.is_empty(), "no doubtful file raises {unraised:?}");
 }
 
 #[test]
 fn nothing_that_is_shipped_is_doubtful() {
     for path in files("problems") {
-        let (setup, source) = Setup::load(&path).unwrap();
-        assert_eq!(warnings::of(&setup, &source), [], "{}", path.display());
+        let (scenario, source) = Scenario::load(&path).unwrap();
+        assert_eq!(warnings::of(&scenario, &source), [], "{}", path.display());
     }
 }
 
 #[test]
 fn a_warning_shows_its_line() {
     let path = Path::new("tests/doubtful/exit_too_small.yaml");
-    let (setup, source) = Setup::load(path).unwrap();
-    let found = warnings::of(&setup, &source);
+    let (scenario, source) = Scenario::load(path).unwrap();
+    let found = warnings::of(&scenario, &source);
     let text = render_warnings(&source, &found, false);
     for part in [
         "warning: jet.exit_diameter: the shot, 1 mm wide, does not fit through",
@@ -94,7 +94,7 @@ fn what_is_only_unusual_passes() {
     for (usual, instead) in unusual {
         assert!(text.contains(usual));
         fs::write(&path, text.replace(usual, instead)).unwrap();
-        let (setup, source) = Setup::load(&path).unwrap();
-        assert_eq!(warnings::of(&setup, &source), [], "{instead}");
+        let (scenario, source) = Scenario::load(&path).unwrap();
+        assert_eq!(warnings::of(&scenario, &source), [], "{instead}");
     }
 }

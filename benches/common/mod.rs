@@ -1,10 +1,10 @@
 //! What several benches share.
 
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
 
 /// Settings with the first contact; angles in degrees, else SI.
-pub fn choice(incidence: f64, azimuth: f64, standoff: f64, speed: f64) -> Choice {
-    Choice {
+pub fn settings(incidence: f64, azimuth: f64, standoff: f64, speed: f64) -> Settings {
+    Settings {
         incidence: incidence.to_radians(),
         azimuth: azimuth.to_radians(),
         standoff,

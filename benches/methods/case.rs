@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use peenpose::problem::setting::{Choice, Range};
-use peenpose::setup::Setup;
+use peenpose::problem::setting::{Range, Settings};
+use peenpose::scenario::Scenario;
 
 use crate::common::known::Known;
 use crate::common::variant::{Shots, Variant, contact_named};
@@ -13,8 +13,8 @@ use crate::{annealing, gradient, line, model, population, sampling, shipped, sim
 /// A problem with its best settings known.
 pub struct Case {
     pub name: &'static str,
-    pub setup: Setup,
-    pub known: Choice,
+    pub scenario: Scenario,
+    pub known: Settings,
 }
 
 /// How a method went about one problem on the shots of one seed.
@@ -86,9 +86,9 @@ pub fn cases(known: &[Known], only: &str) -> Result<Vec<Case>, Box<dyn Error>> {
         "oiled",
         known,
     )?;
-    let settings = &mut line.setup.problem.settings;
-    settings.azimuth = Range::held(line.known.azimuth);
-    settings.standoff = Range::held(line.known.standoff);
+    let ranges = &mut line.scenario.problem.ranges;
+    ranges.azimuth = Range::held(line.known.azimuth);
+    ranges.standoff = Range::held(line.known.standoff);
     let mut cases = vec![short, long, line, shipped];
     cases.retain(|case| case.name.contains(only));
     Ok(cases)
@@ -100,15 +100,19 @@ fn case(
     contact: &str,
     known: &[Known],
 ) -> Result<Case, Box<dyn Error>> {
-    let mut setup = variant.setup()?;
-    let index = contact_named(&setup.problem, contact).ok_or("unknown contact")?;
-    setup.problem.settings.contact = vec![index];
+    let mut scenario = variant.scenario()?;
+    let index = contact_named(&scenario.problem, contact).ok_or("unknown contact")?;
+    scenario.problem.ranges.contact = vec![index];
     let known = known
         .iter()
         .find(|known| known.is_of(&variant) && known.contact == contact)
         .ok_or("no best settings are known")?
-        .choice(&setup.problem)?;
-    Ok(Case { name, setup, known })
+        .settings(&scenario.problem)?;
+    Ok(Case {
+        name,
+        scenario,
+        known,
+    })
 }
 
 /// Evaluations of the thorough run that finds the least J on the shots of a seed.
@@ -119,14 +123,14 @@ const GOOD_ENOUGH: f64 = 0.001;
 impl Case {
     /// All methods on the shots of one seed.
     pub fn runs(&self, seed: u64, budget: usize) -> Vec<Run> {
-        let mut setup = self.setup.clone();
-        setup.problem.seed = seed;
-        let shots = shots(&setup);
+        let mut scenario = self.scenario.clone();
+        scenario.problem.seed = seed;
+        let shots = shots(&scenario);
         let limits = Limits {
             evaluations: THOROUGH,
             objective: 0.0,
         };
-        let thorough = Objective::new(&setup, Speed::Removed, &shots, limits);
+        let thorough = Objective::new(&scenario, Speed::Removed, &shots, limits);
         simplex::thorough(&thorough, 0);
         let steps = thorough.into_steps();
         let reference = steps.last().map_or(f64::INFINITY, |step| step.objective);
@@ -144,16 +148,16 @@ impl Case {
         let mut runs = Vec::new();
         for speed in [Speed::Searched, Speed::Removed] {
             for method in &METHODS {
-                let objective = Objective::new(&setup, speed, &shots, limits);
+                let objective = Objective::new(&scenario, speed, &shots, limits);
                 if objective.dimensions() == 1 || !ON_A_LINE.contains(&method.name) {
                     (method.run)(&objective, seed as u32);
                     runs.push(run(speed, method.name, objective.into_steps()));
                 }
             }
         }
-        let held = shipped::on_common_shots(&setup, &shots);
+        let held = shipped::on_common_shots(&scenario, &shots);
         runs.push(run(Speed::Removed, SHIPPED, vec![held]));
-        let whole = shipped::whole(&setup, &shots);
+        let whole = shipped::whole(&scenario, &shots);
         runs.push(run(Speed::Removed, SHIPPED_WHOLE, vec![whole]));
         runs
     }

@@ -6,10 +6,10 @@ use std::fmt;
 use std::time::Instant;
 
 use peenpose::feasibility::infeasibility;
-use peenpose::jet::{Deviate, Samples, Stream};
+use peenpose::jet::{Samples, ShotSample, Stream};
 use peenpose::objective::Tally;
-use peenpose::problem::setting::{Choice, Setting};
-use peenpose::setup::Setup;
+use peenpose::problem::setting::{Setting, Settings};
+use peenpose::scenario::Scenario;
 
 use crate::common::cube::{ALL_BUT_SPEED, Cube};
 
@@ -43,7 +43,7 @@ pub struct Step {
     pub evaluations: usize,
     pub seconds: f64,
     pub objective: f64,
-    pub choice: Choice,
+    pub settings: Settings,
 }
 
 /// The run is over: its budget is spent, or what it found is good enough.
@@ -61,33 +61,33 @@ impl std::error::Error for Over {}
 /// The objective that every method sees: ln J, whose scale is the same near a needle and on its
 /// plateau; above all of that where the nozzle does not fit, by how far it does not.
 pub struct Objective<'a> {
-    setup: &'a Setup,
+    scenario: &'a Scenario,
     cube: Cube,
     speed: Speed,
-    shots: &'a [Deviate],
+    shots: &'a [ShotSample],
     limits: Limits,
     start: Instant,
     evaluations: Cell<usize>,
-    best: Cell<Option<(f64, Choice)>>,
+    best: Cell<Option<(f64, Settings)>>,
     steps: RefCell<Vec<Step>>,
 }
 
 /// The shots of a seed: those that the search of the library decides on.
-pub fn shots(setup: &Setup) -> Samples {
-    Samples::with_rim(&setup.problem, Stream::Search, SHOTS)
+pub fn shots(scenario: &Scenario) -> Samples {
+    Samples::with_boundary(&scenario.problem, Stream::Search, SHOTS)
 }
 
 impl<'a> Objective<'a> {
-    pub fn new(setup: &'a Setup, speed: Speed, shots: &'a Samples, limits: Limits) -> Self {
+    pub fn new(scenario: &'a Scenario, speed: Speed, shots: &'a Samples, limits: Limits) -> Self {
         let mut axes = ALL_BUT_SPEED.to_vec();
         if speed == Speed::Searched {
             axes.push(Setting::Speed);
         }
         Self {
-            setup,
-            cube: Cube::new(&setup.problem, setup.problem.settings.contact[0], &axes),
+            scenario,
+            cube: Cube::new(&scenario.problem, scenario.problem.ranges.contact[0], &axes),
             speed,
-            shots: &shots.deviates,
+            shots: &shots.shots,
             limits,
             start: Instant::now(),
             evaluations: Cell::new(0),
@@ -117,7 +117,7 @@ impl<'a> Objective<'a> {
             return Err(Over);
         }
         self.evaluations.set(self.evaluations.get() + 1);
-        let (choice, cost) = self.judge(point);
+        let (settings, cost) = self.evaluator(point);
         let objective = if cost < BLOCKED {
             cost.exp()
         } else {
@@ -125,7 +125,7 @@ impl<'a> Objective<'a> {
         };
         let is_better = self.best.get().is_none_or(|(best, _)| objective < best);
         if is_better {
-            self.best.set(Some((objective, choice)));
+            self.best.set(Some((objective, settings)));
         }
         if is_better || CHECKPOINTS.contains(&self.evaluations.get()) {
             self.note();
@@ -133,27 +133,27 @@ impl<'a> Objective<'a> {
         Ok(cost)
     }
 
-    fn judge(&self, point: &[f64]) -> (Choice, f64) {
-        let mut choice = self.cube.choice(point);
-        if let Some(infeasible) = infeasibility(self.setup, &choice) {
-            return (choice, BLOCKED + infeasible.violation * 1e3);
+    fn evaluator(&self, point: &[f64]) -> (Settings, f64) {
+        let mut settings = self.cube.settings(point);
+        if let Some(infeasible) = infeasibility(self.scenario, &settings) {
+            return (settings, BLOCKED + infeasible.violation * 1e3);
         }
-        let problem = &self.setup.problem;
-        let tally = Tally::trace(self.setup, &choice, 1.0, self.shots);
+        let problem = &self.scenario.problem;
+        let tally = Tally::trace(self.scenario, &settings, 1.0, self.shots);
         if self.speed == Speed::Removed {
-            choice.speed = tally.best_speed(&problem.goals, problem.settings.speed);
+            settings.speed = tally.best_speed(&problem.goals, problem.ranges.speed);
         }
-        let objective = tally.terms(&problem.goals, choice.speed).total();
-        (choice, objective.max(f64::MIN_POSITIVE).ln())
+        let objective = tally.terms(&problem.goals, settings.speed).total();
+        (settings, objective.max(f64::MIN_POSITIVE).ln())
     }
 
     fn note(&self) {
-        if let Some((objective, choice)) = self.best.get() {
+        if let Some((objective, settings)) = self.best.get() {
             self.steps.borrow_mut().push(Step {
                 evaluations: self.evaluations.get(),
                 seconds: self.start.elapsed().as_secs_f64(),
                 objective,
-                choice,
+                settings,
             });
         }
     }

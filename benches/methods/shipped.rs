@@ -4,45 +4,45 @@ use std::time::Instant;
 
 use peenpose::jet::Samples;
 use peenpose::objective::Tally;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, Shortcuts, solve};
 use rayon::ThreadPoolBuilder;
 
 use crate::objective::{SHOTS, Step};
 
 /// Decides on the common shots, and reports on as few others as can be.
-pub fn on_common_shots(setup: &Setup, shots: &Samples) -> Step {
+pub fn on_common_shots(scenario: &Scenario, shots: &Samples) -> Step {
     let control = Control {
         most_shots: SHOTS,
-        fresh_shots: 1,
+        validation_shots: 1,
         shortcuts: Shortcuts {
-            focus: false,
+            importance: false,
             ..Shortcuts::default()
         },
         ..Control::default()
     };
-    run(setup, shots, &control)
+    run(scenario, shots, &control)
 }
 
 /// Raises the shots as far as it sees fit; its poses are not comparable with those of others.
-pub fn whole(setup: &Setup, shots: &Samples) -> Step {
-    run(setup, shots, &Control::default())
+pub fn whole(scenario: &Scenario, shots: &Samples) -> Step {
+    run(scenario, shots, &Control::default())
 }
 
-fn run(setup: &Setup, shots: &Samples, control: &Control) -> Step {
+fn run(scenario: &Scenario, shots: &Samples, control: &Control) -> Step {
     let one_thread = ThreadPoolBuilder::new().num_threads(1).build();
     let start = Instant::now();
     let solution = match one_thread {
-        Ok(pool) => pool.install(|| solve(setup, control)),
-        Err(_) => solve(setup, control),
+        Ok(pool) => pool.install(|| solve(scenario, control)),
+        Err(_) => solve(scenario, control),
     };
     let seconds = start.elapsed().as_secs_f64();
-    let choice = solution.answers[0].choice;
-    let tally = Tally::trace(setup, &choice, choice.speed, &shots.deviates);
+    let settings = solution.answers[0].settings;
+    let tally = Tally::trace(scenario, &settings, settings.speed, &shots.shots);
     Step {
         evaluations: solution.poses,
         seconds,
-        objective: tally.terms(&setup.problem.goals, choice.speed).total(),
-        choice,
+        objective: tally.terms(&scenario.problem.goals, settings.speed).total(),
+        settings,
     }
 }

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
 
 use crate::case::{Case, Run, SHIPPED, SHIPPED_WHOLE};
-use crate::common::fresh;
 use crate::common::statistics::{Mean, median};
+use crate::common::validation;
 use crate::objective::{CHECKPOINTS, Speed, Step};
 
 /// Columns of what is written.
@@ -46,9 +46,9 @@ impl Run {
 /// True J of every run at its checkpoints, relative to that of the best settings known.
 pub fn true_excesses(case: &Case, runs: &[Run]) -> Vec<Vec<f64>> {
     let steps: Vec<Vec<&Step>> = runs.iter().map(Run::at_checkpoints).collect();
-    let found = steps.iter().flatten().map(|step| step.choice);
-    let choices: Vec<Choice> = std::iter::once(case.known).chain(found).collect();
-    let objectives = fresh::objectives(&case.setup, &choices, COMPARISON, FRESH_SHOTS);
+    let found = steps.iter().flatten().map(|step| step.settings);
+    let choices: Vec<Settings> = std::iter::once(case.known).chain(found).collect();
+    let objectives = validation::objectives(&case.scenario, &choices, COMPARISON, FRESH_SHOTS);
     let mut values = (0..choices.len()).map(|index| Mean::of_choice(&objectives, index).value);
     let best = values.next().unwrap_or(f64::NAN);
     let excesses = steps.iter().map(|steps| {

@@ -15,13 +15,13 @@ use nalgebra::{Point3, Vector3};
 use peenpose::jet::{Pose, Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::problem;
-use peenpose::problem::setting::{Choice, Tolerance};
-use peenpose::scene::ray::{Ray, Spot};
+use peenpose::problem::setting::{Settings, Tolerance};
+use peenpose::scenario::Scenario;
+use peenpose::scene::ray::{HitId, Ray};
 use peenpose::scene::{Scene, Walls};
-use peenpose::setup::Setup;
 use peenpose::trace::Tracer;
 
-use common::choice;
+use common::settings;
 
 const SHOTS: usize = 8192;
 /// Times that all rays are cast, turn and turn about.
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "                                      Mray/s      %   cast     trace    ours  Embree"
     );
-    let blind = choice(63.0, 0.0, 8e-3, 48.0);
+    let blind = settings(63.0, 0.0, 8e-3, 48.0);
     compare(
         &program,
         "blind keyway",
@@ -49,19 +49,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         Walls::Exact,
         &blind,
     )?;
-    for (name, file, choice) in [
-        ("keyway 40 mm", "keyway.yaml", choice(78.0, 0.0, 8e-3, 9.4)),
+    for (name, file, settings) in [
+        (
+            "keyway 40 mm",
+            "keyway.yaml",
+            settings(78.0, 0.0, 8e-3, 9.4),
+        ),
         (
             "keyway 200 mm",
             "keyway-long.yaml",
-            choice(60.0, 20.0, 10e-3, 10.0),
+            settings(60.0, 20.0, 10e-3, 10.0),
         ),
     ] {
         for degrees in [0.66, 0.066, 0.0066, 0.00066_f64] {
-            let walls = Walls::Facets {
+            let walls = Walls::TriangleMesh {
                 chord_angle: degrees.to_radians(),
             };
-            compare(&program, name, file, walls, &choice)?;
+            compare(&program, name, file, walls, &settings)?;
         }
     }
     Ok(())
@@ -73,7 +77,7 @@ fn compare(
     name: &str,
     file: &str,
     walls: Walls,
-    choice: &Choice,
+    settings: &Settings,
 ) -> Result<(), Box<dyn Error>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("problems")
@@ -86,22 +90,22 @@ fn compare(
     // Embree casts rays, not spheres.
     problem.paths.shot_size = false;
     let start = Instant::now();
-    let setup = Setup::new(problem, walls).map_err(|faults| faults[0].to_string())?;
+    let scenario = Scenario::new(problem, walls).map_err(|faults| faults[0].to_string())?;
     let built = start.elapsed().as_secs_f64();
-    let samples = Samples::new(&setup.problem, Stream::Search, SHOTS);
-    let flights = flights(&setup, choice, &samples);
-    let mut peer = Peer::start(program, &setup.scene, &flights)?;
+    let samples = Samples::new(&scenario.problem, Stream::Search, SHOTS);
+    let flights = flights(&scenario, settings, &samples);
+    let mut peer = Peer::start(program, &scenario.scene, &flights)?;
 
     let (mut embree, mut cast, mut trace) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         let peer_seconds = peer.seconds()?;
         let cast_seconds = seconds(|| {
-            let hits = flights.iter().filter(|f| f.hit(&setup.scene).is_some());
+            let hits = flights.iter().filter(|f| f.hit(&scenario.scene).is_some());
             hits.count()
         });
         let mut rays = 0;
         let trace_seconds = seconds(|| {
-            rays = Tally::trace(&setup, choice, 1.0, &samples.deviates).rays;
+            rays = Tally::trace(&scenario, settings, 1.0, &samples.shots).rays;
             rays
         });
         assert_eq!(rays, flights.len());
@@ -111,7 +115,7 @@ fn compare(
     }
     println!(
         "{name:16} {:11} {:8}   {:6.2} {:6.2}   {:4.2}      {:4.2}   {built:5.2}   {:5.2}",
-        setup.scene.triangles(),
+        scenario.scene.triangles(),
         flights.len(),
         flights.len() as f64 / median(embree) / 1e6,
         100.0 * peer.agreeing as f64 / flights.len() as f64,
@@ -136,7 +140,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 /// One ray that the tracer casts.
 struct Flight {
     ray: Ray,
-    leaving: Option<Spot>,
+    leaving: Option<HitId>,
     distance: Option<f64>,
 }
 
@@ -148,11 +152,11 @@ impl Flight {
 }
 
 /// All rays of a jet, in the order in which shots are followed.
-fn flights(setup: &Setup, choice: &Choice, samples: &Samples) -> Vec<Flight> {
-    let pose = Pose::new(&setup.target.frame, choice);
-    let tracer = Tracer::new(setup, choice, 1.0);
+fn flights(scenario: &Scenario, settings: &Settings, samples: &Samples) -> Vec<Flight> {
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let tracer = Tracer::new(scenario, settings, 1.0);
     let mut flights = Vec::new();
-    for shot in &samples.deviates {
+    for shot in &samples.shots {
         let [across, up, forward] = shot.cone;
         let mut ray = Ray {
             origin: pose.exit + pose.side * shot.exit[0] + pose.up * shot.exit[1],
@@ -164,7 +168,7 @@ fn flights(setup: &Setup, choice: &Choice, samples: &Samples) -> Vec<Flight> {
         });
         let mut leaving = None;
         for index in 0..rays {
-            let hit = setup.scene.first_hit(&ray, leaving);
+            let hit = scenario.scene.first_hit(&ray, leaving);
             flights.push(Flight {
                 ray,
                 leaving,
@@ -172,7 +176,7 @@ fn flights(setup: &Setup, choice: &Choice, samples: &Samples) -> Vec<Flight> {
             });
             if let (Some(hit), Some((point, velocity))) = (hit, departures.get(index)) {
                 assert_eq!(hit.point, *point, "the tracer casts another ray");
-                leaving = Some(hit.spot);
+                leaving = Some(hit.hit_id);
                 ray = Ray {
                     origin: *point,
                     // To the last bit as the tracer has it.

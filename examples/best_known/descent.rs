@@ -4,10 +4,10 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use peenpose::feasibility::infeasibility;
-use peenpose::jet::Deviate;
+use peenpose::jet::ShotSample;
 use peenpose::objective::Tally;
-use peenpose::problem::setting::Choice;
-use peenpose::setup::Setup;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 
 use crate::common::cube::Cube;
 
@@ -15,7 +15,7 @@ use crate::common::cube::Cube;
 #[derive(Clone, Debug)]
 pub struct Trial {
     pub point: Vec<f64>,
-    pub choice: Choice,
+    pub settings: Settings,
     /// J; infinite where the nozzle does not fit.
     pub objective: f64,
 }
@@ -38,28 +38,28 @@ impl Work {
 }
 
 /// Tries points on given shots.
-pub struct Judge<'a> {
-    pub setup: &'a Setup,
+pub struct Evaluator<'a> {
+    pub scenario: &'a Scenario,
     pub cube: &'a Cube,
-    pub shots: &'a [Deviate],
+    pub shots: &'a [ShotSample],
     pub work: &'a Work,
 }
 
-impl Judge<'_> {
+impl Evaluator<'_> {
     /// A point with the best speed for it.
     pub fn try_at(&self, point: &[f64]) -> Trial {
         self.work.poses.fetch_add(1, Ordering::Relaxed);
         let mut trial = Trial {
             point: point.to_vec(),
-            choice: self.cube.choice(point),
+            settings: self.cube.settings(point),
             objective: f64::INFINITY,
         };
-        if infeasibility(self.setup, &trial.choice).is_none() {
-            let problem = &self.setup.problem;
-            let tally = Tally::trace(self.setup, &trial.choice, 1.0, self.shots);
+        if infeasibility(self.scenario, &trial.settings).is_none() {
+            let problem = &self.scenario.problem;
+            let tally = Tally::trace(self.scenario, &trial.settings, 1.0, self.shots);
             self.work.rays.fetch_add(tally.rays, Ordering::Relaxed);
-            trial.choice.speed = tally.best_speed(&problem.goals, problem.settings.speed);
-            trial.objective = tally.terms(&problem.goals, trial.choice.speed).total();
+            trial.settings.speed = tally.best_speed(&problem.goals, problem.ranges.speed);
+            trial.objective = tally.terms(&problem.goals, trial.settings.speed).total();
         }
         trial
     }

@@ -18,16 +18,16 @@ use std::path::PathBuf;
 
 use clap::Parser;
 use peenpose::jet::{Samples, Stream};
-use peenpose::problem::setting::Choice;
-use peenpose::setup::Setup;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use rayon::prelude::*;
 
 use common::cube::{ALL_BUT_SPEED, Cube};
-use common::fresh;
 use common::known::{HEADER, Known, in_units};
 use common::statistics::Mean;
+use common::validation;
 use common::variant::{Variant, variants};
-use descent::{Judge, Trial, Work};
+use descent::{Evaluator, Trial, Work};
 
 /// Finds the best settings of the keyways by brute force.
 #[derive(Parser)]
@@ -42,7 +42,7 @@ struct Arguments {
     most_shots: usize,
     /// Fresh shots of the last decision, at least.
     #[arg(long, default_value_t = 1 << 20)]
-    fresh_shots: usize,
+    validation_shots: usize,
     /// Only variants whose name contains this.
     #[arg(long, default_value = "")]
     only: String,
@@ -97,10 +97,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         if !variant.name().contains(&arguments.only) {
             continue;
         }
-        let mut setup = variant.setup()?;
-        setup.problem.seed = fresh::SEED;
-        for contact in setup.problem.settings.contact.clone() {
-            let line = best_known(&variant, &setup, contact, &arguments)?.line();
+        let mut scenario = variant.scenario()?;
+        scenario.problem.seed = validation::SEED;
+        for contact in scenario.problem.ranges.contact.clone() {
+            let line = best_known(&variant, &scenario, contact, &arguments)?.line();
             println!("{line}");
             table += &format!("{line}\n");
         }
@@ -111,28 +111,28 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn best_known(
     variant: &Variant,
-    setup: &Setup,
+    scenario: &Scenario,
     contact: usize,
     arguments: &Arguments,
 ) -> Result<Known, Box<dyn Error>> {
-    if !setup.speed_scales_out(contact) {
+    if !scenario.speed_scales_out(contact) {
         return Err("the best speed does not follow from the paths".into());
     }
     let work = Work::default();
-    let candidates = search(setup, contact, arguments, &work);
+    let candidates = search(scenario, contact, arguments, &work);
     let (
-        choice,
+        settings,
         Mean {
             value,
             standard_error,
         },
-    ) = decide(setup, &candidates, arguments);
+    ) = decide(scenario, &candidates, arguments);
     Ok(Known {
         file: variant.file.into(),
         tolerance: variant.tolerance_word().into(),
         shots: variant.shots_word().into(),
-        contact: setup.problem.contacts[contact].name.clone(),
-        settings: in_units(&choice),
+        contact: scenario.problem.contacts[contact].name.clone(),
+        settings: in_units(&settings),
         objective: value,
         standard_error,
         poses: work.poses(),
@@ -141,21 +141,26 @@ fn best_known(
 }
 
 /// The best places of the screen and of every stage.
-fn search(setup: &Setup, contact: usize, arguments: &Arguments, work: &Work) -> Vec<Choice> {
-    let cube = &Cube::new(&setup.problem, contact, &ALL_BUT_SPEED);
+fn search(
+    scenario: &Scenario,
+    contact: usize,
+    arguments: &Arguments,
+    work: &Work,
+) -> Vec<Settings> {
+    let cube = &Cube::new(&scenario.problem, contact, &ALL_BUT_SPEED);
     let affordable = |stage: &&Stage| stage.shots <= arguments.most_shots;
     let stages: Vec<&Stage> = STAGES.iter().filter(affordable).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
-    let samples = Samples::with_rim(&setup.problem, Stream::Search, most_shots);
-    let judge = |shots: usize| Judge {
-        setup,
+    let samples = Samples::with_boundary(&scenario.problem, Stream::Search, most_shots);
+    let evaluator = |shots: usize| Evaluator {
+        scenario,
         cube,
-        shots: &samples.deviates[..shots],
+        shots: &samples.shots[..shots],
         work,
     };
     let mut trials: Vec<Trial> = (0..arguments.poses)
         .into_par_iter()
-        .map(|index| judge(SCREENING_SHOTS).try_at(&cube.sobol(index, 0)))
+        .map(|index| evaluator(SCREENING_SHOTS).try_at(&cube.sobol(index, 0)))
         .collect();
     let mut candidates = Vec::new();
     for stage in stages {
@@ -164,15 +169,15 @@ fn search(setup: &Setup, contact: usize, arguments: &Arguments, work: &Work) -> 
             .into_par_iter()
             .enumerate()
             .map(|(number, start)| {
-                judge(stage.shots).descend(&start.point, stage.reach, number as u32)
+                evaluator(stage.shots).descend(&start.point, stage.reach, number as u32)
             })
             .collect();
         let best = trials
             .iter()
             .min_by(|a, b| a.objective.total_cmp(&b.objective));
-        candidates.extend(best.map(|trial| trial.choice));
+        candidates.extend(best.map(|trial| trial.settings));
     }
-    candidates.extend(trials.iter().map(|trial| trial.choice));
+    candidates.extend(trials.iter().map(|trial| trial.settings));
     candidates
 }
 
@@ -193,19 +198,19 @@ fn distinct(mut trials: Vec<Trial>, stage: &Stage) -> Vec<Trial> {
 }
 
 /// The best candidate on common fresh shots, with its J on others.
-fn decide(setup: &Setup, candidates: &[Choice], arguments: &Arguments) -> (Choice, Mean) {
-    let shots = arguments.fresh_shots;
-    let objectives = fresh::objectives(setup, candidates, DECISION, shots);
+fn decide(scenario: &Scenario, candidates: &[Settings], arguments: &Arguments) -> (Settings, Mean) {
+    let shots = arguments.validation_shots;
+    let objectives = validation::objectives(scenario, candidates, DECISION, shots);
     let mean = |index: &usize| Mean::of_choice(&objectives, *index).value;
     let best = (0..candidates.len()).min_by(|a, b| mean(a).total_cmp(&mean(b)));
-    let choice = candidates[best.unwrap_or(0)];
+    let settings = candidates[best.unwrap_or(0)];
     let mut drawn = Vec::new();
     loop {
         let next = REPORT + drawn.len() as u32;
-        drawn.extend(fresh::objectives(setup, &[choice], next, shots));
+        drawn.extend(validation::objectives(scenario, &[settings], next, shots));
         let report = Mean::of_choice(&drawn, 0);
         if report.standard_error <= LEAST_ACCURACY * report.value || drawn.len() >= MOST_SETS {
-            return (choice, report);
+            return (settings, report);
         }
     }
 }

@@ -1,33 +1,33 @@
 //! The settings that have a range, as points of the unit cube.
 
 use peenpose::problem::Problem;
-use peenpose::problem::setting::{Choice, Range, Setting};
+use peenpose::problem::setting::{Range, Setting, Settings};
 
 /// The unit cube over the settings of the nozzle that have a range.
 #[derive(Clone, Debug)]
 pub struct Cube {
     axes: Vec<(Setting, Range)>,
     /// Every setting in the middle of its range.
-    middle: Choice,
+    middle: Settings,
 }
 
 impl Cube {
     /// The cube of a contact with an axis for each setting in `free` that has a range.
     pub fn new(problem: &Problem, contact: usize, free: &[Setting]) -> Self {
-        let settings = &problem.settings;
+        let ranges = &problem.ranges;
         let axes = free
             .iter()
-            .filter_map(|&setting| Some((setting, settings.range(setting)?)))
+            .filter_map(|&setting| Some((setting, ranges.range(setting)?)))
             .filter(|(_, range)| !range.is_held())
             .collect();
-        let middle = Choice {
-            incidence: settings.incidence.at(0.5),
-            azimuth: settings.azimuth.at(0.5),
-            standoff: settings.standoff.at(0.5),
-            speed: settings.speed.at(0.5),
-            aim_along: settings.aim_along.at(0.5),
-            aim_across: settings.aim_across.at(0.5),
-            aim_above: settings.aim_above.at(0.5),
+        let middle = Settings {
+            incidence: ranges.incidence.at(0.5),
+            azimuth: ranges.azimuth.at(0.5),
+            standoff: ranges.standoff.at(0.5),
+            speed: ranges.speed.at(0.5),
+            aim_along: ranges.aim_along.at(0.5),
+            aim_across: ranges.aim_across.at(0.5),
+            aim_above: ranges.aim_above.at(0.5),
             contact,
             static_friction: problem.contacts[contact].static_friction.min,
         };
@@ -40,10 +40,10 @@ impl Cube {
     }
 
     /// The settings at a point; what lies outside is moved to the nearest face.
-    pub fn choice(&self, point: &[f64]) -> Choice {
+    pub fn settings(&self, point: &[f64]) -> Settings {
         let axes = self.axes.iter().zip(point);
-        axes.fold(self.middle, |choice, (&(setting, range), &fraction)| {
-            setting.with(&choice, range.at(fraction.clamp(0.0, 1.0)))
+        axes.fold(self.middle, |settings, (&(setting, range), &fraction)| {
+            setting.with(&settings, range.at(fraction.clamp(0.0, 1.0)))
         })
     }
 

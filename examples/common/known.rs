@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use peenpose::problem::Problem;
-use peenpose::problem::setting::{Choice, Setting};
+use peenpose::problem::setting::{Setting, Settings};
 
 use super::cube::Cube;
 use super::variant::{Variant, contact_named};
@@ -98,24 +98,24 @@ impl Known {
     }
 
     /// The settings in SI.
-    pub fn choice(&self, problem: &Problem) -> Result<Choice, Box<dyn Error>> {
+    pub fn settings(&self, problem: &Problem) -> Result<Settings, Box<dyn Error>> {
         let contact = contact_named(problem, &self.contact)
             .ok_or_else(|| format!("{} has no contact {}", self.file, self.contact))?;
         let [incidence, azimuth, standoff, speed] = self.settings;
-        let middle = Cube::new(problem, contact, &[]).choice(&[]);
-        let choice = Setting::Incidence.with(&middle, incidence.to_radians());
-        let choice = Setting::Azimuth.with(&choice, azimuth.to_radians());
-        let choice = Setting::Standoff.with(&choice, standoff * 1e-3);
-        Ok(Setting::Speed.with(&choice, speed))
+        let middle = Cube::new(problem, contact, &[]).settings(&[]);
+        let settings = Setting::Incidence.with(&middle, incidence.to_radians());
+        let settings = Setting::Azimuth.with(&settings, azimuth.to_radians());
+        let settings = Setting::Standoff.with(&settings, standoff * 1e-3);
+        Ok(Setting::Speed.with(&settings, speed))
     }
 }
 
 /// Settings in the units of the table.
-pub fn in_units(choice: &Choice) -> [f64; 4] {
+pub fn in_units(settings: &Settings) -> [f64; 4] {
     [
-        choice.incidence.to_degrees(),
-        choice.azimuth.to_degrees(),
-        choice.standoff * 1e3,
-        choice.speed,
+        settings.incidence.to_degrees(),
+        settings.azimuth.to_degrees(),
+        settings.standoff * 1e3,
+        settings.speed,
     ]
 }

@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 pub mod cube;
-pub mod fresh;
 pub mod known;
 pub mod statistics;
+pub mod validation;
 pub mod variant;

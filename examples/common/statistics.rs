@@ -22,8 +22,8 @@ impl Mean {
     }
 
     /// The mean of one choice over all sets.
-    pub fn of_choice(objectives: &[Vec<f64>], choice: usize) -> Self {
-        Self::of(objectives.iter().map(|set| set[choice]))
+    pub fn of_choice(objectives: &[Vec<f64>], settings: usize) -> Self {
+        Self::of(objectives.iter().map(|set| set[settings]))
     }
 }
 

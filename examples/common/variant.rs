@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use peenpose::problem::Problem;
 use peenpose::problem::model::Model;
 use peenpose::problem::setting::Tolerance;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 
 /// How shots fly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,20 +52,20 @@ pub fn path(file: &str) -> PathBuf {
 
 impl Variant {
     /// The problem with its scene.
-    pub fn setup(&self) -> Result<Setup, Box<dyn Error>> {
-        let (mut setup, _) = Setup::load(&path(self.file))?;
+    pub fn scenario(&self) -> Result<Scenario, Box<dyn Error>> {
+        let (mut scenario, _) = Scenario::load(&path(self.file))?;
         if self.shots == Shots::Points {
-            setup.problem.paths.shot_size = false;
-            setup.problem.model = Model::Full;
+            scenario.problem.paths.shot_size = false;
+            scenario.problem.model = Model::Full;
         }
-        let tolerance = &mut setup.problem.tolerance;
+        let tolerance = &mut scenario.problem.tolerance;
         if !self.tolerance {
             *tolerance = Tolerance::default();
         } else if *tolerance == Tolerance::default() {
             // The long hub has none of its own: it is set as exactly as the short one.
-            *tolerance = Setup::load(&path(SHORT))?.0.problem.tolerance;
+            *tolerance = Scenario::load(&path(SHORT))?.0.problem.tolerance;
         }
-        Ok(setup)
+        Ok(scenario)
     }
 
     /// "yes" or "no", as in tables.

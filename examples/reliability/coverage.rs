@@ -7,15 +7,15 @@
 use std::error::Error;
 use std::fmt::{Display, Formatter};
 
-use peenpose::evaluate::evaluate_focused;
-use peenpose::jet::{Fresh, purpose};
-use peenpose::problem::setting::{Choice, Setting};
-use peenpose::setup::Setup;
+use peenpose::evaluate::evaluate_adaptively;
+use peenpose::jet::{ValidationSample, purpose};
+use peenpose::problem::setting::{Setting, Settings};
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, solve};
 
-use crate::common::fresh;
 use crate::common::known::Known;
 use crate::common::statistics::{Mean, median};
+use crate::common::validation;
 use crate::common::variant::{Shots, Variant};
 
 /// Names of the columns.
@@ -70,23 +70,23 @@ impl Case {
         intervals: u64,
         reference_shots: usize,
     ) -> Result<Vec<String>, Box<dyn Error>> {
-        let mut setup = self.variant.setup()?;
+        let mut scenario = self.variant.scenario()?;
         let best = known
             .iter()
             .find(|known| known.is_of(&self.variant) && known.contact == self.contact)
             .ok_or_else(|| format!("no best settings of {} are known", self.variant.name()))?
-            .choice(&setup.problem)?;
-        let figures = whole_solves(&mut setup, intervals, reference_shots / 64);
+            .settings(&scenario.problem)?;
+        let figures = whole_solves(&mut scenario, intervals, reference_shots / 64);
         let line = format!("{},any,{figures}", self.variant.name());
         println!("{line}");
         let mut lines = vec![line];
         for step in STEPS {
-            let choice = Setting::Incidence.with(&best, best.incidence + step.to_radians());
-            let truth = fresh::objectives(&setup, &[choice], TRUTH, reference_shots);
+            let settings = Setting::Incidence.with(&best, best.incidence + step.to_radians());
+            let truth = validation::objectives(&scenario, &[settings], TRUTH, reference_shots);
             let truth = Mean::of_choice(&truth, 0);
             let control = Control::default();
-            for shots in [control.first_fresh_shots(), control.fresh_shots] {
-                let figures = coverage(&mut setup, &choice, &truth, intervals, shots);
+            for shots in [control.first_validation_shots(), control.validation_shots] {
+                let figures = coverage(&mut scenario, &settings, &truth, intervals, shots);
                 let line = format!("{},{},{figures}", self.variant.name(), self.contact);
                 println!("{line}");
                 lines.push(line);
@@ -97,25 +97,25 @@ impl Case {
 }
 
 /// J as solves with different seeds print it, against the truth of the settings that each has found.
-fn whole_solves(setup: &mut Setup, solves: u64, reference_shots: usize) -> String {
-    let (found, reported): (Vec<Choice>, Vec<Mean>) = (1..=solves)
+fn whole_solves(scenario: &mut Scenario, solves: u64, reference_shots: usize) -> String {
+    let (found, reported): (Vec<Settings>, Vec<Mean>) = (1..=solves)
         .map(|seed| {
-            setup.problem.seed = seed;
-            let answer = solve(setup, &Control::default()).answers.swap_remove(0);
+            scenario.problem.seed = seed;
+            let answer = solve(scenario, &Control::default()).answers.swap_remove(0);
             let evaluation = answer.evaluation.expect("the winner is evaluated");
             let reported = Mean {
                 value: evaluation.terms.total(),
                 standard_error: evaluation.standard_error,
             };
-            (answer.choice, reported)
+            (answer.settings, reported)
         })
         .unzip();
-    let objectives = fresh::objectives(setup, &found, TRUTH, reference_shots);
+    let objectives = validation::objectives(scenario, &found, TRUTH, reference_shots);
     let truths: Vec<Mean> = (0..found.len())
         .map(|index| Mean::of_choice(&objectives, index))
         .collect();
     let middle = |of: &dyn Fn(&Mean) -> f64| median(truths.iter().map(of));
-    let incidence = median(found.iter().map(|choice| choice.incidence));
+    let incidence = median(found.iter().map(|settings| settings.incidence));
     format!(
         "of the solve,{:.3},{:.7},{:.1e},{}",
         incidence.to_degrees(),
@@ -126,17 +126,17 @@ fn whole_solves(setup: &mut Setup, solves: u64, reference_shots: usize) -> Strin
 }
 
 fn coverage(
-    setup: &mut Setup,
-    choice: &Choice,
+    scenario: &mut Scenario,
+    settings: &Settings,
     truth: &Mean,
     intervals: u64,
     shots: usize,
 ) -> String {
     let reported: Vec<Mean> = (1..=intervals)
         .map(|seed| {
-            setup.problem.seed = seed;
-            let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, shots);
-            let evaluation = evaluate_focused(setup, choice, &fresh);
+            scenario.problem.seed = seed;
+            let validation = ValidationSample::new(&scenario.problem, purpose::ANSWERS, shots);
+            let evaluation = evaluate_adaptively(scenario, settings, &validation);
             Mean {
                 value: evaluation.terms.total(),
                 standard_error: evaluation.standard_error,
@@ -146,7 +146,7 @@ fn coverage(
     let truths = vec![*truth; reported.len()];
     format!(
         "{shots},{:.3},{:.7},{:.1e},{}",
-        choice.incidence.to_degrees(),
+        settings.incidence.to_degrees(),
         truth.value,
         truth.standard_error,
         Intervals::new(&reported, &truths),

@@ -3,13 +3,13 @@
 use std::error::Error;
 use std::time::Instant;
 
-use peenpose::problem::setting::Choice;
-use peenpose::setup::Setup;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, Status, solve};
 
-use crate::common::fresh;
 use crate::common::known::Known;
 use crate::common::statistics::median;
+use crate::common::validation;
 use crate::common::variant::{Variant, contact_named};
 
 /// Names of the columns.
@@ -19,7 +19,7 @@ pub const HEADER: &str = "variant,contacts,seeds,within_1_percent,worst_excess_p
 
 /// What one run of the search found and cost.
 struct Run {
-    choice: Choice,
+    settings: Settings,
     status: Status,
     poses: usize,
     rays: usize,
@@ -33,7 +33,7 @@ pub fn of_variant(
     seeds: u64,
     shots: usize,
 ) -> Result<Vec<String>, Box<dyn Error>> {
-    let mut setup = variant.setup()?;
+    let mut scenario = variant.scenario()?;
     let known: Vec<&Known> = known.iter().filter(|known| known.is_of(variant)).collect();
     let alone = known.iter().map(|&one| vec![one]);
     let groups: Vec<Vec<&Known>> = alone.chain([known.clone()]).collect();
@@ -41,13 +41,13 @@ pub fn of_variant(
     for group in groups {
         let contacts = group
             .iter()
-            .map(|one| contact_named(&setup.problem, &one.contact).ok_or("unknown contact"));
-        setup.problem.settings.contact = contacts.collect::<Result<_, _>>()?;
-        let best: Vec<Choice> = group
+            .map(|one| contact_named(&scenario.problem, &one.contact).ok_or("unknown contact"));
+        scenario.problem.ranges.contact = contacts.collect::<Result<_, _>>()?;
+        let best: Vec<Settings> = group
             .iter()
-            .map(|one| one.choice(&setup.problem))
+            .map(|one| one.settings(&scenario.problem))
             .collect::<Result<_, _>>()?;
-        let runs: Vec<Run> = (1..=seeds).map(|seed| run(&mut setup, seed)).collect();
+        let runs: Vec<Run> = (1..=seeds).map(|seed| run(&mut scenario, seed)).collect();
         let name = match &group[..] {
             [one] => one.contact.clone(),
             _ => "all".into(),
@@ -55,7 +55,7 @@ pub fn of_variant(
         let line = format!(
             "{},{name},{}",
             variant.name(),
-            summary(&setup, &best, &runs, shots)
+            summary(&scenario, &best, &runs, shots)
         );
         println!("{line}");
         lines.push(line);
@@ -63,12 +63,12 @@ pub fn of_variant(
     Ok(lines)
 }
 
-fn run(setup: &mut Setup, seed: u64) -> Run {
-    setup.problem.seed = seed;
+fn run(scenario: &mut Scenario, seed: u64) -> Run {
+    scenario.problem.seed = seed;
     let start = Instant::now();
-    let solution = solve(setup, &Control::default());
+    let solution = solve(scenario, &Control::default());
     Run {
-        choice: solution.answers[0].choice,
+        settings: solution.answers[0].settings,
         status: solution.status,
         poses: solution.poses,
         rays: solution.rays,
@@ -76,9 +76,9 @@ fn run(setup: &mut Setup, seed: u64) -> Run {
     }
 }
 
-fn summary(setup: &Setup, best: &[Choice], runs: &[Run], shots: usize) -> String {
-    let found: Vec<Choice> = runs.iter().map(|run| run.choice).collect();
-    let mut excesses = fresh::excesses(setup, best, &found, COMPARISON, shots);
+fn summary(scenario: &Scenario, best: &[Settings], runs: &[Run], shots: usize) -> String {
+    let found: Vec<Settings> = runs.iter().map(|run| run.settings).collect();
+    let mut excesses = validation::excesses(scenario, best, &found, COMPARISON, shots);
     excesses.sort_by(|a, b| a.value.total_cmp(&b.value));
     let percent = |x: f64| 100.0 * x;
     let within = excesses

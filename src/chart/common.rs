@@ -7,29 +7,29 @@ use crate::elementary::square;
 use crate::jet::{Replicates, purpose};
 use crate::objective::{Sums, Tally};
 use crate::problem::goal::Goals;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 
 /// Shots towards the rim show rare harm, in which good answers differ, with less noise.
 pub const COMPARISON: (u32, Sampling) = (purpose::CHART_COMPARISON, Sampling::SobolRim);
 
 /// The sums of each scrambling (inner) for each choice (outer), on shots common to all choices.
 pub fn sums(
-    setup: &Setup,
-    choices: &[Choice],
+    scenario: &Scenario,
+    choices: &[Settings],
     (purpose, sampling): (u32, Sampling),
     shots: usize,
 ) -> Vec<Vec<Sums>> {
-    let goals = &setup.problem.goals;
+    let goals = &scenario.problem.goals;
     let each = (shots / SCRAMBLINGS).max(1);
     let sets: Vec<Vec<Sums>> = (0..SCRAMBLINGS)
         .into_par_iter()
         .map(|number| {
             let stream = Replicates::stream(purpose, number as u32);
-            let samples = sampling.draw(&setup.problem, stream, each);
-            let sums = |choice: &Choice| {
-                Tally::trace(setup, choice, choice.speed, &samples.deviates)
-                    .sums(goals, choice.speed)
+            let samples = sampling.draw(&scenario.problem, stream, each);
+            let sums = |settings: &Settings| {
+                Tally::trace(scenario, settings, settings.speed, &samples.shots)
+                    .sums(goals, settings.speed)
             };
             choices.iter().map(sums).collect()
         })

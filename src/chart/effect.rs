@@ -8,8 +8,8 @@ use super::timing;
 use crate::jet::{Samples, Stream};
 use crate::objective::{Sums, Tally};
 use crate::problem::model::{Effect as Modelled, Model};
-use crate::problem::setting::{Choice, Tolerance};
-use crate::setup::Setup;
+use crate::problem::setting::{Settings, Tolerance};
+use crate::scenario::Scenario;
 use crate::solve::solve;
 
 /// One effect: what happens without it.
@@ -33,23 +33,23 @@ pub struct Effect {
 /// The problem without an effect, and the settings that a search for it recommends.
 struct Variant {
     name: &'static str,
-    setup: Setup,
-    misled: Choice,
+    scenario: Scenario,
+    misled: Settings,
 }
 
 /// The effects that the problem has; those that were reached when the control stops it.
-pub(super) fn effects(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Effect> {
-    let variants = solved_variants(setup, choice, control);
+pub(super) fn effects(scenario: &Scenario, settings: &Settings, control: &Control) -> Vec<Effect> {
+    let variants = solved_variants(scenario, settings, control);
     if variants.is_empty() {
         return Vec::new();
     }
-    let goals = &setup.problem.goals;
+    let goals = &scenario.problem.goals;
     let shots = control.comparison_shots();
     let misled = variants.iter().map(|variant| variant.misled);
-    let choices: Vec<Choice> = std::iter::once(*choice).chain(misled).collect();
-    let full = sums(setup, &choices, COMPARISON, shots);
+    let choices: Vec<Settings> = std::iter::once(*settings).chain(misled).collect();
+    let full = sums(scenario, &choices, COMPARISON, shots);
     let effect = |(variant, misled): (&Variant, &Vec<Sums>)| {
-        let without = &sums(&variant.setup, &[*choice], COMPARISON, shots)[0];
+        let without = &sums(&variant.scenario, &[*settings], COMPARISON, shots)[0];
         let (change, change_standard_error) = excess(goals, without, &full[0]);
         let (regret, regret_standard_error) = excess(goals, misled, &full[0]);
         Effect {
@@ -58,27 +58,27 @@ pub(super) fn effects(setup: &Setup, choice: &Choice, control: &Control) -> Vec<
             change_standard_error,
             regret,
             regret_standard_error,
-            relative_cost: relative_cost(&variant.setup, setup, choice),
+            relative_cost: relative_cost(&variant.scenario, scenario, settings),
         }
     };
     variants.iter().zip(&full[1..]).map(effect).collect()
 }
 
-fn solved_variants(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Variant> {
-    let removals = without_each_effect(setup, choice);
+fn solved_variants(scenario: &Scenario, settings: &Settings, control: &Control) -> Vec<Variant> {
+    let removals = without_each_effect(scenario, settings);
     let of = removals.len();
     let mut variants = Vec::new();
-    for (number, (name, setup)) in removals.into_iter().enumerate() {
+    for (number, (name, scenario)) in removals.into_iter().enumerate() {
         if control.is_stopped() {
             break;
         }
         control.tell("effects", number, of);
-        let solution = solve(&setup, &control.of_a_search());
+        let solution = solve(&scenario, &control.of_a_search());
         let best = solution.least().filter(|_| !control.is_stopped());
         variants.extend(best.map(|best| Variant {
             name,
-            misled: best.choice,
-            setup,
+            misled: best.settings,
+            scenario,
         }));
     }
     variants
@@ -87,24 +87,24 @@ fn solved_variants(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Var
 /// Few enough to be done before something else takes its turn on a busy machine.
 const TIMED_SHOTS: usize = 1024;
 
-fn relative_cost(without: &Setup, with: &Setup, choice: &Choice) -> f64 {
-    let draw = |setup: &Setup| Samples::new(&setup.problem, Stream::Search, TIMED_SHOTS);
+fn relative_cost(without: &Scenario, with: &Scenario, settings: &Settings) -> f64 {
+    let draw = |scenario: &Scenario| Samples::new(&scenario.problem, Stream::Search, TIMED_SHOTS);
     let (fewer, all) = (draw(without), draw(with));
-    let trace = |setup: &Setup, samples: &Samples| {
-        Tally::trace(setup, choice, choice.speed, &samples.deviates)
-            .terms(&setup.problem.goals, choice.speed)
+    let trace = |scenario: &Scenario, samples: &Samples| {
+        Tally::trace(scenario, settings, settings.speed, &samples.shots)
+            .terms(&scenario.problem.goals, settings.speed)
     };
     timing::ratio(|| trace(without, &fewer), || trace(with, &all))
 }
 
 /// The setup without each of the effects that it has, and without its tolerance; searches for them
 /// leave out nothing else.
-fn without_each_effect(setup: &Setup, choice: &Choice) -> Vec<(&'static str, Setup)> {
-    let effects = setup.problem.effects().into_iter();
-    let without = |effect: Modelled| (effect.description(), setup.without(&[effect], choice));
-    let mut variants: Vec<(&'static str, Setup)> = effects.map(without).collect();
-    if setup.problem.tolerance != Tolerance::default() {
-        let mut exact = setup.clone();
+fn without_each_effect(scenario: &Scenario, settings: &Settings) -> Vec<(&'static str, Scenario)> {
+    let effects = scenario.problem.effects().into_iter();
+    let without = |effect: Modelled| (effect.description(), scenario.without(&[effect], settings));
+    let mut variants: Vec<(&'static str, Scenario)> = effects.map(without).collect();
+    if scenario.problem.tolerance != Tolerance::default() {
+        let mut exact = scenario.clone();
         exact.problem.tolerance = Tolerance::default();
         variants.push(("tolerance of the settings", exact));
     }

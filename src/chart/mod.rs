@@ -31,9 +31,9 @@ use crate::jet::purpose;
 use crate::printable;
 use crate::problem::Source;
 use crate::problem::fault::Fault;
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
 use crate::record::{RecordFault, SettingsRecord, mesh_sha256, read_json};
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::solve::solve;
 use common::{jackknife, objective, sums};
 use sampling::SCRAMBLINGS;
@@ -106,7 +106,7 @@ pub enum Refusal {
     /// It was told to stop before anything was measured.
     Interrupted,
     /// The part cannot be turned into triangles.
-    Facets(Vec<Fault>),
+    TriangleMesh(Vec<Fault>),
 }
 
 /// Measures everything, as far as `control` lets it.
@@ -114,15 +114,15 @@ pub enum Refusal {
 /// # Errors
 /// When there is nothing to measure.
 pub fn measure(
-    setup: &Setup,
+    scenario: &Scenario,
     source: &Source,
     command: String,
     beside: Vec<BesidePoint>,
     control: &Control,
 ) -> Result<Chart, Refusal> {
     control.tell("search", 0, 1);
-    let problem = &setup.problem;
-    let solution = solve(setup, &control.of_a_search());
+    let problem = &scenario.problem;
+    let solution = solve(scenario, &control.of_a_search());
     if control.is_stopped() {
         return Err(Refusal::Interrupted);
     }
@@ -130,19 +130,19 @@ pub fn measure(
         .answers
         .first()
         .filter(|best| best.violation <= 0.0);
-    let choice = best.ok_or(Refusal::NoFeasiblePose)?.choice;
-    let reference = reference(setup, &choice, control);
+    let settings = best.ok_or(Refusal::NoFeasiblePose)?.settings;
+    let reference = reference(scenario, &settings, control);
     if reference.objective <= 0.0 {
         return Err(Refusal::NothingToImprove);
     }
-    let poses = pose::curves(setup, &choice, reference.objective, control)?;
-    let searches = search::runs(setup, &choice, beside, control);
-    let effects = effect::effects(setup, &choice, control);
+    let poses = pose::curves(scenario, &settings, reference.objective, control)?;
+    let searches = search::runs(scenario, &settings, beside, control);
+    let effects = effect::effects(scenario, &settings, control);
     Ok(Chart {
         title: problem.title.clone(),
         file: printable::line(&source.path.display().to_string()).into_owned(),
         problem_sha256: source.sha256.clone(),
-        mesh_sha256: mesh_sha256(setup, source),
+        mesh_sha256: mesh_sha256(scenario, source),
         version: env!("CARGO_PKG_VERSION").into(),
         command,
         seed: problem.seed,
@@ -150,8 +150,8 @@ pub fn measure(
         threads: rayon::current_num_threads(),
         interrupted: control.is_stopped(),
         recommended: Recommended {
-            contact: problem.contacts[choice.contact].name.clone(),
-            settings: SettingsRecord::new(&choice),
+            contact: problem.contacts[settings.contact].name.clone(),
+            settings: SettingsRecord::new(&settings),
             shots_per_pose: solution.shots_per_pose,
         },
         reference,
@@ -161,13 +161,13 @@ pub fn measure(
     })
 }
 
-fn reference(setup: &Setup, choice: &Choice, control: &Control) -> Reference {
+fn reference(scenario: &Scenario, settings: &Settings, control: &Control) -> Reference {
     control.tell("reference", 0, 1);
-    let goals = &setup.problem.goals;
+    let goals = &scenario.problem.goals;
     let shots = control.most_shots * SCRAMBLINGS;
     let sets = &sums(
-        setup,
-        &[*choice],
+        scenario,
+        &[*settings],
         (purpose::CHART_REFERENCE, Sampling::Sobol),
         shots,
     )[0];
@@ -199,7 +199,7 @@ impl Chart {
 
 impl From<Vec<Fault>> for Refusal {
     fn from(faults: Vec<Fault>) -> Self {
-        Self::Facets(faults)
+        Self::TriangleMesh(faults)
     }
 }
 
@@ -213,7 +213,7 @@ impl fmt::Display for Refusal {
                 "J is 0 at the best settings, so errors cannot be given as a share of it",
             ),
             Self::Interrupted => f.write_str("interrupted before anything was measured"),
-            Self::Facets(faults) => {
+            Self::TriangleMesh(faults) => {
                 f.write_str("the part cannot be turned into triangles")?;
                 faults.iter().try_for_each(|fault| write!(f, "; {fault}"))
             }

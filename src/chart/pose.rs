@@ -9,14 +9,14 @@ use super::control::Control;
 use super::sampling::Sampling;
 use super::timing;
 use crate::elementary::square;
-use crate::jet::{Deviate, Replicates, purpose};
+use crate::jet::{Replicates, ShotSample, purpose};
 use crate::objective::{Sums, Tally};
 use crate::precision::Precision;
 use crate::problem::fault::Fault;
 use crate::problem::part::Shape;
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::scene;
-use crate::setup::Setup;
 
 /// One way to compute J, with more and more shots.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,7 +58,7 @@ pub enum Walls {
     /// The triangles of mesh files.
     Mesh,
     /// Triangles instead of planes and cylinders.
-    Facets {
+    TriangleMesh {
         /// Angle by which their chords turn at most, deg.
         chord_angle_deg: f64,
     },
@@ -70,7 +70,7 @@ impl Walls {
     fn precisions(self) -> &'static [Precision] {
         match self {
             Self::Exact => &Precision::ALL,
-            Self::Mesh | Self::Facets { .. } => &[Precision::F64],
+            Self::Mesh | Self::TriangleMesh { .. } => &[Precision::F64],
         }
     }
 }
@@ -86,12 +86,12 @@ const TIMED_SHOTS: usize = 4096;
 
 /// Every way to compute J; those that were reached when the control stops it.
 pub(super) fn curves(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     reference: f64,
     control: &Control,
 ) -> Result<Vec<PoseCurve>, Vec<Fault>> {
-    let ways = ways(setup, choice)?;
+    let ways = ways(scenario, settings)?;
     let mut curves = Vec::new();
     for (number, sampling) in Sampling::ALL.into_iter().enumerate() {
         if control.is_stopped() {
@@ -107,21 +107,21 @@ pub(super) fn curves(
 struct Way<'a> {
     walls: Walls,
     precision: Precision,
-    setup: Cow<'a, Setup>,
-    choice: &'a Choice,
+    scenario: Cow<'a, Scenario>,
+    settings: &'a Settings,
 }
 
 /// All of them; the first is the one that the search uses.
-fn ways<'a>(setup: &'a Setup, choice: &'a Choice) -> Result<Vec<Way<'a>>, Vec<Fault>> {
+fn ways<'a>(scenario: &'a Scenario, settings: &'a Settings) -> Result<Vec<Way<'a>>, Vec<Fault>> {
     let mut ways = Vec::new();
-    for walls in models(setup) {
-        let setup = built(setup, walls)?;
+    for walls in models(scenario) {
+        let scenario = built(scenario, walls)?;
         for &precision in walls.precisions() {
             ways.push(Way {
                 walls,
                 precision,
-                setup: setup.clone(),
-                choice,
+                scenario: scenario.clone(),
+                settings,
             });
         }
     }
@@ -129,23 +129,32 @@ fn ways<'a>(setup: &'a Setup, choice: &'a Choice) -> Result<Vec<Way<'a>>, Vec<Fa
 }
 
 /// The walls worth comparing: where every part is a mesh there is nothing but the meshes.
-fn models(setup: &Setup) -> Vec<Walls> {
+fn models(scenario: &Scenario) -> Vec<Walls> {
     let is_mesh = |shape: &Shape| matches!(shape, Shape::Mesh { .. });
-    if setup.problem.parts.iter().all(|part| is_mesh(&part.shape)) {
+    if scenario
+        .problem
+        .parts
+        .iter()
+        .all(|part| is_mesh(&part.shape))
+    {
         return vec![Walls::Mesh];
     }
-    let facets = |chord_angle_deg| Walls::Facets { chord_angle_deg };
+    let facets = |chord_angle_deg| Walls::TriangleMesh { chord_angle_deg };
     std::iter::once(Walls::Exact)
         .chain(CHORD_ANGLES.map(facets))
         .collect()
 }
 
-fn built(setup: &Setup, walls: Walls) -> Result<Cow<'_, Setup>, Vec<Fault>> {
+fn built(scenario: &Scenario, walls: Walls) -> Result<Cow<'_, Scenario>, Vec<Fault>> {
     match walls {
-        Walls::Exact | Walls::Mesh => Ok(Cow::Borrowed(setup)),
-        Walls::Facets { chord_angle_deg } => {
+        Walls::Exact | Walls::Mesh => Ok(Cow::Borrowed(scenario)),
+        Walls::TriangleMesh { chord_angle_deg } => {
             let chord_angle = chord_angle_deg.to_radians();
-            Setup::new(setup.problem.clone(), scene::Walls::Facets { chord_angle }).map(Cow::Owned)
+            Scenario::new(
+                scenario.problem.clone(),
+                scene::Walls::TriangleMesh { chord_angle },
+            )
+            .map(Cow::Owned)
         }
     }
 }
@@ -170,13 +179,13 @@ fn curves_of(
         .collect();
     let draw = |number: usize| {
         let stream = Replicates::stream(purpose::CHART_SCATTER, number as u32);
-        sampling.draw(&ways[0].setup.problem, stream, sizes[sizes.len() - 1])
+        sampling.draw(&ways[0].scenario.problem, stream, sizes[sizes.len() - 1])
     };
     let sets: Vec<Vec<Outcome>> = (0..control.replicates)
         .into_par_iter()
         .map(|number| {
             let samples = draw(number);
-            let outcome = |way: &Way| way.outcome(&samples.deviates, sizes.len(), reference);
+            let outcome = |way: &Way| way.outcome(&samples.shots, sizes.len(), reference);
             ways.iter().map(outcome).collect()
         })
         .collect();
@@ -190,7 +199,7 @@ fn curves_of(
             let squares = sets.iter().map(|set| set[index].mean_squares[level]);
             PosePoint {
                 shots,
-                seconds: way.seconds(&samples.deviates[..shots.min(samples.deviates.len())]),
+                seconds: way.seconds(&samples.shots[..shots.min(samples.shots.len())]),
                 error: mean(squares).0.sqrt(),
             }
         });
@@ -198,7 +207,7 @@ fn curves_of(
             sampling,
             walls: way.walls,
             precision: way.precision,
-            triangles: way.setup.scene.triangles(),
+            triangles: way.scenario.scene.triangles(),
             bias,
             bias_standard_error,
             points: points.collect(),
@@ -210,8 +219,8 @@ fn curves_of(
 impl Way<'_> {
     /// Every aligned block of Sobol points is as good as the first one, so that a set of many shots
     /// holds many blocks of few: enough of them to meet rare harm as often as it happens.
-    fn outcome(&self, shots: &[Deviate], levels: usize, reference: f64) -> Outcome {
-        let objective = |sums: &Sums| sums.terms(&self.setup.problem.goals).total();
+    fn outcome(&self, shots: &[ShotSample], levels: usize, reference: f64) -> Outcome {
+        let objective = |sums: &Sums| sums.terms(&self.scenario.problem.goals).total();
         let together = |blocks: &[Sums]| {
             blocks
                 .iter()
@@ -235,22 +244,22 @@ impl Way<'_> {
         }
     }
 
-    fn seconds(&self, shots: &[Deviate]) -> f64 {
-        let slices: Vec<&[Deviate]> = shots.chunks(TIMED_SHOTS).collect();
+    fn seconds(&self, shots: &[ShotSample]) -> f64 {
+        let slices: Vec<&[ShotSample]> = shots.chunks(TIMED_SHOTS).collect();
         timing::seconds(&slices, |slice| {
-            self.sums(slice).terms(&self.setup.problem.goals)
+            self.sums(slice).terms(&self.scenario.problem.goals)
         })
     }
 
-    fn sums(&self, shots: &[Deviate]) -> Sums {
+    fn sums(&self, shots: &[ShotSample]) -> Sums {
         let tally = Tally::trace_as(
             self.precision,
-            &self.setup,
-            self.choice,
-            self.choice.speed,
+            &self.scenario,
+            self.settings,
+            self.settings.speed,
             shots,
         );
-        tally.sums(&self.setup.problem.goals, self.choice.speed)
+        tally.sums(&self.scenario.problem.goals, self.settings.speed)
     }
 }
 

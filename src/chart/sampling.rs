@@ -25,7 +25,7 @@ impl Sampling {
         match self {
             Self::Random => Samples::random(problem, stream, count),
             Self::Sobol => Samples::new(problem, stream, count),
-            Self::SobolRim => Samples::with_rim(problem, stream, count),
+            Self::SobolRim => Samples::with_boundary(problem, stream, count),
         }
     }
 }

@@ -8,9 +8,9 @@ use super::beside::BesidePoint;
 use super::common::{COMPARISON, excess, objective, sums};
 use super::control::Control;
 use super::timing::median;
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
 use crate::record::SettingsRecord;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::solve::{self, solve};
 
 /// Searches with more and more effort, against the best answer that is known.
@@ -101,17 +101,17 @@ struct Outcome {
     seed: u64,
     seconds: f64,
     shots_per_pose: usize,
-    choice: Choice,
+    settings: Settings,
 }
 
 /// Searches by every method and seed; those that came to an end when the control stops it.
 pub(super) fn runs(
-    setup: &Setup,
-    recommended: &Choice,
+    scenario: &Scenario,
+    recommended: &Settings,
     beside: Vec<BesidePoint>,
     control: &Control,
 ) -> Option<Searches> {
-    let methods = methods(setup.problem.accuracy);
+    let methods = methods(scenario.problem.accuracy);
     let of = methods.len() * control.seeds;
     let mut outcomes: Vec<Outcome> = Vec::new();
     for seed in 0..control.seeds as u64 {
@@ -120,26 +120,26 @@ pub(super) fn runs(
                 break;
             }
             control.tell("searches", outcomes.len(), of);
-            let seed = setup.problem.seed.wrapping_add(seed);
-            outcomes.extend(outcome(setup, method, seed, control));
+            let seed = scenario.problem.seed.wrapping_add(seed);
+            outcomes.extend(outcome(scenario, method, seed, control));
         }
     }
     if outcomes.is_empty() {
         return None;
     }
-    let mut choices: Vec<Choice> = outcomes.iter().map(|outcome| outcome.choice).collect();
+    let mut choices: Vec<Settings> = outcomes.iter().map(|outcome| outcome.settings).collect();
     choices.push(*recommended);
-    Some(compared(setup, outcomes, &choices, beside, control))
+    Some(compared(scenario, outcomes, &choices, beside, control))
 }
 
 /// One search; nothing if it was stopped or the nozzle fitted nowhere.
-fn outcome(setup: &Setup, method: Method, seed: u64, control: &Control) -> Option<Outcome> {
-    let mut setup = setup.clone();
-    setup.problem.seed = seed;
+fn outcome(scenario: &Scenario, method: Method, seed: u64, control: &Control) -> Option<Outcome> {
+    let mut scenario = scenario.clone();
+    scenario.problem.seed = seed;
     let usual = control.of_a_search();
     let effort = match method {
         Method::Accuracy(accuracy) => {
-            setup.problem.accuracy = accuracy;
+            scenario.problem.accuracy = accuracy;
             usual
         }
         Method::MostShots(most_shots) => solve::Control {
@@ -148,7 +148,7 @@ fn outcome(setup: &Setup, method: Method, seed: u64, control: &Control) -> Optio
         },
     };
     let started = Instant::now();
-    let solution = solve(&setup, &effort);
+    let solution = solve(&scenario, &effort);
     let seconds = started.elapsed().as_secs_f64();
     let best = solution.least()?;
     (!control.is_stopped() && best.violation <= 0.0).then_some(Outcome {
@@ -156,20 +156,20 @@ fn outcome(setup: &Setup, method: Method, seed: u64, control: &Control) -> Optio
         seed,
         seconds,
         shots_per_pose: solution.shots_per_pose,
-        choice: best.choice,
+        settings: best.settings,
     })
 }
 
 fn compared(
-    setup: &Setup,
+    scenario: &Scenario,
     outcomes: Vec<Outcome>,
-    choices: &[Choice],
+    choices: &[Settings],
     beside: Vec<BesidePoint>,
     control: &Control,
 ) -> Searches {
-    let goals = &setup.problem.goals;
+    let goals = &scenario.problem.goals;
     let shots = control.comparison_shots();
-    let sums = sums(setup, choices, COMPARISON, shots);
+    let sums = sums(scenario, choices, COMPARISON, shots);
     let totals: Vec<f64> = sums
         .iter()
         .map(|sets| objective(goals, sets, |_| true))
@@ -177,7 +177,7 @@ fn compared(
     let best = (0..totals.len())
         .min_by(|&a, &b| totals[a].total_cmp(&totals[b]))
         .unwrap_or_default();
-    let contact = |choice: &Choice| setup.problem.contacts[choice.contact].name.clone();
+    let contact = |settings: &Settings| scenario.problem.contacts[settings.contact].name.clone();
     let runs = outcomes.iter().zip(&sums).map(|(outcome, sets)| {
         let (excess, excess_standard_error) = excess(goals, sets, &sums[best]);
         SearchRun {
@@ -185,8 +185,8 @@ fn compared(
             seed: outcome.seed,
             seconds: outcome.seconds,
             shots_per_pose: outcome.shots_per_pose,
-            contact: contact(&outcome.choice),
-            settings: SettingsRecord::new(&outcome.choice),
+            contact: contact(&outcome.settings),
+            settings: SettingsRecord::new(&outcome.settings),
             excess,
             excess_standard_error,
         }

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::Density;
 use crate::elementary::square;
+use crate::scenario::Scenario;
 use crate::scene::patch::{Frame, Triangle};
-use crate::setup::Setup;
 
 /// Less than this share of a cell is too little to count hits on.
 const WHOLE_ENOUGH: f64 = 0.25;
@@ -34,8 +34,13 @@ pub(super) struct Cell {
 impl Cells {
     /// Cuts the target so that one that is flat and square has `count` cells, and counts the hits of each
     /// sample in them.
-    pub fn new(setup: &Setup, target: &[Triangle], count: f64, hits: &[Vec<Point3<f64>>]) -> Self {
-        let grid = Grid::of(setup, target, count);
+    pub fn new(
+        scenario: &Scenario,
+        target: &[Triangle],
+        count: f64,
+        hits: &[Vec<Point3<f64>>],
+    ) -> Self {
+        let grid = Grid::of(scenario, target, count);
         let areas = grid.areas(target);
         let (cell_at, mut cells) = grid.cells(&areas);
         let counted = hits.par_iter().map(|points| {
@@ -90,13 +95,13 @@ type Place = [i64; 3];
 type Polygon = Vec<[f64; 3]>;
 
 impl Grid {
-    fn of(setup: &Setup, target: &[Triangle], count: f64) -> Self {
+    fn of(scenario: &Scenario, target: &[Triangle], count: f64) -> Self {
         let Frame {
             aim,
             normal,
             along,
             across,
-        } = setup.target.frame;
+        } = scenario.target.frame;
         let corners = target.iter().flatten();
         let farthest = corners.map(|corner| (corner - aim).norm());
         // However narrow the target is, there are not many more cells than in a square one.
@@ -104,7 +109,7 @@ impl Grid {
         Self {
             middle: aim,
             axes: [along, across, normal],
-            side: (setup.target.area / count).sqrt().max(least_side),
+            side: (scenario.target.area / count).sqrt().max(least_side),
         }
     }
 

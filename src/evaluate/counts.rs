@@ -1,7 +1,7 @@
 //! How many shots break goals and limits.
 
 use super::Evaluation;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 
 /// How many shots break what: all that verdicts are given on.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,21 +36,21 @@ impl Counts {
     }
 
     /// Of no shots.
-    pub fn none(setup: &Setup) -> Self {
+    pub fn none(scenario: &Scenario) -> Self {
         Self {
             shots: 0,
-            is_exact: setup.problem.has_one_ray(),
+            is_exact: scenario.problem.has_one_ray(),
             hits: 0,
             off_target: 0,
             over_limit: 0,
-            over: vec![0; setup.surfaces.len()],
+            over: vec![0; scenario.surfaces.len()],
         }
     }
 
     /// Of several sets of shots.
-    pub fn together(setup: &Setup, each: impl IntoIterator<Item = Self>) -> Self {
+    pub fn together(scenario: &Scenario, each: impl IntoIterator<Item = Self>) -> Self {
         let each = each.into_iter();
-        each.fold(Self::none(setup), |all, one| all.plus(&one))
+        each.fold(Self::none(scenario), |all, one| all.plus(&one))
     }
 
     /// What was counted in an evaluation.

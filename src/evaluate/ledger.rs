@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use super::impulses::Impulses;
 use crate::jet::Replicate;
 use crate::objective::{Score, Tally};
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
-use crate::setup::Setup;
-use crate::trace::{End, Tracer, Volley, Witness};
+use crate::trace::{End, Observer, RayPacket, Tracer};
 
 /// What became of the shots of one scrambling.
 pub(super) struct Ledger {
     /// Of the jet.
     pub tally: Tally,
     /// Of the shots on the rim, which nothing else here counts.
-    pub rim: Tally,
+    pub boundary: Tally,
     /// First hits on target that stick.
     pub sticking: usize,
     /// Impacts of all paths.
@@ -40,27 +40,32 @@ pub(super) struct SurfaceSums {
 
 impl Ledger {
     /// Traces the shots of a choice of settings.
-    pub fn of(setup: &Setup, choice: &Choice, replicate: &Replicate) -> Self {
-        let shots = &replicate.jet.deviates;
+    pub fn of(scenario: &Scenario, settings: &Settings, replicate: &Replicate) -> Self {
+        let shots = &replicate.jet.shots;
         let mut clerk = Clerk {
-            setup,
-            score: Score::new(setup, choice.contact, choice.speed, shots.len()),
+            scenario,
+            score: Score::new(scenario, settings.contact, settings.speed, shots.len()),
             sticking: 0,
             impacts: 0,
-            surfaces: vec![SurfaceSums::default(); setup.surfaces.len()],
+            surfaces: vec![SurfaceSums::default(); scenario.surfaces.len()],
             ends: BTreeMap::new(),
-            seen: Marks::new(setup.surfaces.len()),
-            seen_over: Marks::new(setup.surfaces.len()),
+            seen: Marks::new(scenario.surfaces.len()),
+            seen_over: Marks::new(scenario.surfaces.len()),
         };
-        let tracer = Tracer::new(setup, choice, choice.speed);
+        let tracer = Tracer::new(scenario, settings, settings.speed);
         tracer.fire(shots, &mut clerk, |clerk, shots, rays| {
-            clerk.score.end_volley(shots, rays);
+            clerk.score.end_packet(shots, rays);
             clerk.seen.clear();
             clerk.seen_over.clear();
         });
         Self {
             tally: clerk.score.finish(),
-            rim: Tally::trace(setup, choice, choice.speed, &replicate.rim.deviates),
+            boundary: Tally::trace(
+                scenario,
+                settings,
+                settings.speed,
+                &replicate.boundary.shots,
+            ),
             sticking: clerk.sticking,
             impacts: clerk.impacts,
             surfaces: clerk.surfaces,
@@ -75,7 +80,7 @@ const MOST_KEPT: usize = 1 << 21;
 
 /// Writes a ledger.
 struct Clerk<'a> {
-    setup: &'a Setup,
+    scenario: &'a Scenario,
     score: Score<f64>,
     sticking: usize,
     impacts: usize,
@@ -96,22 +101,22 @@ impl Clerk<'_> {
     }
 }
 
-impl Witness<f64> for Clerk<'_> {
-    fn impacts(&mut self, volley: &Volley<f64>) {
-        self.score.impacts(volley);
-        for i in (0..volley.rays.count).filter(|&i| volley.impacts.counts[i] != 0.0) {
-            let number = volley.number[i] as usize;
+impl Observer<f64> for Clerk<'_> {
+    fn impacts(&mut self, packet: &RayPacket<f64>) {
+        self.score.impacts(packet);
+        for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
+            let number = packet.number[i] as usize;
             self.impacts += 1;
             if self.impacts == MOST_KEPT {
                 self.keep_no_more();
             }
             if self.score.is_on_target(i) {
-                self.sticking += usize::from(number == 1 && volley.impacts.sticks[i] != 0.0);
+                self.sticking += usize::from(number == 1 && packet.impacts.sticks[i] != 0.0);
                 continue;
             }
-            let (shot, surface) = (volley.shot[i] as usize, volley.hits.surface[i] as usize);
-            let normal_impulse = volley.impacts.normal[i];
-            let allow = self.setup.surfaces[surface].allow;
+            let (shot, surface) = (packet.shot[i] as usize, packet.hits.surface[i] as usize);
+            let normal_impulse = packet.impacts.normal[i];
+            let allow = self.scenario.surfaces[surface].allow;
             let sums = &mut self.surfaces[surface];
             count_at(&mut sums.impacts_by_number, number);
             sums.normal_impulses.push(normal_impulse);

@@ -1,12 +1,12 @@
 //! What the shots of one pose do, kept so that verdicts can be given at any launch speed.
 
 use super::Counts;
-use crate::jet::Deviate;
+use crate::jet::ShotSample;
 use crate::objective::{Score, Tally, Terms};
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
-use crate::setup::Setup;
-use crate::trace::{End, Tracer, Volley, Witness};
+use crate::trace::{End, Observer, RayPacket, Tracer};
 
 /// The impacts of some shots, per unit of launch speed.
 pub(crate) struct Survey {
@@ -19,20 +19,20 @@ pub(crate) struct Survey {
 
 impl Survey {
     /// Traces the shots of a choice of settings.
-    pub fn of(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> Self {
-        let surfaces = setup.surfaces.len();
+    pub fn of(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> Self {
+        let surfaces = scenario.surfaces.len();
         let mut surveyor = Surveyor {
-            score: Score::new(setup, choice.contact, choice.speed, shots.len()),
+            score: Score::new(scenario, settings.contact, settings.speed, shots.len()),
             sticking: 0,
-            per_speed: 1.0 / choice.speed,
+            per_speed: 1.0 / settings.speed,
             largest: vec![Vec::new(); surfaces],
-            in_volley: vec![0.0; surfaces * LANES],
+            in_packet: vec![0.0; surfaces * LANES],
             touched: Vec::new(),
         };
-        let tracer = Tracer::new(setup, choice, choice.speed);
+        let tracer = Tracer::new(scenario, settings, settings.speed);
         tracer.fire(shots, &mut surveyor, |surveyor, shots, rays| {
-            surveyor.score.end_volley(shots, rays);
-            surveyor.end_volley();
+            surveyor.score.end_packet(shots, rays);
+            surveyor.end_packet();
         });
         Self {
             tally: surveyor.score.finish(),
@@ -53,23 +53,24 @@ impl Survey {
     }
 
     /// The terms of the objective at a launch speed, m/s.
-    pub fn terms(&self, setup: &Setup, speed: f64) -> Terms {
-        self.tally.terms(&setup.problem.goals, speed)
+    pub fn terms(&self, scenario: &Scenario, speed: f64) -> Terms {
+        self.tally.terms(&scenario.problem.goals, speed)
     }
 
     /// How many of them break what at a launch speed, m/s.
-    pub fn counts(&self, setup: &Setup, speed: f64) -> Counts {
-        let goals = &setup.problem.goals;
+    pub fn counts(&self, scenario: &Scenario, speed: f64) -> Counts {
+        let goals = &scenario.problem.goals;
         let hits = &self.tally.hits;
-        let mut over = vec![0; setup.surfaces.len()];
-        for ((over, limits), largest) in over.iter_mut().zip(&setup.surfaces).zip(&self.largest) {
+        let mut over = vec![0; scenario.surfaces.len()];
+        for ((over, limits), largest) in over.iter_mut().zip(&scenario.surfaces).zip(&self.largest)
+        {
             if let Some(allow) = limits.allow {
                 *over = largest.iter().filter(|n| **n * speed > allow).count();
             }
         }
         Counts {
             shots: self.tally.shots,
-            is_exact: setup.problem.has_one_ray(),
+            is_exact: scenario.problem.has_one_ray(),
             hits: hits.len(),
             off_target: hits.off_target(goals, speed),
             over_limit: hits.over_limit(goals, speed),
@@ -85,37 +86,37 @@ struct Surveyor {
     per_speed: f64,
     largest: Vec<Vec<f64>>,
     /// The largest N* per launch speed of each shot of the volley on each surface.
-    in_volley: Vec<f64>,
+    in_packet: Vec<f64>,
     /// Where that is not 0.
     touched: Vec<usize>,
 }
 
 impl Surveyor {
-    fn end_volley(&mut self) {
+    fn end_packet(&mut self) {
         let surfaces = self.largest.len();
         for place in self.touched.drain(..) {
-            self.largest[place % surfaces].push(self.in_volley[place]);
-            self.in_volley[place] = 0.0;
+            self.largest[place % surfaces].push(self.in_packet[place]);
+            self.in_packet[place] = 0.0;
         }
     }
 }
 
-impl Witness<f64> for Surveyor {
-    fn impacts(&mut self, volley: &Volley<f64>) {
-        self.score.impacts(volley);
-        for i in (0..volley.rays.count).filter(|&i| volley.impacts.counts[i] != 0.0) {
+impl Observer<f64> for Surveyor {
+    fn impacts(&mut self, packet: &RayPacket<f64>) {
+        self.score.impacts(packet);
+        for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
             if self.score.is_on_target(i) {
-                let is_first = volley.number[i] == 1.0;
-                self.sticking += usize::from(is_first && volley.impacts.sticks[i] != 0.0);
+                let is_first = packet.number[i] == 1.0;
+                self.sticking += usize::from(is_first && packet.impacts.sticks[i] != 0.0);
                 continue;
             }
-            let surface = volley.hits.surface[i] as usize;
-            let place = volley.shot[i] as usize * self.largest.len() + surface;
-            let normal = volley.impacts.normal[i] * self.per_speed;
-            if self.in_volley[place] == 0.0 && normal > 0.0 {
+            let surface = packet.hits.surface[i] as usize;
+            let place = packet.shot[i] as usize * self.largest.len() + surface;
+            let normal = packet.impacts.normal[i] * self.per_speed;
+            if self.in_packet[place] == 0.0 && normal > 0.0 {
                 self.touched.push(place);
             }
-            self.in_volley[place] = self.in_volley[place].max(normal);
+            self.in_packet[place] = self.in_packet[place].max(normal);
         }
     }
 

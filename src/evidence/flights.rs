@@ -7,9 +7,9 @@ use rayon::prelude::*;
 
 use super::Shape;
 use crate::elementary::asin;
-use crate::jet::{Deviate, Samples};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::jet::{Samples, ShotSample};
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::trace::{End, PathImpact, Tracer};
 use crate::verdict::Subject;
 
@@ -34,18 +34,18 @@ const VOLLEY: usize = 1024;
 
 /// The flights of some shots, in their order, or of the first ones when `stop` is set.
 pub(super) fn fire(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     jet: &Samples,
     shapes: &[Shape],
     stop: &AtomicBool,
 ) -> Vec<Flight> {
-    let tracer = Tracer::new(setup, choice, choice.speed);
+    let tracer = Tracer::new(scenario, settings, settings.speed);
     let scene = Limits::of(shapes);
-    let flight = |deviate: &Deviate| {
-        let ray = tracer.launch(deviate);
+    let flight = |sample: &ShotSample| {
+        let ray = tracer.launch(sample);
         let mut impacts = Vec::new();
-        let (end, _) = tracer.follow_all_from(ray, deviate, |impact| impacts.push(*impact));
+        let (end, _) = tracer.follow_all_from(ray, sample, |impact| impacts.push(*impact));
         let (last, heading) = match impacts.last() {
             Some(impact) => (impact.centre, impact.velocity.normalize()),
             None => (ray.origin, ray.direction),
@@ -61,11 +61,11 @@ pub(super) fn fire(
             gone,
         }
     };
-    let volleys = jet.deviates.chunks(VOLLEY).enumerate();
-    let volleys = volleys.take_while(|(number, _)| *number == 0 || !stop.load(Ordering::Relaxed));
-    let mut flights = Vec::with_capacity(jet.deviates.len());
-    for (_, volley) in volleys {
-        flights.par_extend(volley.par_iter().map(flight));
+    let packets = jet.shots.chunks(VOLLEY).enumerate();
+    let packets = packets.take_while(|(number, _)| *number == 0 || !stop.load(Ordering::Relaxed));
+    let mut flights = Vec::with_capacity(jet.shots.len());
+    for (_, packet) in packets {
+        flights.par_extend(packet.par_iter().map(flight));
     }
     flights
 }
@@ -96,7 +96,7 @@ impl Flight {
     }
 
     /// The goals and limits that it breaks, each once.
-    pub fn broken(&self, setup: &Setup) -> Vec<Subject> {
+    pub fn broken(&self, scenario: &Scenario) -> Vec<Subject> {
         let mut broken = Vec::new();
         if self.hit_on_target().is_none() {
             broken.push(Subject::Miss);
@@ -104,7 +104,7 @@ impl Flight {
         broken.extend(
             self.impacts
                 .iter()
-                .flat_map(|impact| broken_by(impact, setup)),
+                .flat_map(|impact| broken_by(impact, scenario)),
         );
         broken.sort_unstable();
         broken.dedup();
@@ -113,8 +113,8 @@ impl Flight {
 }
 
 /// The goals and limits that an impact breaks.
-pub fn broken_by(impact: &PathImpact, setup: &Setup) -> Vec<Subject> {
-    let goals = &setup.problem.goals;
+pub fn broken_by(impact: &PathImpact, scenario: &Scenario) -> Vec<Subject> {
+    let goals = &scenario.problem.goals;
     let mut broken = Vec::new();
     let mut note = |is_broken: bool, subject| {
         if is_broken {
@@ -133,7 +133,7 @@ pub fn broken_by(impact: &PathImpact, setup: &Setup) -> Vec<Subject> {
         }
         (_, true) => {}
         (number, false) => {
-            let allow = setup.surfaces[impact.surface as usize].allow;
+            let allow = scenario.surfaces[impact.surface as usize].allow;
             let over = allow.is_some_and(|allow| impact.normal_impulse > allow);
             note(number == 1, Subject::Miss);
             note(over, Subject::Surface(impact.surface));

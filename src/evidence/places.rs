@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 use super::Flight;
 use crate::digits::{fixed, significant};
 use crate::jet::Pose;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::trace::PathImpact;
 use near::Neighbourhoods;
 
@@ -41,7 +41,7 @@ struct TargetHit<'a> {
 /// What the target receives is compared by its mean over a small disc round each hit, as a test
 /// strip would: the place of one odd shot is none to look at again. Rebounds are rare, so that each
 /// of them counts by itself.
-pub(super) fn find(setup: &Setup, pose: &Pose, flights: &[Flight]) -> Vec<Place> {
+pub(super) fn find(scenario: &Scenario, pose: &Pose, flights: &[Flight]) -> Vec<Place> {
     let hits: Vec<TargetHit> = flights
         .iter()
         .filter_map(|flight| {
@@ -54,8 +54,8 @@ pub(super) fn find(setup: &Setup, pose: &Pose, flights: &[Flight]) -> Vec<Place>
     let points: Vec<Point3<f64>> = hits.iter().map(|hit| hit.impact.point).collect();
     let neighbourhoods = Neighbourhoods::new(&points);
     let mut places = on_target(&hits, &neighbourhoods);
-    places.extend(edge::find(setup, pose, &hits, neighbourhoods.radius));
-    places.extend(rebounds(setup, flights));
+    places.extend(edge::find(scenario, pose, &hits, neighbourhoods.radius));
+    places.extend(rebounds(scenario, flights));
     places
 }
 
@@ -128,8 +128,8 @@ fn on_target(hits: &[TargetHit], neighbourhoods: &Neighbourhoods) -> Vec<Place> 
 }
 
 /// The strongest impact on each secondary surface that is hit, in the order of the scene.
-fn rebounds(setup: &Setup, flights: &[Flight]) -> Vec<Place> {
-    let mut strongest: Vec<Option<(&PathImpact, usize)>> = vec![None; setup.surfaces.len()];
+fn rebounds(scenario: &Scenario, flights: &[Flight]) -> Vec<Place> {
+    let mut strongest: Vec<Option<(&PathImpact, usize)>> = vec![None; scenario.surfaces.len()];
     let impacts = flights.iter().flat_map(|flight| &flight.impacts);
     for impact in impacts.filter(|impact| impact.number > 0 && !impact.on_target) {
         let (known, count) = strongest[impact.surface as usize].get_or_insert((impact, 0));
@@ -144,15 +144,15 @@ fn rebounds(setup: &Setup, flights: &[Flight]) -> Vec<Place> {
         point: impact.point,
         normal: impact.normal,
         value: impact.normal_impulse,
-        text: in_words(setup, impact, count),
+        text: in_words(scenario, impact, count),
     };
     strongest.into_iter().flatten().map(place).collect()
 }
 
-fn in_words(setup: &Setup, strongest: &PathImpact, count: usize) -> String {
+fn in_words(scenario: &Scenario, strongest: &PathImpact, count: usize) -> String {
     let surface = strongest.surface;
-    let name = &setup.scene.surfaces()[surface as usize];
-    let where_on_it = if surface == setup.target.surface {
+    let name = &scenario.scene.surfaces()[surface as usize];
+    let where_on_it = if surface == scenario.target.surface {
         " off target"
     } else {
         ""
@@ -165,7 +165,7 @@ fn in_words(setup: &Setup, strongest: &PathImpact, count: usize) -> String {
         1 => "by a direct hit".to_owned(),
         number => format!("after bounce {}", number - 1),
     };
-    let allow = setup.surfaces[surface as usize].allow;
+    let allow = scenario.surfaces[surface as usize].allow;
     let may = allow.map_or_else(String::new, |allow| {
         format!("; it may take {}", impulse(allow))
     });

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use crate::jet::Pose;
+use crate::scenario::Scenario;
 use crate::scene::patch::Triangle;
-use crate::setup::Setup;
 
 /// A surface, or the part of one that is the target, as triangles.
 #[derive(Clone, Debug)]
@@ -25,18 +25,22 @@ pub struct Shape {
 
 /// The target patch, then every surface of the scene without it, in the scene's order; parts that
 /// move with the nozzle as they are at a pose.
-pub(super) fn all(setup: &Setup, pose: &Pose) -> Vec<Shape> {
-    let target = &setup.target;
-    let (patch, rest) = target.cut_out(&setup.scene);
+pub(super) fn all(scenario: &Scenario, pose: &Pose) -> Vec<Shape> {
+    let target = &scenario.target;
+    let (patch, rest) = target.cut_out(&scenario.scene);
     let shape = |surface, is_target, triangles: &[Triangle]| {
         let mut shape = Shape::of(triangles);
         (shape.surface, shape.is_target) = (surface, is_target);
         shape
     };
     let mut shapes = vec![shape(target.surface, true, &patch)];
-    for surface in 0..setup.surfaces.len() as u32 {
+    for surface in 0..scenario.surfaces.len() as u32 {
         if surface != target.surface {
-            shapes.push(shape(surface, false, &triangles_at(setup, pose, surface)));
+            shapes.push(shape(
+                surface,
+                false,
+                &triangles_at(scenario, pose, surface),
+            ));
         } else if target.within.is_some() {
             shapes.push(shape(surface, false, &rest));
         }
@@ -45,14 +49,14 @@ pub(super) fn all(setup: &Setup, pose: &Pose) -> Vec<Shape> {
 }
 
 /// The triangles of a surface as they are when the nozzle stands at a pose.
-fn triangles_at(setup: &Setup, pose: &Pose, surface: u32) -> Vec<Triangle> {
-    let triangles = setup.scene.surface_triangles(surface);
-    if !setup.scene.surface_moves_with_nozzle(surface) {
+fn triangles_at(scenario: &Scenario, pose: &Pose, surface: u32) -> Vec<Triangle> {
+    let triangles = scenario.scene.surface_triangles(surface);
+    if !scenario.scene.surface_moves_with_nozzle(surface) {
         return triangles.collect();
     }
-    let stand = pose.stand();
+    let nozzle_frame = pose.nozzle_frame();
     triangles
-        .map(|corners| corners.map(|corner| stand.point_back(&corner)))
+        .map(|corners| corners.map(|corner| nozzle_frame.point_back(&corner)))
         .collect()
 }
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::Flight;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::verdict::Subject;
 
 /// Shots that are drawn.
@@ -23,10 +23,10 @@ pub struct Shown {
 
 /// The first shots in their order, then the picked ones in theirs: of each goal and limit that any
 /// of the later shots breaks about as many.
-pub(super) fn pick(setup: &Setup, flights: &[Flight]) -> Vec<Shown> {
+pub(super) fn pick(scenario: &Scenario, flights: &[Flight]) -> Vec<Shown> {
     let as_they_come = flights.len().min(SHOWN - PICKED);
     let breaking: Vec<(usize, Vec<Subject>)> = (as_they_come..flights.len())
-        .map(|index| (index, flights[index].broken(setup)))
+        .map(|index| (index, flights[index].broken(scenario)))
         .filter(|(_, subjects)| !subjects.is_empty())
         .collect();
     let mut shown_of: BTreeMap<Subject, usize> = BTreeMap::new();

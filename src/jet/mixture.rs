@@ -1,8 +1,8 @@
 //! Shots drawn by several densities, and what each of them stands for among the others.
 
-use super::deviate::Deviate;
-use super::focus::{Cells, Focus};
-use super::point::{By, Point, Stream};
+use super::importance::{Cells, ImportanceDensity};
+use super::qmc_point::{Proposal, QmcPoint, Stream};
+use super::shot_sample::ShotSample;
 use crate::problem::Problem;
 
 /// How many shots are drawn by each density.
@@ -11,7 +11,7 @@ pub(super) struct Parts {
     /// As the jet fires them.
     pub jet: usize,
     /// Towards the rim.
-    pub rim: usize,
+    pub boundary: usize,
     /// Towards the rim, and there by a focus.
     pub focused: usize,
 }
@@ -19,7 +19,7 @@ pub(super) struct Parts {
 impl Parts {
     pub const NONE: Self = Self {
         jet: 0,
-        rim: 0,
+        boundary: 0,
         focused: 0,
     };
 
@@ -29,7 +29,7 @@ impl Parts {
     };
 
     pub fn count(self) -> usize {
-        self.jet + self.rim + self.focused
+        self.jet + self.boundary + self.focused
     }
 }
 
@@ -45,49 +45,59 @@ pub(super) struct Origin {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mixture<'a> {
     parts: Parts,
-    focus: &'a Focus,
+    importance: &'a ImportanceDensity,
 }
 
 impl<'a> Mixture<'a> {
-    pub fn new(parts: Parts, focus: &'a Focus) -> Self {
-        Self { parts, focus }
+    pub fn new(parts: Parts, importance: &'a ImportanceDensity) -> Self {
+        Self { parts, importance }
     }
 
     /// What a shot stands for: the density of the jet over that of all these shots together, so that
     /// weighted averages over them estimate what averages over the jet's shots do (the balance
     /// heuristic of Veach and Guibas, SIGGRAPH 1995).
     pub fn weight(&self, origin: &Origin) -> f64 {
-        let Parts { jet, rim, focused } = self.parts;
+        let Parts {
+            jet,
+            boundary,
+            focused,
+        } = self.parts;
         let on_rim = match focused {
-            0 => rim as f64,
-            _ => rim as f64 + focused as f64 * self.focus.density(&origin.cells),
+            0 => boundary as f64,
+            _ => boundary as f64 + focused as f64 * self.importance.density(&origin.cells),
         };
         self.parts.count() as f64 / (jet as f64 + origin.rim_density * on_rim)
     }
 
     /// One of the shots that are drawn by a density.
-    pub fn shot(&self, problem: &Problem, stream: Stream, index: u32, by: By) -> (Deviate, Origin) {
-        let mut point = if self.parts.rim + self.parts.focused == 0 {
-            Point::of_jet(problem.seed, stream, index)
+    pub fn shot(
+        &self,
+        problem: &Problem,
+        stream: Stream,
+        index: u32,
+        by: Proposal,
+    ) -> (ShotSample, Origin) {
+        let mut point = if self.parts.boundary + self.parts.focused == 0 {
+            QmcPoint::of_jet(problem.seed, stream, index)
         } else {
-            Point::new(problem.seed, stream, index, by, self.focus)
+            QmcPoint::new(problem.seed, stream, index, by, self.importance)
         };
-        let mut shot = Deviate::at(problem, &mut point);
+        let mut shot = ShotSample::at(problem, &mut point);
         let origin = Origin {
             cells: point.cells,
             rim_density: point.rim_density,
         };
         shot.weight = self.weight(&origin);
-        shot.of_jet = by == By::Jet;
+        shot.of_jet = by == Proposal::Jet;
         (shot, origin)
     }
 
     /// One of the shots that follow each other in rounds, in each of which every density has its part.
-    pub fn in_rounds(&self, problem: &Problem, stream: Stream, index: u32) -> (Deviate, Origin) {
+    pub fn in_rounds(&self, problem: &Problem, stream: Stream, index: u32) -> (ShotSample, Origin) {
         let parts = [
-            (By::Jet, self.parts.jet as u32),
-            (By::Rim, self.parts.rim as u32),
-            (By::Focus, self.parts.focused as u32),
+            (Proposal::Jet, self.parts.jet as u32),
+            (Proposal::Boundary, self.parts.boundary as u32),
+            (Proposal::ImportanceDensity, self.parts.focused as u32),
         ];
         let round = index / self.parts.count() as u32;
         let mut place = index % self.parts.count() as u32;

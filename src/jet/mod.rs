@@ -1,24 +1,24 @@
 //! What comes out of the nozzle: its pose, and the shots of the jet.
 
-mod deviate;
-mod focus;
-mod fresh;
+mod importance;
 mod mixture;
-mod point;
+mod pilot_run;
 mod pose;
 pub mod purpose;
+mod qmc_point;
 mod quantile;
 mod replicates;
 mod samples;
-mod scouts;
+mod shot_sample;
+mod validation;
 
-pub use deviate::{Deviate, speed_variance};
-pub use focus::Focus;
-pub use fresh::{Draw, Fresh, Unfocused};
-pub use point::Stream;
-pub(crate) use point::normal_pair;
+pub use importance::ImportanceDensity;
+pub(crate) use pilot_run::PilotRun;
 pub(crate) use pose::Aim;
 pub use pose::Pose;
+pub use qmc_point::Stream;
+pub(crate) use qmc_point::normal_pair;
 pub use replicates::{Replicate, Replicates};
 pub use samples::Samples;
-pub(crate) use scouts::Scouts;
+pub use shot_sample::{ShotSample, speed_variance};
+pub use validation::{Draw, PendingReplicate, ValidationSample};

@@ -2,12 +2,12 @@
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
-use super::deviate::Deviate;
+use super::shot_sample::ShotSample;
 use crate::elementary::sin_cos;
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scene::nozzle_frame::NozzleFrame;
 use crate::scene::patch::Frame;
 use crate::scene::ray::Ray;
-use crate::scene::stand::Stand;
 
 /// Where the exit is and how the jet points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +25,8 @@ pub struct Pose {
 impl Pose {
     /// The pose that a choice means: d = cos(inc) (cos(az) a + sin(az) b) - sin(inc) n, and the
     /// exit at the aim point minus standoff times d.
-    pub fn new(frame: &Frame, choice: &Choice) -> Self {
-        Aim::new(choice).pose(frame)
+    pub fn new(frame: &Frame, settings: &Settings) -> Self {
+        Aim::new(settings).pose(frame)
     }
 
     /// Rotation that takes the z axis to the jet's direction and the x axis across it.
@@ -36,15 +36,15 @@ impl Pose {
     }
 
     /// The frame of the nozzle, for the parts that move with it.
-    pub fn stand(&self) -> Stand<f64> {
-        Stand::new([self.up, self.side, self.direction], self.exit)
+    pub fn nozzle_frame(&self) -> NozzleFrame<f64> {
+        NozzleFrame::new([self.up, self.side, self.direction], self.exit)
     }
 
     /// The ray of a shot from this pose.
     #[inline]
-    pub(crate) fn shot(&self, deviate: &Deviate) -> Ray {
-        let [x, y] = deviate.exit;
-        let [across, upward, forward] = deviate.cone;
+    pub(crate) fn shot(&self, sample: &ShotSample) -> Ray {
+        let [x, y] = sample.exit;
+        let [across, upward, forward] = sample.cone;
         Ray {
             origin: self.exit + self.side * x + self.up * y,
             direction: self.side * across + self.up * upward + self.direction * forward,
@@ -65,37 +65,37 @@ pub(crate) struct Aim {
 }
 
 impl Aim {
-    pub fn new(choice: &Choice) -> Self {
+    pub fn new(settings: &Settings) -> Self {
         Self {
-            incidence: sin_cos(choice.incidence).into(),
-            azimuth: sin_cos(choice.azimuth).into(),
-            standoff: choice.standoff,
-            along: choice.aim_along,
-            across: choice.aim_across,
-            above: choice.aim_above,
+            incidence: sin_cos(settings.incidence).into(),
+            azimuth: sin_cos(settings.azimuth).into(),
+            standoff: settings.standoff,
+            along: settings.aim_along,
+            across: settings.aim_across,
+            above: settings.aim_above,
         }
     }
 
     /// The ray of a shot from the pose that was really set for it.
     #[inline]
-    pub fn shot(&self, frame: &Frame, deviate: &Deviate) -> Ray {
-        self.pose_set_for(frame, deviate).shot(deviate)
+    pub fn shot(&self, frame: &Frame, sample: &ShotSample) -> Ray {
+        self.pose_set_for(frame, sample).shot(sample)
     }
 
     /// The pose that was really set for a shot.
     #[inline]
-    pub fn pose_set_for(&self, frame: &Frame, deviate: &Deviate) -> Pose {
-        self.perturbed(deviate).pose(frame)
+    pub fn pose_set_for(&self, frame: &Frame, sample: &ShotSample) -> Pose {
+        self.perturbed(sample).pose(frame)
     }
 
-    fn perturbed(&self, deviate: &Deviate) -> Self {
+    fn perturbed(&self, sample: &ShotSample) -> Self {
         Self {
-            incidence: add_angle(self.incidence, deviate.incidence),
-            azimuth: add_angle(self.azimuth, deviate.azimuth),
-            standoff: self.standoff + deviate.standoff,
-            along: self.along + deviate.aim[0],
-            across: self.across + deviate.aim[1],
-            above: self.above + deviate.aim[2],
+            incidence: add_angle(self.incidence, sample.incidence),
+            azimuth: add_angle(self.azimuth, sample.azimuth),
+            standoff: self.standoff + sample.standoff,
+            along: self.along + sample.aim[0],
+            across: self.across + sample.aim[1],
+            above: self.above + sample.aim[2],
         }
     }
 

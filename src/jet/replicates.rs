@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::fresh::Draw;
-use super::point::Stream;
+use super::qmc_point::Stream;
 use super::samples::Samples;
+use super::validation::Draw;
 use crate::problem::Problem;
 
 /// Independent scramblings of the same jet, whose scatter tells the error of an average.
@@ -21,7 +21,7 @@ pub struct Replicate {
     pub jet: Samples,
     /// Shots drawn towards the rim, half of them by a focus; weighted averages over both estimate the
     /// same as those over the jet alone, and see what harms rarely.
-    pub rim: Samples,
+    pub boundary: Samples,
 }
 
 impl Replicates {
@@ -30,7 +30,7 @@ impl Replicates {
 
     /// One of the streams of fresh shots for a [`purpose`](super::purpose).
     pub fn stream(purpose: u32, number: u32) -> Stream {
-        Stream::Fresh(purpose * Self::COUNT as u32 + number)
+        Stream::ValidationSample(purpose * Self::COUNT as u32 + number)
     }
 
     /// Fresh shots of the jet, rounded up to a multiple of [`Self::COUNT`], and half as many on the
@@ -41,8 +41,8 @@ impl Replicates {
     }
 
     /// Fresh shots of the jet alone: for shares of shots.
-    pub fn without_rim(problem: &Problem, purpose: u32, shots: usize) -> Self {
-        Self::of(&Draw::new(problem, purpose, shots).without_rim())
+    pub fn without_boundary(problem: &Problem, purpose: u32, shots: usize) -> Self {
+        Self::of(&Draw::new(problem, purpose, shots).without_boundary())
     }
 
     fn of(draw: &Draw) -> Self {
@@ -54,6 +54,6 @@ impl Replicates {
 
     /// Number of shots of the jet in all sets together.
     pub fn shots(&self) -> usize {
-        self.sets.iter().map(|set| set.jet.deviates.len()).sum()
+        self.sets.iter().map(|set| set.jet.shots.len()).sum()
     }
 }

@@ -3,34 +3,36 @@
 
 use rayon::prelude::*;
 
-use super::deviate::Deviate;
-use super::focus::Focus;
+use super::importance::ImportanceDensity;
 use super::mixture::{Mixture, Parts};
-use super::point::{Point, Stream};
+use super::qmc_point::{QmcPoint, Stream};
+use super::shot_sample::ShotSample;
 use crate::problem::Problem;
 
 /// The shots of a jet, without its pose.
 #[derive(Clone, Debug)]
 pub struct Samples {
     /// One for each shot.
-    pub deviates: Vec<Deviate>,
+    pub shots: Vec<ShotSample>,
 }
 
 impl Samples {
     /// The first `count` shots of a stream, each standing for itself.
     pub fn new(problem: &Problem, stream: Stream, count: usize) -> Self {
-        let shot = |index| Deviate::at(problem, &mut Point::of_jet(problem.seed, stream, index));
+        let shot =
+            |index| ShotSample::at(problem, &mut QmcPoint::of_jet(problem.seed, stream, index));
         Self {
-            deviates: (0..count as u32).map(shot).collect(),
+            shots: (0..count as u32).map(shot).collect(),
         }
     }
 
     /// The first `count` shots of a stream, drawn independently of each other: what the
     /// low-discrepancy points of [`Samples::new`] are to be compared with.
     pub fn random(problem: &Problem, stream: Stream, count: usize) -> Self {
-        let shot = |index| Deviate::at(problem, &mut Point::random(problem.seed, stream, index));
+        let shot =
+            |index| ShotSample::at(problem, &mut QmcPoint::random(problem.seed, stream, index));
         Self {
-            deviates: (0..count as u32).map(shot).collect(),
+            shots: (0..count as u32).map(shot).collect(),
         }
     }
 
@@ -38,30 +40,40 @@ impl Samples {
     /// and of the tolerance box, where rare harm comes from, and stands for accordingly less. Of
     /// many shots it is three out of four: few suffice for what is not rare.
     ///
-    /// Averages weighted with [`Deviate::weight`] estimate the same as those over [`Samples::new`].
+    /// Averages weighted with [`ShotSample::weight`] estimate the same as those over [`Samples::new`].
     /// When all shots of a problem are the same, there is one.
-    pub fn with_rim(problem: &Problem, stream: Stream, count: usize) -> Self {
-        let rim = if count < MANY { 1 } else { 3 };
+    pub fn with_boundary(problem: &Problem, stream: Stream, count: usize) -> Self {
+        let boundary = if count < MANY { 1 } else { 3 };
         let parts = Parts {
-            rim,
+            boundary,
             ..Parts::JET_ALONE
         };
-        Self::mixed(problem, stream, count, &Mixture::new(parts, &Focus::NONE))
+        Self::mixed(
+            problem,
+            stream,
+            count,
+            &Mixture::new(parts, &ImportanceDensity::NONE),
+        )
     }
 
     /// The same with half of the shots on the rim drawn by a focus, of many two thirds; without one
-    /// they are those of [`Samples::with_rim`].
-    pub fn focused(problem: &Problem, stream: Stream, count: usize, focus: Option<&Focus>) -> Self {
-        let Some(focus) = focus else {
-            return Self::with_rim(problem, stream, count);
+    /// they are those of [`Samples::with_boundary`].
+    pub fn focused(
+        problem: &Problem,
+        stream: Stream,
+        count: usize,
+        importance: Option<&ImportanceDensity>,
+    ) -> Self {
+        let Some(importance) = importance else {
+            return Self::with_boundary(problem, stream, count);
         };
         let [jet, focused] = if count < MANY { [2, 1] } else { [1, 2] };
         let parts = Parts {
             jet,
-            rim: 1,
+            boundary: 1,
             focused,
         };
-        Self::mixed(problem, stream, count, &Mixture::new(parts, focus))
+        Self::mixed(problem, stream, count, &Mixture::new(parts, importance))
     }
 
     fn mixed(problem: &Problem, stream: Stream, count: usize, mixture: &Mixture) -> Self {
@@ -70,7 +82,7 @@ impl Samples {
         }
         let shot = |index| mixture.in_rounds(problem, stream, index).0;
         Self {
-            deviates: (0..count as u32).into_par_iter().map(shot).collect(),
+            shots: (0..count as u32).into_par_iter().map(shot).collect(),
         }
     }
 }

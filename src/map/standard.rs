@@ -4,8 +4,8 @@ use super::{Axis, Control, Map, common_shots};
 use crate::elementary::power;
 use crate::evaluate::Survey;
 use crate::problem::part::Shape;
-use crate::problem::setting::{Choice, Range, Setting};
-use crate::setup::Setup;
+use crate::problem::setting::{Range, Setting, Settings};
+use crate::scenario::Scenario;
 
 /// Shots at each place.
 const SHOTS: usize = 1024;
@@ -26,47 +26,52 @@ const PROBES: usize = 64;
 /// over others where these are held. None where fewer than two settings are free.
 ///
 /// The dearer a ray, the coarser they are.
-pub fn standard_maps(setup: &Setup, choice: &Choice) -> Vec<Map> {
-    standard_maps_until(setup, choice, &Control::default())
+pub fn standard_maps(scenario: &Scenario, settings: &Settings) -> Vec<Map> {
+    standard_maps_until(scenario, settings, &Control::default())
 }
 
 /// The same, as far as `control` lets them.
-pub fn standard_maps_until(setup: &Setup, choice: &Choice, control: &Control) -> Vec<Map> {
-    let rays = rays_at_one_place(setup, choice);
-    let pairs = pairs(&free(setup, choice));
+pub fn standard_maps_until(
+    scenario: &Scenario,
+    settings: &Settings,
+    control: &Control,
+) -> Vec<Map> {
+    let rays = rays_at_one_place(scenario, settings);
+    let pairs = pairs(&free(scenario, settings));
     let map = |[x, y]: [(Setting, Range); 2]| {
-        let is_free = |setting| setting == Setting::Speed && setup.speed_scales_out(choice.contact);
+        let is_free =
+            |setting| setting == Setting::Speed && scenario.speed_scales_out(settings.contact);
         let paths = [x, y].into_iter().filter(|(setting, _)| !is_free(*setting));
         let affordable = power(MOST_RAYS / rays, 1.0 / paths.count() as f64);
         let traced = affordable.clamp(FEWEST_STEPS, MOST_STEPS).floor();
         let axis = |(setting, range)| {
             let steps = if is_free(setting) { MOST_STEPS } else { traced };
             let shown = if setting == Setting::Speed {
-                round_the_speed(setup, choice, range)
+                round_the_speed(scenario, settings, range)
             } else {
                 range
             };
             Axis::over(setting, shown, steps as usize)
         };
-        Map::of(setup, choice, axis(x), axis(y), SHOTS, control)
+        Map::of(scenario, settings, axis(x), axis(y), SHOTS, control)
     };
     pairs.into_iter().map(map).collect()
 }
 
 /// The speeds worth showing: over a whole range what passes would be too thin a line.
-fn round_the_speed(setup: &Setup, choice: &Choice, range: Range) -> Range {
-    let tolerance = setup.problem.goals.normal_impulse.tolerance;
+fn round_the_speed(scenario: &Scenario, settings: &Settings, range: Range) -> Range {
+    let tolerance = scenario.problem.goals.normal_impulse.tolerance;
     let share = (2.0 * tolerance).clamp(LEAST_SPEEDS, MOST_SPEEDS);
-    let near = |sign: f64| (choice.speed * (1.0 + sign * share)).clamp(range.min, range.max);
+    let near = |sign: f64| (settings.speed * (1.0 + sign * share)).clamp(range.min, range.max);
     let (min, max) = (near(-1.0), near(1.0));
     if min < max { Range { min, max } } else { range }
 }
 
 /// The settings that have a range, in the order of the problem file.
-fn free(setup: &Setup, choice: &Choice) -> Vec<(Setting, Range)> {
-    let problem = &setup.problem;
-    let friction = problem.contacts[choice.contact].static_friction;
-    let range = |setting| Some((setting, problem.settings.range(setting)?));
+fn free(scenario: &Scenario, settings: &Settings) -> Vec<(Setting, Range)> {
+    let problem = &scenario.problem;
+    let friction = problem.contacts[settings.contact].static_friction;
+    let range = |setting| Some((setting, problem.ranges.range(setting)?));
     let of_the_nozzle = Setting::OF_THE_NOZZLE.into_iter().filter_map(range);
     of_the_nozzle
         .chain([(Setting::StaticFriction, friction)])
@@ -103,12 +108,12 @@ fn pairs(free: &[(Setting, Range)]) -> Vec<[(Setting, Range); 2]> {
 }
 
 /// What one place of a map costs, in rays between exact walls.
-fn rays_at_one_place(setup: &Setup, choice: &Choice) -> f64 {
-    let probes = common_shots(&setup.problem, PROBES);
+fn rays_at_one_place(scenario: &Scenario, settings: &Settings) -> f64 {
+    let probes = common_shots(&scenario.problem, PROBES);
     let shots = if probes.len() < PROBES { 1 } else { SHOTS };
-    let rays = Survey::of(setup, choice, &probes).rays_per_shot() * shots as f64;
+    let rays = Survey::of(scenario, settings, &probes).rays_per_shot() * shots as f64;
     let has_triangles = |shape: &Shape| matches!(shape, Shape::Mesh { .. } | Shape::Box { .. });
-    if setup
+    if scenario
         .problem
         .parts
         .iter()

@@ -2,13 +2,13 @@
 
 use super::hits::Hits;
 use super::tally::Tally;
-use crate::jet::{Deviate, speed_variance};
+use crate::jet::{ShotSample, speed_variance};
 use crate::precision::{Precision, Real};
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::scene::lanes::{LANES, Lane, WIDEST, components, larger, padded};
 use crate::scene::patch::Patch;
-use crate::setup::Setup;
-use crate::trace::{End, Tracer, Volley, Witness, truth};
+use crate::trace::{End, Observer, RayPacket, Tracer, mask};
 
 /// Builds a [`Tally`] from volleys of shots.
 pub(crate) struct Score<R> {
@@ -64,10 +64,10 @@ impl<R: Real> Target<R> {
 
 impl<R: Real> Score<R> {
     /// For so many shots that leave with a contact at a launch speed, m/s.
-    pub fn new(setup: &Setup, contact: usize, speed: f64, shots: usize) -> Self {
-        let scales_out = setup.speed_scales_out(contact);
-        let speed_variance = scales_out.then(|| speed_variance(&setup.problem));
-        let harm: Vec<R> = setup
+    pub fn new(scenario: &Scenario, contact: usize, speed: f64, shots: usize) -> Self {
+        let scales_out = scenario.speed_scales_out(contact);
+        let speed_variance = scales_out.then(|| speed_variance(&scenario.problem));
+        let harm: Vec<R> = scenario
             .surfaces
             .iter()
             .map(|limits| {
@@ -87,7 +87,7 @@ impl<R: Real> Score<R> {
             harms_alike: harm.iter().all(|&harm| harm == usual_harm),
             usual_harm,
             harm,
-            target: Target::of(&setup.target),
+            target: Target::of(&scenario.target),
             on_target: [R::ZERO; LANES],
             hit_target: [false; LANES],
         }
@@ -99,7 +99,7 @@ impl<R: Real> Score<R> {
     }
 
     /// Closes a volley of `shots` that took `rays` rays together.
-    pub fn end_volley(&mut self, shots: &[Deviate], rays: usize) {
+    pub fn end_packet(&mut self, shots: &[ShotSample], rays: usize) {
         self.tally.shots += shots.len();
         self.tally.rays += rays;
         let (mut all, mut missed, mut worst) = (0.0, 0.0, 0.0_f64);
@@ -121,21 +121,21 @@ impl<R: Real> Score<R> {
     }
 
     #[inline(always)]
-    fn add_hits_on_target(&mut self, volley: &Volley<R>, is_first: &Lane<R>) {
+    fn add_hits_on_target(&mut self, packet: &RayPacket<R>, is_first: &Lane<R>) {
         let (mut normal, mut tangential) = ([0.0; LANES], [0.0; LANES]);
         let mut normal_at_mean = [0.0; LANES];
         let (mut weight, mut of_jet) = ([0.0; LANES], [0.0; LANES]);
         let per_speed = 1.0 / self.speed;
         let mut count = 0;
-        for (i, &first) in is_first.iter().enumerate().take(volley.rays.count) {
+        for (i, &first) in is_first.iter().enumerate().take(packet.rays.count) {
             let hit = first != R::ZERO;
-            normal[count] = volley.impacts.normal[i].wide() * per_speed;
-            let factor = self.mean_square.map_or(1.0, |_| volley.speed[i].wide());
+            normal[count] = packet.impacts.normal[i].wide() * per_speed;
+            let factor = self.mean_square.map_or(1.0, |_| packet.speed[i].wide());
             normal_at_mean[count] = normal[count] / factor;
-            tangential[count] = volley.impacts.tangential[i].wide() * per_speed;
-            weight[count] = volley.weight[i].wide();
-            of_jet[count] = volley.of_jet[i].wide();
-            self.hit_target[volley.shot[i] as usize % LANES] |= hit;
+            tangential[count] = packet.impacts.tangential[i].wide() * per_speed;
+            weight[count] = packet.weight[i].wide();
+            of_jet[count] = packet.of_jet[i].wide();
+            self.hit_target[packet.shot[i] as usize % LANES] |= hit;
             count += usize::from(hit);
         }
         let hits = &mut self.tally.hits;
@@ -150,65 +150,75 @@ impl<R: Real> Score<R> {
 
 impl Tally {
     /// Traces shots that leave at `speed` times their own factor, m/s.
-    pub fn trace(setup: &Setup, choice: &Choice, speed: f64, shots: &[Deviate]) -> Self {
-        Self::trace_in::<f64>(setup, choice, speed, shots)
+    pub fn trace(
+        scenario: &Scenario,
+        settings: &Settings,
+        speed: f64,
+        shots: &[ShotSample],
+    ) -> Self {
+        Self::trace_in::<f64>(scenario, settings, speed, shots)
     }
 
     /// The same with paths in one of the precisions.
     pub fn trace_as(
         precision: Precision,
-        setup: &Setup,
-        choice: &Choice,
+        scenario: &Scenario,
+        settings: &Settings,
         speed: f64,
-        shots: &[Deviate],
+        shots: &[ShotSample],
     ) -> Self {
         match precision {
-            Precision::F64 => Self::trace_in::<f64>(setup, choice, speed, shots),
-            Precision::F32 => Self::trace_in::<f32>(setup, choice, speed, shots),
+            Precision::F64 => Self::trace_in::<f64>(scenario, settings, speed, shots),
+            Precision::F32 => Self::trace_in::<f32>(scenario, settings, speed, shots),
         }
     }
 
-    fn trace_in<R: Real>(setup: &Setup, choice: &Choice, speed: f64, shots: &[Deviate]) -> Self {
-        let mut score = Score::<R>::new(setup, choice.contact, speed, shots.len());
-        let tracer = Tracer::new(setup, choice, speed);
-        tracer.fire(shots, &mut score, Score::end_volley);
+    fn trace_in<R: Real>(
+        scenario: &Scenario,
+        settings: &Settings,
+        speed: f64,
+        shots: &[ShotSample],
+    ) -> Self {
+        let mut score = Score::<R>::new(scenario, settings.contact, speed, shots.len());
+        let tracer = Tracer::new(scenario, settings, speed);
+        tracer.fire(shots, &mut score, Score::end_packet);
         score.finish()
     }
 }
 
-impl<R: Real> Witness<R> for Score<R> {
+impl<R: Real> Observer<R> for Score<R> {
     #[inline(always)]
-    fn impacts(&mut self, volley: &Volley<R>) {
-        let count = volley.rays.count;
+    fn impacts(&mut self, packet: &RayPacket<R>) {
+        let count = packet.rays.count;
         let mut harm = [self.usual_harm; LANES];
         if !self.harms_alike {
-            for (harm, &surface) in harm.iter_mut().zip(&volley.hits.surface).take(count) {
+            for (harm, &surface) in harm.iter_mut().zip(&packet.hits.surface).take(count) {
                 *harm = self.harm[surface as usize];
             }
         }
         let target = self.target;
         let mut on_surface = [R::ZERO; LANES];
-        let sides = volley.hits.surface.iter().zip(&volley.hits.spots.front);
+        let sides = packet.hits.surface.iter().zip(&packet.hits.hit_ids.front);
         for (on_it, (&surface, &front)) in on_surface.iter_mut().zip(sides) {
-            *on_it = truth((surface == target.surface) & (front == target.front));
+            *on_it = mask((surface == target.surface) & (front == target.front));
         }
         let mut speed_share = [R::ONE; LANES];
         if let Some(mean_square) = self.mean_square {
-            for (share, &speed) in speed_share.iter_mut().zip(&volley.speed) {
+            for (share, &speed) in speed_share.iter_mut().zip(&packet.speed) {
                 *share = mean_square / (speed * speed);
             }
         }
         let (mut on_target, mut is_first) = ([R::ZERO; LANES], [R::ZERO; LANES]);
         let mut rebound = [R::ZERO; LANES];
         for i in 0..padded(count) {
-            let inside = target.holds(components(&volley.hits.point, i));
+            let inside = target.holds(components(&packet.hits.point, i));
             let hit = inside & (on_surface[i] != R::ZERO);
-            let counts = volley.impacts.counts[i] != R::ZERO;
-            let first = counts & hit & (volley.number[i] == R::ONE);
-            let normal = volley.impacts.normal[i];
-            let cost = volley.weight[i] * harm[i] * speed_share[i] * normal * normal;
-            on_target[i] = truth(hit);
-            is_first[i] = truth(first);
+            let counts = packet.impacts.counts[i] != R::ZERO;
+            let first = counts & hit & (packet.number[i] == R::ONE);
+            let normal = packet.impacts.normal[i];
+            let cost = packet.weight[i] * harm[i] * speed_share[i] * normal * normal;
+            on_target[i] = mask(hit);
+            is_first[i] = mask(first);
             rebound[i] = if counts & !hit { cost } else { R::ZERO };
         }
         self.on_target = on_target;
@@ -217,7 +227,7 @@ impl<R: Real> Witness<R> for Score<R> {
         let worst = largest(&rebound, count) * per_speed_squared;
         self.tally.worst_rebound = self.tally.worst_rebound.max(worst);
         if sum(&is_first, count) > 0.0 {
-            self.add_hits_on_target(volley, &is_first);
+            self.add_hits_on_target(packet, &is_first);
         }
     }
 

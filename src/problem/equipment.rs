@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use crate::impact::{Contact, Sphere};
 use crate::problem::fault::Fault;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::media::{LibraryContact, Medium};
-use crate::problem::rule::Rule;
 use crate::problem::setting::Range;
 
 /// The shot: solid spheres.
@@ -172,7 +172,7 @@ impl SurfaceRule {
         (self.role == Role::Deflector).then(|| {
             let key = format!("surfaces.{}.role", self.surface);
             let message = "hits on a deflector do not count, and this is the target";
-            Fault::at_key(Rule::TargetDeflects, key, message).expecting("another surface")
+            Fault::at_key(FaultCode::TargetDeflects, key, message).expecting("another surface")
         })
     }
 }
@@ -207,20 +207,20 @@ mod tests {
     #[test]
     fn tuned_friction_keeps_its_ratio_and_held_friction_its_values() {
         let contact = Contact::new(0.1, 0.05, 0.25).expect("it is sound");
-        let mut choice = ContactChoice {
+        let mut settings = ContactChoice {
             name: "any".to_owned(),
             contact,
             static_friction: Range { min: 0.1, max: 0.4 },
             dynamic_ratio: Some(0.5),
             library: None,
         };
-        let tuned = choice.at(0.25);
+        let tuned = settings.at(0.25);
         assert_eq!(
             (tuned.static_friction, tuned.dynamic_friction),
             (0.25, 0.125)
         );
         assert_eq!(tuned.restitution, contact.restitution);
-        choice.dynamic_ratio = None;
-        assert_eq!(choice.at(0.25), contact);
+        settings.dynamic_ratio = None;
+        assert_eq!(settings.at(0.25), contact);
     }
 }

@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-use super::rule::Rule;
+use super::fault_code::FaultCode;
 
 /// One thing wrong with a problem file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// Why it is one.
-    pub rule: Rule,
+    pub rule: FaultCode,
     /// Key path, such as `scene.hub.keyway.width`; empty for the file as a whole.
     pub key: String,
     /// What is wrong.
@@ -36,7 +36,7 @@ pub struct Span {
 
 impl Fault {
     /// A fault of the value at `key`.
-    pub fn at_key(rule: Rule, key: impl Into<String>, message: impl Into<String>) -> Self {
+    pub fn at_key(rule: FaultCode, key: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             rule,
             key: key.into(),

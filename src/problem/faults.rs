@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::collections::HashSet;
 
 use super::fault::{Fault, Span, any_of, one_of};
-use super::home::homes_of;
-use super::rule::Rule;
+use super::fault_code::FaultCode;
+use super::key_index::homes_of;
 use super::source::{Source, child_key};
 
 /// A key that more groups have than this is at home in none of them.
@@ -49,19 +49,20 @@ impl<'a> Faults<'a> {
         let is_fraction = before.ends_with(',') && name.starts_with(|c: char| c.is_ascii_digit());
         let mut fault = if is_fraction {
             let message = "a comma before digits begins a new key";
-            Fault::at_key(Rule::DecimalComma, key, message).expecting("a decimal point in numbers")
+            Fault::at_key(FaultCode::DecimalComma, key, message)
+                .expecting("a decimal point in numbers")
         } else if homes.is_empty() || homes.len() > MOST_HOMES {
-            Fault::at_key(Rule::UnknownKey, key, "unknown key")
+            Fault::at_key(FaultCode::UnknownKey, key, "unknown key")
                 .expecting(one_of(known))
                 .nearest(name, known.iter().copied())
         } else {
-            Fault::at_key(Rule::MisplacedKey, key, belongs_to(homes)).expecting(one_of(known))
+            Fault::at_key(FaultCode::MisplacedKey, key, belongs_to(homes)).expecting(one_of(known))
         };
         fault.at = Some(at);
         let mut meant = self.meant.borrow_mut();
         match &fault.suggestion {
             Some(suggestion) => drop(meant.insert(child_key(group, suggestion))),
-            None if fault.rule == Rule::MisplacedKey => {
+            None if fault.rule == FaultCode::MisplacedKey => {
                 meant.extend(homes.iter().map(|home| child_key(home, name)));
             }
             None => {}

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Limit;
-use super::setting::{Choice, Range, Setting};
+use super::setting::{Range, Setting, Settings};
 use crate::units::{self, Dimension, shortened};
 
 /// A value of a setting, SI.
@@ -66,16 +66,16 @@ pub fn accuracy(text: &str) -> Result<f64, String> {
 ///
 /// # Errors
 /// The first fault, with the name of its setting.
-pub fn check(choice: &Choice) -> Result<(), String> {
+pub fn check(settings: &Settings) -> Result<(), String> {
     for setting in Setting::OF_THE_NOZZLE
         .into_iter()
         .chain([Setting::StaticFriction])
     {
         let limit = match setting {
-            Setting::Incidence if choice.aim_above <= 0.0 => Limit::INCIDENCE,
+            Setting::Incidence if settings.aim_above <= 0.0 => Limit::INCIDENCE,
             _ => limit(setting),
         };
-        let value = setting.of(choice);
+        let value = setting.of(settings);
         let shown = match dimension(setting) {
             Some(Dimension::Angle) => format!("{} deg", units::degrees(value)),
             Some(Dimension::Length) => format!("{value} m"),

@@ -22,33 +22,33 @@
 pub mod curve;
 pub mod equipment;
 pub mod fault;
+pub mod fault_code;
 pub mod goal;
 pub mod media;
 pub mod model;
 pub mod part;
-pub mod rule;
 pub mod setting;
 pub mod size;
 pub mod warning;
 
 mod check;
 pub(crate) use check::limit::Limit;
-mod doubt;
+mod duplicate_keys;
 #[cfg(test)]
 pub(crate) mod example;
 mod faults;
 mod field;
 mod file;
 pub mod given;
-mod home;
+mod key_index;
 mod length_unit;
 mod name;
 mod reader;
 mod reading;
 mod render;
-mod repeated;
 mod schema;
 mod source;
+mod warning_code;
 mod yaml;
 
 pub use length_unit::LengthUnit;
@@ -64,7 +64,7 @@ use equipment::{
 use goal::Goals;
 use model::Model;
 use part::{Part, Target};
-use setting::{Settings, Tolerance};
+use setting::{SettingRanges, Tolerance};
 
 /// A checked problem in SI units. Nothing downstream checks it again.
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ pub struct Problem {
     /// Every contact of the file, in its order.
     pub contacts: Vec<ContactChoice>,
     /// What may be searched.
-    pub settings: Settings,
+    pub ranges: SettingRanges,
     /// What must be reached.
     pub goals: Goals,
     /// Where one surface differs.

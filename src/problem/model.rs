@@ -148,7 +148,7 @@ impl Effect {
                 let chosen = problem
                     .contacts
                     .iter_mut()
-                    .map(|choice| &mut choice.contact);
+                    .map(|settings| &mut settings.contact);
                 let own = problem
                     .surfaces
                     .iter_mut()
@@ -167,7 +167,7 @@ impl Effect {
 }
 
 fn restitutions(problem: &Problem) -> impl Iterator<Item = Restitution> + '_ {
-    let chosen = problem.contacts.iter().map(|choice| choice.contact);
+    let chosen = problem.contacts.iter().map(|settings| settings.contact);
     let own = problem.surfaces.iter().filter_map(|rule| rule.contact);
     chosen.chain(own).map(|contact| contact.restitution)
 }
@@ -280,7 +280,7 @@ mod tests {
         // 0.5 (5 / 10)^-0.25
         let held = 0.594_603_557_501_360_5;
         Effect::FallingRestitution.remove_from(&mut problem, 5.0);
-        let of_contacts = problem.contacts.iter().map(|choice| choice.contact);
+        let of_contacts = problem.contacts.iter().map(|settings| settings.contact);
         let of_contacts: Vec<f64> = of_contacts.map(|it| it.restitution.at(99.0)).collect();
         assert_eq!(of_contacts, [0.25, held, 0.25]);
         let own = problem.surfaces[1].contact.expect("it was given");

@@ -8,13 +8,13 @@ use serde::Deserialize;
 
 use super::Problem;
 use super::check::{self, Checked};
+use super::duplicate_keys;
 use super::fault::{Fault, Span};
+use super::fault_code::FaultCode;
 use super::faults::Faults;
 use super::file::ProblemFile;
 use super::part::{Part, Target};
 use super::reader::Reader;
-use super::repeated;
-use super::rule::Rule;
 use super::size::{self, LARGEST_FILE};
 use super::source::Source;
 use super::yaml::{self, Value};
@@ -50,7 +50,7 @@ pub fn read(path: &Path) -> Result<Reading, Box<Fault>> {
             _ => error.to_string(),
         };
         let message = format!("cannot read {}: {reason}", path.display());
-        Box::new(Fault::at_key(Rule::FileUnreadable, "", message))
+        Box::new(Fault::at_key(FaultCode::FileUnreadable, "", message))
     };
     let mut bytes = Vec::new();
     File::open(path)
@@ -71,7 +71,7 @@ fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Box<Fault>> {
     if bytes.len() as u64 > LARGEST_FILE {
         let message = format!("{} is too large for a problem file", path.display());
         return Err(Box::new(
-            Fault::at_key(Rule::FileTooLarge, "", message)
+            Fault::at_key(FaultCode::FileTooLarge, "", message)
                 .expecting("at most 1 MB; meshes belong into files of their own"),
         ));
     }
@@ -92,7 +92,7 @@ fn read_bytes(bytes: &[u8], path: &Path) -> Result<Reading, Box<Fault>> {
             Ok(mut root) => match size::fault_of(&root) {
                 Some(fault) => source.refused(fault),
                 None => {
-                    let repeated = repeated::take_out(&mut root);
+                    let repeated = duplicate_keys::take_out(&mut root);
                     source.index(&root);
                     understand(source, &root, repeated)
                 }
@@ -142,13 +142,13 @@ impl Source {
 }
 
 fn empty() -> Fault {
-    let fault = Fault::at_key(Rule::FileEmpty, "", "the file is empty");
+    let fault = Fault::at_key(FaultCode::FileEmpty, "", "the file is empty");
     at_the_beginning(fault.expecting("a problem that starts with `format: 1`"))
 }
 
 /// A fault of a file of another kind.
 fn not_a_problem(foreign: Foreign) -> Fault {
-    let fault = Fault::at_key(Rule::NotUtf8, "", foreign.to_string());
+    let fault = Fault::at_key(FaultCode::NotUtf8, "", foreign.to_string());
     at_the_beginning(fault.expecting("a text file saved with the encoding UTF-8"))
 }
 
@@ -166,7 +166,7 @@ fn at_the_beginning(mut fault: Fault) -> Fault {
 fn not_utf8(content: &[u8], valid: usize) -> Fault {
     let before = String::from_utf8_lossy(&content[..valid]);
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-    let mut fault = Fault::at_key(Rule::NotUtf8, "", "the file is not UTF-8 text")
+    let mut fault = Fault::at_key(FaultCode::NotUtf8, "", "the file is not UTF-8 text")
         .expecting("a text file saved with the encoding UTF-8");
     fault.at = Some(Span {
         line: before.matches('\n').count() + 1,

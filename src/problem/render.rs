@@ -129,14 +129,14 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::problem::rule::Rule;
+    use crate::problem::fault_code::FaultCode;
 
     #[test]
     fn of_very_many_faults_the_rest_is_counted() {
         let shown = |count: usize| {
             let reading = crate::problem::read_text("format: 2", Path::new("any.yaml"));
             let source = reading.expect("it is short enough").source;
-            let fault = Fault::at_key(Rule::UnknownFormat, "format", "wrong");
+            let fault = Fault::at_key(FaultCode::UnknownFormat, "format", "wrong");
             render(&source, &vec![fault; count], false)
         };
         for count in [1, MOST_SHOWN] {
@@ -153,7 +153,7 @@ mod tests {
     fn a_fault_on_one_line_tells_its_place_and_moves_no_cursor() {
         let reading = crate::problem::read_text("format: 2", Path::new("any.yaml"));
         let source = reading.expect("it is short enough").source;
-        let mut fault = Fault::at_key(Rule::UnknownFormat, "format", "wrong\u{1b}[2J\nindeed");
+        let mut fault = Fault::at_key(FaultCode::UnknownFormat, "format", "wrong\u{1b}[2J\nindeed");
         let message = "format: wrong\u{241b}[2J\u{240a}indeed";
         let line = one_line(&source, &fault);
         assert_eq!(line, format!("any.yaml: {message}"));

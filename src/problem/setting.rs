@@ -43,7 +43,7 @@ impl Range {
 
 /// The ranges that the search may use, in rad, m and m/s.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct SettingRanges {
     /// Angle between the jet axis and the target plane, rad; pi/2 is perpendicular.
     pub incidence: Range,
     /// Direction of the jet in the target plane, rad, 0 along `target.along`.
@@ -64,7 +64,7 @@ pub struct Settings {
 
 /// One value for every setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct Settings {
     /// Angle between the jet axis and the target plane, rad.
     pub incidence: f64,
     /// Direction of the jet in the target plane, rad.
@@ -85,7 +85,7 @@ pub struct Choice {
     pub static_friction: f64,
 }
 
-impl Choice {
+impl Settings {
     /// All of them but the contact, for checksums.
     pub fn numbers(&self) -> [f64; 8] {
         let Self {
@@ -115,21 +115,21 @@ impl Choice {
 /// One of the settings that are numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Setting {
-    /// See [`Choice::incidence`].
+    /// See [`Settings::incidence`].
     Incidence,
-    /// See [`Choice::azimuth`].
+    /// See [`Settings::azimuth`].
     Azimuth,
-    /// See [`Choice::standoff`].
+    /// See [`Settings::standoff`].
     Standoff,
-    /// See [`Choice::speed`].
+    /// See [`Settings::speed`].
     Speed,
-    /// See [`Choice::aim_along`].
+    /// See [`Settings::aim_along`].
     AimAlong,
-    /// See [`Choice::aim_across`].
+    /// See [`Settings::aim_across`].
     AimAcross,
-    /// See [`Choice::aim_above`].
+    /// See [`Settings::aim_above`].
     AimAbove,
-    /// See [`Choice::static_friction`].
+    /// See [`Settings::static_friction`].
     StaticFriction,
 }
 
@@ -160,23 +160,23 @@ impl Setting {
     }
 
     /// Its value in a choice, SI.
-    pub const fn of(self, choice: &Choice) -> f64 {
+    pub const fn of(self, settings: &Settings) -> f64 {
         match self {
-            Self::Incidence => choice.incidence,
-            Self::Azimuth => choice.azimuth,
-            Self::Standoff => choice.standoff,
-            Self::Speed => choice.speed,
-            Self::AimAlong => choice.aim_along,
-            Self::AimAcross => choice.aim_across,
-            Self::AimAbove => choice.aim_above,
-            Self::StaticFriction => choice.static_friction,
+            Self::Incidence => settings.incidence,
+            Self::Azimuth => settings.azimuth,
+            Self::Standoff => settings.standoff,
+            Self::Speed => settings.speed,
+            Self::AimAlong => settings.aim_along,
+            Self::AimAcross => settings.aim_across,
+            Self::AimAbove => settings.aim_above,
+            Self::StaticFriction => settings.static_friction,
         }
     }
 
     /// The choice with this setting at another value, SI.
     #[must_use]
-    pub const fn with(self, choice: &Choice, value: f64) -> Choice {
-        let mut changed = *choice;
+    pub const fn with(self, settings: &Settings, value: f64) -> Settings {
+        let mut changed = *settings;
         match self {
             Self::Incidence => changed.incidence = value,
             Self::Azimuth => changed.azimuth = value,
@@ -191,20 +191,20 @@ impl Setting {
     }
 }
 
-impl Settings {
+impl SettingRanges {
     /// Whether the jet always aims above the target: then it may run along it, or even away.
     pub fn aims_above(&self) -> bool {
         self.aim_above.min > 0.0
     }
 
     /// The middle of all ranges, with the first contact.
-    pub fn middle(&self) -> Choice {
+    pub fn middle(&self) -> Settings {
         self.at(0.5)
     }
 
     /// The point at this share of all ranges, 0 to 1, with the first contact.
-    pub fn at(&self, share: f64) -> Choice {
-        Choice {
+    pub fn at(&self, share: f64) -> Settings {
+        Settings {
             incidence: self.incidence.at(share),
             azimuth: self.azimuth.at(share),
             standoff: self.standoff.at(share),

@@ -2,7 +2,7 @@
 //! and memory that some checks take grow with the square of these numbers.
 
 use super::fault::Fault;
-use super::rule::Rule;
+use super::fault_code::FaultCode;
 use super::source::{child_key, item_key};
 use super::yaml::{Node, Value};
 
@@ -25,25 +25,25 @@ pub(super) fn fault_of(root: &Node) -> Option<Fault> {
 }
 
 fn of_value(node: &Node, key: &str) -> Option<Fault> {
-    let fault = |rule: Rule, message: String, expected: String| {
+    let fault = |rule: FaultCode, message: String, expected: String| {
         let mut fault = Fault::at_key(rule, key, message).expecting(expected);
         fault.at = Some(node.span);
         Some(fault)
     };
     match &node.value {
         Value::Number(text) | Value::Text(text) if text.chars().count() > LONGEST_TEXT => fault(
-            Rule::TextTooLong,
+            FaultCode::TextTooLong,
             format!("is {} characters long", text.chars().count()),
             format!("at most {LONGEST_TEXT} characters"),
         ),
         Value::Null | Value::Number(_) | Value::Text(_) => None,
         Value::List(items) if items.len() > MOST_ITEMS => fault(
-            Rule::TooManyItems,
+            FaultCode::TooManyItems,
             format!("is a list of {}", items.len()),
             format!("at most {MOST_ITEMS} items"),
         ),
         Value::Map(entries) if entries.len() > MOST_ITEMS => fault(
-            Rule::TooManyItems,
+            FaultCode::TooManyItems,
             format!("has {} keys", entries.len()),
             format!("at most {MOST_ITEMS} keys"),
         ),
@@ -56,7 +56,8 @@ fn of_value(node: &Node, key: &str) -> Option<Fault> {
             if length > LONGEST_KEY {
                 let message = format!("has a key of {length} characters");
                 let expected = format!("at most {LONGEST_KEY} characters");
-                let mut fault = Fault::at_key(Rule::KeyTooLong, key, message).expecting(expected);
+                let mut fault =
+                    Fault::at_key(FaultCode::KeyTooLong, key, message).expecting(expected);
                 fault.at = Some(entry.key_span);
                 return Some(fault);
             }

@@ -1,9 +1,9 @@
 //! What parses but can hardly be meant, as far as the file alone tells.
 
 use super::Problem;
-pub use super::doubt::Doubt;
 use super::fault::Span;
 use super::source::Source;
+pub use super::warning_code::WarningCode;
 use crate::digits::plain;
 use crate::elementary::sin;
 use crate::impact::Contact;
@@ -12,7 +12,7 @@ use crate::impact::Contact;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// Why it is one.
-    pub doubt: Doubt,
+    pub doubt: WarningCode,
     /// Key path, such as `goals.rebound.allow`.
     pub key: String,
     /// What is odd about it.
@@ -26,7 +26,7 @@ pub struct Warning {
 impl Warning {
     /// A warning about the value at `key`.
     pub fn new(
-        doubt: Doubt,
+        doubt: WarningCode,
         key: impl Into<String>,
         message: impl Into<String>,
         help: impl Into<String>,
@@ -89,7 +89,7 @@ fn weights(problem: &Problem) -> Option<Warning> {
         + of_surfaces.sum::<f64>();
     (sum == 0.0).then(|| {
         Warning::new(
-            Doubt::NothingWeighs,
+            WarningCode::NothingWeighs,
             "goals",
             "all weights are 0: every setting is as good as any other",
             "give the goals that matter a `weight` above 0",
@@ -102,15 +102,15 @@ fn contacts_on_target(problem: &Problem) -> impl Iterator<Item = Contact> + '_ {
     let mut rules = problem.surfaces.iter();
     let rule = rules.find(|rule| rule.surface == problem.target.surface);
     let own = rule.and_then(|rule| rule.contact);
-    problem.settings.contact.iter().map(move |&index| {
-        let choice = &problem.contacts[index];
-        own.unwrap_or_else(|| choice.at(choice.static_friction.max))
+    problem.ranges.contact.iter().map(move |&index| {
+        let settings = &problem.contacts[index];
+        own.unwrap_or_else(|| settings.at(settings.static_friction.max))
     })
 }
 
 fn reachable_impulse(problem: &Problem) -> Option<Warning> {
     let goal = problem.goals.normal_impulse;
-    let (speeds, mass) = (problem.settings.speed, problem.shot.mass());
+    let (speeds, mass) = (problem.ranges.speed, problem.shot.mass());
     let impulse = |speed: f64| {
         let one = move |contact: Contact| mass * speed * (1.0 + contact.restitution.at(speed));
         contacts_on_target(problem).map(one)
@@ -118,7 +118,7 @@ fn reachable_impulse(problem: &Problem) -> Option<Warning> {
     // Whatever the angle, the fastest shot gives no more, and the slowest gives this.
     let fastest = speeds.max * (1.0 + 2.0 * problem.jet.speed_spread);
     let most = impulse(fastest).fold(0.0, f64::max);
-    let slowest = speeds.min * sin(problem.settings.incidence.min);
+    let slowest = speeds.min * sin(problem.ranges.incidence.min);
     let least = impulse(slowest).fold(f64::INFINITY, f64::min);
     let help = format!(
         "a shot of {} mg gives {} uN.s to {} uN.s at these speeds; compare units, radius and density",
@@ -128,11 +128,11 @@ fn reachable_impulse(problem: &Problem) -> Option<Warning> {
     );
     let (doubt, message) = if goal.target > most * (1.0 + goal.tolerance) {
         let message = "is more than the shot gives at any speed of the range";
-        (Doubt::ImpulseTooLarge, message)
+        (WarningCode::ImpulseTooLarge, message)
     } else if goal.target < least * SLOWEST_SHARE {
         let message =
             "is far less than the shot gives at the lowest speed and the flattest incidence";
-        (Doubt::ImpulseTooSmall, message)
+        (WarningCode::ImpulseTooSmall, message)
     } else {
         return None;
     };
@@ -150,7 +150,7 @@ const SLOWEST_SHARE: f64 = 0.25;
 fn loose_tolerance(problem: &Problem) -> Option<Warning> {
     (problem.goals.normal_impulse.tolerance >= 1.0).then(|| {
         Warning::new(
-            Doubt::LooseTolerance,
+            WarningCode::LooseTolerance,
             "goals.normal_impulse.tolerance",
             "a hit that gives nothing is within it",
             "say by how much N* may differ, such as `15 %`",
@@ -170,7 +170,7 @@ fn friction_limit(problem: &Problem) -> Option<Warning> {
     let most = friction * normal.target * (1.0 + normal.tolerance);
     (goal.limit > most).then(|| {
         Warning::new(
-            Doubt::LimitBeyondFriction,
+            WarningCode::LimitBeyondFriction,
             "goals.tangential_impulse.limit",
             format!(
                 "friction gives at most {} uN.s where N* is as wanted: nothing breaks this limit",
@@ -204,7 +204,7 @@ fn allowances(problem: &Problem) -> Vec<Warning> {
                 "is more than the target itself shall receive, {} uN.s: hardly any rebound breaks it",
                 short(wanted * 1e6)
             );
-            Warning::new(Doubt::AllowanceAboveTarget, key, message, "say what the surface may take, less than what peens")
+            Warning::new(WarningCode::AllowanceAboveTarget, key, message, "say what the surface may take, less than what peens")
         })
         .collect()
 }
@@ -213,7 +213,7 @@ fn unfollowed_rebounds(problem: &Problem) -> Option<Warning> {
     let limited = problem.goals.rebound.is_some();
     (limited && problem.paths.impacts == 1).then(|| {
         Warning::new(
-            Doubt::ReboundsNotFollowed,
+            WarningCode::ReboundsNotFollowed,
             "paths.impacts",
             "paths end with the first hit: `goals.rebound` sees no rebound",
             "follow at least 2 impacts, or leave `goals.rebound` out",
@@ -225,7 +225,7 @@ fn density(problem: &Problem) -> Option<Warning> {
     let is_usual = (500.0..25_000.0).contains(&problem.shot.density);
     (!is_usual).then(|| {
         Warning::new(
-            Doubt::UnusualDensity,
+            WarningCode::UnusualDensity,
             "shot.density",
             "no shot is made of this",
             "glass has 2500 kg/m3, ceramic 3850 kg/m3, steel 7800 kg/m3, tungsten carbide 15000 kg/m3",
@@ -237,9 +237,9 @@ fn size(problem: &Problem) -> Option<Warning> {
     let radius = problem.shot.radius;
     (!(2e-6..20e-3).contains(&radius)).then(|| {
         let (doubt, kind) = if radius < 1e-3 {
-            (Doubt::Dust, "dust")
+            (WarningCode::Dust, "dust")
         } else {
-            (Doubt::Balls, "balls")
+            (WarningCode::Balls, "balls")
         };
         Warning::new(
             doubt,
@@ -254,7 +254,7 @@ fn exit(problem: &Problem) -> Option<Warning> {
     let (exit, shot) = (problem.jet.exit_diameter, 2.0 * problem.shot.radius);
     (exit > 0.0 && exit < shot).then(|| {
         Warning::new(
-            Doubt::ExitTooSmall,
+            WarningCode::ExitTooSmall,
             "jet.exit_diameter",
             format!(
                 "the shot, {} mm wide, does not fit through",

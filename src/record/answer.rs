@@ -10,8 +10,8 @@ use crate::evaluate::Evaluation;
 use crate::feasibility::{Gap, gap, gap_within_tolerance};
 use crate::impact::{Contact, Restitution};
 use crate::jet::Pose;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::solve::Answer;
 use crate::units::degrees;
 use crate::verdict::{Subject, Verdict};
@@ -181,48 +181,48 @@ impl AnswerRecord {
     }
 
     /// The record of an answer.
-    pub fn new(setup: &Setup, answer: &Answer) -> Self {
-        let choice = &answer.choice;
-        let contact = &setup.problem.contacts[choice.contact];
-        let pose = Pose::new(&setup.target.frame, choice);
-        let nozzle = &setup.problem.nozzle;
-        let calibration = setup.problem.calibration.as_ref();
-        let surface_name = |gap: Gap| setup.scene.surfaces()[gap.surface as usize].clone();
-        let clearance = gap(setup, choice);
-        let worst = setup
+    pub fn new(scenario: &Scenario, answer: &Answer) -> Self {
+        let settings = &answer.settings;
+        let contact = &scenario.problem.contacts[settings.contact];
+        let pose = Pose::new(&scenario.target.frame, settings);
+        let nozzle = &scenario.problem.nozzle;
+        let calibration = scenario.problem.calibration.as_ref();
+        let surface_name = |gap: Gap| scenario.scene.surfaces()[gap.surface as usize].clone();
+        let clearance = gap(scenario, settings);
+        let worst = scenario
             .problem
             .tolerance
             .moves_nozzle()
-            .then(|| gap_within_tolerance(setup, choice))
+            .then(|| gap_within_tolerance(scenario, settings))
             .flatten();
         let evaluation = answer.evaluation.as_ref();
         Self {
             contact: contact.name.clone(),
-            contact_values: ContactRecord::new(&contact.at(choice.static_friction)),
-            settings: SettingsRecord::new(choice),
-            pressure: calibration.and_then(|known| known.pressure_at(choice.speed)),
+            contact_values: ContactRecord::new(&contact.at(settings.static_friction)),
+            settings: SettingsRecord::new(settings),
+            pressure: calibration.and_then(|known| known.pressure_at(settings.speed)),
             pose: PoseRecord::new(&pose),
             feasible: answer.violation <= 0.0,
             passes: answer.passes(),
-            infeasible_because: answer.obstacle.map(|it| it.reason(setup)),
+            infeasible_because: answer.obstacle.map(|it| it.reason(scenario)),
             clearance_m: clearance.map(|gap| gap.distance),
             clearance_surface: clearance.map(surface_name),
             clearance_within_tolerance_m: worst.map(|gap| gap.distance),
             clearance_within_tolerance_surface: worst.map(surface_name),
             clearance_wanted_m: nozzle.clearance,
             body_radius_left_m: (answer.violation > 0.0)
-                .then(|| radius_left(setup, &pose))
+                .then(|| radius_left(scenario, &pose))
                 .flatten(),
             shots: evaluation.map_or(0, |evaluation| evaluation.shots),
-            rim_shots: evaluation.map_or(0, |evaluation| evaluation.rim_shots),
+            rim_shots: evaluation.map_or(0, |evaluation| evaluation.boundary_shots),
             objective: evaluation.map(ObjectiveRecord::new),
-            target: evaluation.map(|evaluation| TargetRecord::new(setup, evaluation)),
+            target: evaluation.map(|evaluation| TargetRecord::new(scenario, evaluation)),
             surfaces: evaluation
-                .map_or_else(BTreeMap::new, |evaluation| receipts(setup, evaluation)),
+                .map_or_else(BTreeMap::new, |evaluation| receipts(scenario, evaluation)),
             verdicts: answer
                 .verdicts
                 .iter()
-                .map(|verdict| VerdictRecord::new(setup, verdict))
+                .map(|verdict| VerdictRecord::new(scenario, verdict))
                 .collect(),
         }
     }
@@ -251,15 +251,15 @@ impl ContactRecord {
 }
 
 impl SettingsRecord {
-    pub(crate) fn new(choice: &Choice) -> Self {
+    pub(crate) fn new(settings: &Settings) -> Self {
         Self {
-            incidence_deg: degrees(choice.incidence),
-            azimuth_deg: degrees(choice.azimuth),
-            standoff_m: choice.standoff,
-            speed_m_s: choice.speed,
-            aim_along_m: choice.aim_along,
-            aim_across_m: choice.aim_across,
-            aim_above_m: choice.aim_above,
+            incidence_deg: degrees(settings.incidence),
+            azimuth_deg: degrees(settings.azimuth),
+            standoff_m: settings.standoff,
+            speed_m_s: settings.speed,
+            aim_along_m: settings.aim_along,
+            aim_across_m: settings.aim_across,
+            aim_above_m: settings.aim_above,
         }
     }
 }
@@ -303,9 +303,9 @@ impl ObjectiveRecord {
 }
 
 impl VerdictRecord {
-    fn new(setup: &Setup, verdict: &Verdict) -> Self {
+    fn new(scenario: &Scenario, verdict: &Verdict) -> Self {
         Self {
-            subject: subject_name(setup, verdict.subject),
+            subject: subject_name(scenario, verdict.subject),
             share: verdict.share(),
             interval_95: verdict.interval(),
             allowed: verdict.allowed,
@@ -317,12 +317,12 @@ impl VerdictRecord {
 }
 
 /// The goal's key in the problem file, or the full name of the surface.
-pub(super) fn subject_name(setup: &Setup, subject: Subject) -> String {
+pub(super) fn subject_name(scenario: &Scenario, subject: Subject) -> String {
     match subject {
         Subject::NormalImpulse => "normal_impulse".into(),
         Subject::TangentialImpulse => "tangential_impulse".into(),
         Subject::Miss => "miss".into(),
-        Subject::Surface(index) => setup.scene.surfaces()[index as usize].clone(),
+        Subject::Surface(index) => scenario.scene.surfaces()[index as usize].clone(),
         Subject::Clearance => "clearance".into(),
         Subject::FreeSpace => "free_space".into(),
     }

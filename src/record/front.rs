@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::{ObjectiveRecord, SettingsRecord, subject_name};
 use crate::elementary::hypot;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::solve::{Answer, Front};
 use crate::verdict::Verdict;
 
@@ -27,34 +27,34 @@ pub struct FrontRecord {
 
 impl FrontRecord {
     /// The records of a front, from the least target error on.
-    pub fn all(setup: &Setup, front: &Front) -> Vec<Self> {
+    pub fn all(scenario: &Scenario, front: &Front) -> Vec<Self> {
         let answers = front.answers.iter().enumerate();
         answers
             .filter_map(|(index, answer)| {
-                Self::new(setup, answer, front.recommended == Some(index))
+                Self::new(scenario, answer, front.recommended == Some(index))
             })
             .collect()
     }
 
-    fn new(setup: &Setup, answer: &Answer, recommended: bool) -> Option<Self> {
-        let choice = &answer.choice;
-        let contact = &setup.problem.contacts[choice.contact];
+    fn new(scenario: &Scenario, answer: &Answer, recommended: bool) -> Option<Self> {
+        let settings = &answer.settings;
+        let contact = &scenario.problem.contacts[settings.contact];
         let failing = answer.verdicts.iter().filter(|verdict| !verdict.passes());
         Some(Self {
             recommended,
             contact: contact.name.clone(),
-            mu_s: contact.at(choice.static_friction).static_friction,
-            settings: SettingsRecord::new(choice),
+            mu_s: contact.at(settings.static_friction).static_friction,
+            settings: SettingsRecord::new(settings),
             objective: ObjectiveRecord::new(answer.evaluation.as_ref()?),
             fails: failing
-                .map(|verdict: &Verdict| subject_name(setup, verdict.subject))
+                .map(|verdict: &Verdict| subject_name(scenario, verdict.subject))
                 .collect(),
         })
     }
 
     /// Target error (normal impulse and misses), tangential risk and rebound, each with its
     /// standard error.
-    pub fn risks(&self) -> [(f64, f64); 3] {
+    pub fn objectives(&self) -> [(f64, f64); 3] {
         let it = &self.objective;
         let [normal, tangential, rebound, miss] = it.term_standard_errors;
         [

@@ -66,9 +66,9 @@ impl LibraryContactRecord {
     /// The contacts of a problem that take numbers from the library: those that may be chosen, then those of
     /// single surfaces.
     pub(super) fn all(problem: &Problem) -> Vec<Self> {
-        let chosen = problem.contacts.iter().filter_map(|choice| {
-            let record = Self::new(&choice.name, choice.library?, &choice.contact);
-            let searched = !choice.static_friction.is_held();
+        let chosen = problem.contacts.iter().filter_map(|settings| {
+            let record = Self::new(&settings.name, settings.library?, &settings.contact);
+            let searched = !settings.static_friction.is_held();
             Some(if searched {
                 Self {
                     mu_s: None,

@@ -5,7 +5,7 @@ use super::evidence::{AxisRecord, CellRecord, MapRecord};
 use super::window::key_and_unit;
 use crate::map::{Axis, Map, Place};
 use crate::objective::Terms;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 
 /// How a cell says that the nozzle does not fit.
 const CLEARANCE: &str = "clearance";
@@ -61,9 +61,9 @@ impl MapTerm {
 
 impl MapRecord {
     /// The record of a map.
-    pub fn new(setup: &Setup, map: &Map) -> Self {
+    pub fn new(scenario: &Scenario, map: &Map) -> Self {
         let named = map.subjects.iter();
-        let mut subjects: Vec<String> = named.map(|&it| subject_name(setup, it)).collect();
+        let mut subjects: Vec<String> = named.map(|&it| subject_name(scenario, it)).collect();
         let clearance = subjects.len() as u32;
         subjects.push(CLEARANCE.into());
         let without_terms = |fails| CellRecord {

@@ -50,8 +50,8 @@ use crate::evidence::{Evidence, SHOTS};
 use crate::map::{Control, standard_maps_until};
 use crate::printable;
 use crate::problem::Source;
+use crate::scenario::Scenario;
 use crate::scene::MeshSource;
-use crate::setup::Setup;
 use crate::solve::{Answer, Ladder, Status, Window};
 use crate::unknowns::Unknowns;
 use crate::validity::Note;
@@ -60,14 +60,14 @@ use crate::validity::Note;
 pub const LARGEST_FILE: u64 = 500_000_000;
 
 /// The SHA-256 of every mesh file of a scene, by its name as in the problem file.
-pub fn mesh_sha256(setup: &Setup, source: &Source) -> BTreeMap<String, String> {
+pub fn mesh_sha256(scenario: &Scenario, source: &Source) -> BTreeMap<String, String> {
     let folder = source.path.parent().unwrap_or(Path::new(""));
     let named = |file: &MeshSource| {
         let name = file.path.strip_prefix(folder).unwrap_or(&file.path);
         let name = printable::line(&name.display().to_string()).into_owned();
         (name, file.sha256.clone())
     };
-    setup.scene.mesh_files().iter().map(named).collect()
+    scenario.scene.mesh_files().iter().map(named).collect()
 }
 
 /// The result of a search.
@@ -177,7 +177,7 @@ impl From<Status> for StatusRecord {
 }
 
 /// What a record says besides the answers.
-pub struct Circumstances<'a> {
+pub struct RunInfo<'a> {
     /// The problem file.
     pub source: &'a Source,
     /// How the run ended.
@@ -193,40 +193,42 @@ pub struct Circumstances<'a> {
 impl Record {
     /// The record of some answers, best first; `None` when there is none.
     pub fn new(
-        setup: &Setup,
+        scenario: &Scenario,
         answers: &[Answer],
         windows: &[Window],
         notes: Vec<Note>,
         unknowns: Option<Unknowns>,
-        circumstances: Circumstances,
+        run: RunInfo,
     ) -> Option<Self> {
         let choices: Vec<AnswerRecord> = answers
             .iter()
-            .map(|answer| AnswerRecord::new(setup, answer))
+            .map(|answer| AnswerRecord::new(scenario, answer))
             .collect();
         let best = answers.first()?;
         let fits = best.evaluation.is_some();
-        let coverage = fits.then(|| Coverage::of(setup, &best.choice)).flatten();
+        let coverage = fits
+            .then(|| Coverage::of(scenario, &best.settings))
+            .flatten();
         Some(Self {
-            status: circumstances.status,
-            problem: QuestionRecord::new(&setup.problem, circumstances.source),
+            status: run.status,
+            problem: QuestionRecord::new(&scenario.problem, run.source),
             best: choices.first()?.clone(),
             windows: windows
                 .iter()
-                .map(|window| WindowRecord::new(setup, window))
+                .map(|window| WindowRecord::new(scenario, window))
                 .collect(),
             choices,
             front: Vec::new(),
-            model: ModelRecord::new(setup, circumstances.ladder),
+            model: ModelRecord::new(scenario, run.ladder),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
-            unknowns: unknowns.map(|unknowns| UnknownsRecord::new(setup, &unknowns)),
+            unknowns: unknowns.map(|unknowns| UnknownsRecord::new(scenario, &unknowns)),
             coverage: coverage.as_ref().map(CoverageRecord::new),
             evidence: None,
-            work: circumstances.work,
-            problem_sha256: circumstances.source.sha256.clone(),
-            mesh_sha256: mesh_sha256(setup, circumstances.source),
+            work: run.work,
+            problem_sha256: run.source.sha256.clone(),
+            mesh_sha256: mesh_sha256(scenario, run.source),
             version: env!("CARGO_PKG_VERSION").into(),
-            command: printable::line(&circumstances.command).into_owned(),
+            command: printable::line(&run.command).into_owned(),
         })
     }
 
@@ -252,24 +254,29 @@ impl Record {
     /// The same with what the pictures of the best settings are drawn from; `best` is the first
     /// of the answers behind it.
     #[must_use]
-    pub fn with_evidence(self, setup: &Setup, best: &Answer) -> Self {
-        self.with_evidence_until(setup, best, &AtomicBool::new(false))
+    pub fn with_evidence(self, scenario: &Scenario, best: &Answer) -> Self {
+        self.with_evidence_until(scenario, best, &AtomicBool::new(false))
     }
 
     /// The same with fewer flights, without the maps of which nothing is known when `stop` is set, and with
     /// blanks in the others.
     #[must_use]
-    pub fn with_evidence_until(self, setup: &Setup, best: &Answer, stop: &AtomicBool) -> Self {
+    pub fn with_evidence_until(
+        self,
+        scenario: &Scenario,
+        best: &Answer,
+        stop: &AtomicBool,
+    ) -> Self {
         let fits = best.evaluation.is_some();
         let shots = if fits { SHOTS } else { 0 };
-        let shown = Evidence::until(setup, &best.choice, shots, stop);
-        let mut evidence = EvidenceRecord::new(setup, &best.choice, &shown);
+        let shown = Evidence::until(scenario, &best.settings, shots, stop);
+        let mut evidence = EvidenceRecord::new(scenario, &best.settings, &shown);
         let control = Control {
             stop,
             ..Control::default()
         };
-        let maps = standard_maps_until(setup, &best.choice, &control);
-        let maps = maps.iter().map(|map| MapRecord::new(setup, map));
+        let maps = standard_maps_until(scenario, &best.settings, &control);
+        let maps = maps.iter().map(|map| MapRecord::new(scenario, map));
         evidence.maps = maps.filter(|map| map.known_places() > 0).collect();
         Self {
             evidence: Some(evidence),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::answer::{SettingsRecord, subject_name};
 use crate::precision::Precision;
 use crate::problem::model::{Effect, Model};
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::solve::{Ladder, Rung};
 
 /// The model behind a result.
@@ -52,7 +52,7 @@ pub struct RungRecord {
 
 impl ModelRecord {
     /// The record of a ladder.
-    pub fn new(setup: &Setup, ladder: &Ladder) -> Self {
+    pub fn new(scenario: &Scenario, ladder: &Ladder) -> Self {
         let name = |effect: &Effect| effect.name().to_owned();
         Self {
             asked: match &ladder.model {
@@ -66,14 +66,14 @@ impl ModelRecord {
             effects: ladder
                 .rungs
                 .iter()
-                .map(|rung| RungRecord::new(setup, rung))
+                .map(|rung| RungRecord::new(scenario, rung))
                 .collect(),
         }
     }
 }
 
 impl RungRecord {
-    fn new(setup: &Setup, rung: &Rung) -> Self {
+    fn new(scenario: &Scenario, rung: &Rung) -> Self {
         let turned = rung.turned.iter();
         Self {
             effect: rung.effect.name().into(),
@@ -81,7 +81,7 @@ impl RungRecord {
             change: rung.change,
             largest_change: rung.largest_change,
             turned: turned
-                .map(|&subject| subject_name(setup, subject))
+                .map(|&subject| subject_name(scenario, subject))
                 .collect(),
             settings_with: SettingsRecord::new(&rung.best_with),
             settings_without: SettingsRecord::new(&rung.best_without),

@@ -182,7 +182,7 @@ fn calibration(problem: &Problem) -> Vec<CalibrationRecord> {
 
 fn ranges(problem: &Problem) -> Vec<RangeRecord> {
     let range = |setting: Setting| {
-        let Range { min, max } = problem.settings.range(setting)?;
+        let Range { min, max } = problem.ranges.range(setting)?;
         let (key, shown) = key_and_unit(setting);
         Some(RangeRecord {
             setting: key,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::evaluate::{Evaluation, Spread, SurfaceReceipt};
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 
 /// What the target receives by first hits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,10 +57,10 @@ pub struct SpreadRecord {
 }
 
 impl TargetRecord {
-    pub(super) fn new(setup: &Setup, evaluation: &Evaluation) -> Self {
+    pub(super) fn new(scenario: &Scenario, evaluation: &Evaluation) -> Self {
         let target = &evaluation.target;
         Self {
-            surface: setup.scene.surfaces()[setup.target.surface as usize].clone(),
+            surface: scenario.scene.surfaces()[scenario.target.surface as usize].clone(),
             share_on_target: target.hits as f64 / evaluation.shots as f64,
             normal_impulse: target.normal_impulse.into(),
             tangential_impulse: target.tangential_impulse.into(),
@@ -96,9 +96,12 @@ impl From<Spread> for SpreadRecord {
 }
 
 /// Every secondary surface that was hit or has a limit; deflectors belong to the flight.
-pub(super) fn receipts(setup: &Setup, evaluation: &Evaluation) -> BTreeMap<String, ReceiptRecord> {
-    let names = setup.scene.surfaces().iter();
-    let surfaces = names.zip(&setup.surfaces).zip(&evaluation.surfaces);
+pub(super) fn receipts(
+    scenario: &Scenario,
+    evaluation: &Evaluation,
+) -> BTreeMap<String, ReceiptRecord> {
+    let names = scenario.scene.surfaces().iter();
+    let surfaces = names.zip(&scenario.surfaces).zip(&evaluation.surfaces);
     surfaces
         .filter(|((_, limits), _)| !limits.deflector)
         .map(|((name, limits), receipt)| {

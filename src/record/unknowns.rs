@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::answer::subject_name;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::units::degrees;
 use crate::unknowns::{Outcome, Quantity, UnknownRange, Unknowns};
 
@@ -66,20 +66,20 @@ pub struct ShareRecord {
 
 impl UnknownsRecord {
     /// The record of what was evaluated.
-    pub fn new(setup: &Setup, unknowns: &Unknowns) -> Self {
+    pub fn new(scenario: &Scenario, unknowns: &Unknowns) -> Self {
         Self {
-            nominal: OutcomeRecord::new(setup, &unknowns.nominal),
+            nominal: OutcomeRecord::new(scenario, &unknowns.nominal),
             ranges: unknowns
                 .ranges
                 .iter()
-                .map(|range| UnknownRangeRecord::new(setup, range))
+                .map(|range| UnknownRangeRecord::new(scenario, range))
                 .collect(),
         }
     }
 }
 
 impl UnknownRangeRecord {
-    fn new(setup: &Setup, range: &UnknownRange) -> Self {
+    fn new(scenario: &Scenario, range: &UnknownRange) -> Self {
         let [(low, at_low), (high, at_high)] = &range.ends;
         Self {
             quantity: match range.quantity {
@@ -87,15 +87,15 @@ impl UnknownRangeRecord {
                 Quantity::Friction => QuantityRecord::Friction,
             },
             low: *low,
-            at_low: OutcomeRecord::new(setup, at_low),
+            at_low: OutcomeRecord::new(scenario, at_low),
             high: *high,
-            at_high: OutcomeRecord::new(setup, at_high),
+            at_high: OutcomeRecord::new(scenario, at_high),
         }
     }
 }
 
 impl OutcomeRecord {
-    fn new(setup: &Setup, effect: &Outcome) -> Self {
+    fn new(scenario: &Scenario, effect: &Outcome) -> Self {
         Self {
             objective: effect.objective,
             rebound_angle_deg: effect.rebound_angle.map(degrees),
@@ -104,7 +104,7 @@ impl OutcomeRecord {
                 .shares
                 .iter()
                 .map(|(subject, share)| ShareRecord {
-                    subject: subject_name(setup, *subject),
+                    subject: subject_name(scenario, *subject),
                     share: *share,
                 })
                 .collect(),

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::subject_name;
 use crate::problem::setting::Setting;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::solve::{Drift, Turn, Window};
 use crate::units::degrees;
 
@@ -32,13 +32,13 @@ pub struct DriftRecord {
 
 impl WindowRecord {
     /// The record of a window.
-    pub fn new(setup: &Setup, window: &Window) -> Self {
+    pub fn new(scenario: &Scenario, window: &Window) -> Self {
         let (key, shown) = key_and_unit(window.setting);
         let drift = |drift: &Drift| DriftRecord {
             to: shown(drift.to),
             within: shown(drift.within),
             turns: drift.turns.map(|turn| match turn {
-                Turn::Verdict(subject) => subject_name(setup, subject),
+                Turn::Verdict(subject) => subject_name(scenario, subject),
                 Turn::Clearance => "clearance".into(),
                 Turn::FreeSpace => "free_space".into(),
             }),

@@ -23,7 +23,7 @@ pub fn of_poses(chart: &Chart) -> String {
         let is_it = |curve: &&PoseCurve| curve.sampling == Sampling::SobolRim;
         chart.poses.iter().filter(is_it)
     };
-    let is_facets = |curve: &&PoseCurve| matches!(curve.walls, Walls::Facets { .. });
+    let is_facets = |curve: &&PoseCurve| matches!(curve.walls, Walls::TriangleMesh { .. });
     if let Some((exact, coarse)) = of_the_search().next().zip(of_the_search().find(is_facets)) {
         findings.push(format!(
             "the coarsest mesh takes {} times as long as exact walls and changes J by {}",

@@ -5,8 +5,8 @@ use super::part::Geometry;
 use super::{SLACK, Scene, Walls};
 use crate::printable;
 use crate::problem::fault::Fault;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::part::Part;
-use crate::problem::rule::Rule;
 
 impl Scene {
     /// Builds every part.
@@ -58,8 +58,12 @@ impl Scene {
 /// The fault of a part with which the scene gets too large.
 pub(super) fn too_many_triangles(part: &Part, triangles: usize) -> Option<Fault> {
     let message = format!("up to this part the scene has more than {MOST_TRIANGLES} triangles");
-    let fault = Fault::at_key(Rule::SceneTooLarge, format!("scene.{}", part.name), message)
-        .expecting("fewer or coarser meshes, at most so many triangles together");
+    let fault = Fault::at_key(
+        FaultCode::SceneTooLarge,
+        format!("scene.{}", part.name),
+        message,
+    )
+    .expecting("fewer or coarser meshes, at most so many triangles together");
     (triangles > MOST_TRIANGLES).then_some(fault)
 }
 

@@ -7,7 +7,7 @@ use parry3d_f64::query::PointQuery;
 use parry3d_f64::query::details::closest_points_segment_segment_with_locations_nD;
 use parry3d_f64::shape::{Segment, Triangle};
 
-use super::facets::Facets;
+use super::triangle_mesh::TriangleMesh;
 
 /// The point of a mesh nearest to a given one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ fn nearest_of(candidates: impl Iterator<Item = (f64, u32)>) -> Option<Neighbour>
         .map(|(distance, triangle)| Neighbour { distance, triangle })
 }
 
-impl Facets {
+impl TriangleMesh {
     /// The nearest point on the triangles that `counts` lets in.
     pub(super) fn nearest_point(
         &self,

@@ -10,9 +10,9 @@ use super::Scene;
 use super::nearest::Foot;
 use super::part::{BuiltPart, FreeSide};
 use super::patch::Patch;
-use super::ray::{Ray, Spot};
+use super::ray::{HitId, Ray};
 use crate::problem::fault::Fault;
-use crate::problem::rule::Rule;
+use crate::problem::fault_code::FaultCode;
 
 /// A side that an open mesh wraps round this far is nearly closed: it may be the inside of a solid with a
 /// hole in it.
@@ -44,7 +44,7 @@ impl Undecided {
             )
         };
         let message = format!("which side of `{surface}` is free cannot be told: {why}");
-        Fault::at_key(Rule::FreeSideUnclear, "target", message)
+        Fault::at_key(FaultCode::FreeSideUnclear, "target", message)
             .expecting("`facing: [x, y, z]`, a direction from the target towards the nozzle")
     }
 }
@@ -143,8 +143,8 @@ impl Scene {
     }
 
     /// Whether a spot is on the side of its part that is free: the back of a hollow.
-    pub fn is_free_side(&self, spot: &Spot) -> bool {
-        spot.front == (self.parts[spot.part as usize].free != FreeSide::Back)
+    pub fn is_free_side(&self, hit_id: &HitId) -> bool {
+        hit_id.front == (self.parts[hit_id.part as usize].free != FreeSide::Back)
     }
 
     /// Distance of a point from the surfaces of a part, m.

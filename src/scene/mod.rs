@@ -4,28 +4,28 @@
 //! Surfaces are two-sided. This module is the only one that knows parry.
 
 mod build;
-mod bundle;
+mod bvh8;
 mod clearance;
-mod facets;
-mod form;
+mod departure;
 mod free_side;
 pub mod lanes;
 pub mod mesh;
 pub mod mesh_file;
 mod moving;
 mod nearest;
+pub mod nozzle_frame;
 mod part;
 pub mod patch;
+mod primitive;
 mod prism;
 pub mod profile;
 pub mod ray;
 pub mod rays;
-pub mod stand;
-mod start;
 pub mod swept;
 pub mod tessellate;
 mod triangle;
-mod wide_tree;
+mod triangle_mesh;
+mod triangle_packet;
 mod winding;
 
 use nalgebra::{Point3, Vector3};
@@ -34,13 +34,13 @@ use crate::precision::{Real, along, scaled, unit};
 use crate::printable;
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::{Fault, one_of};
-use crate::problem::rule::Rule;
+use crate::problem::fault_code::FaultCode;
 use lanes::{components, padded, put};
+use nozzle_frame::NozzleFrame;
 use part::BuiltPart;
 pub use part::MeshSource;
-use ray::{Hit, Ray, Spot};
+use ray::{Hit, HitId, Ray};
 use rays::{Hits, Rays};
-use stand::Stand;
 
 /// Two points nearer than this share of the scene's size count as one.
 const SLACK: f64 = 1e-12;
@@ -69,7 +69,7 @@ pub enum Walls {
     /// As planes and cylinders.
     Exact,
     /// As triangles whose chords turn by at most this angle, rad.
-    Facets {
+    TriangleMesh {
         /// rad.
         chord_angle: f64,
     },
@@ -92,7 +92,8 @@ impl Scene {
         found.map(|index| index as u32).ok_or_else(|| {
             let known: Vec<&str> = self.surfaces.iter().map(String::as_str).collect();
             let message = format!("there is no surface `{name}`");
-            let fault = Fault::at_key(Rule::UnknownSurface, "", message).expecting(one_of(&known));
+            let fault =
+                Fault::at_key(FaultCode::UnknownSurface, "", message).expecting(one_of(&known));
             Box::new(fault.nearest(name, known))
         })
     }
@@ -136,7 +137,7 @@ impl Scene {
     /// What a ray meets first in a scene without a nozzle. `leaving` is the spot that it starts
     /// from, if any: it is not hit again at distance 0.
     #[inline]
-    pub fn first_hit(&self, ray: &Ray, leaving: Option<Spot>) -> Option<Hit> {
+    pub fn first_hit(&self, ray: &Ray, leaving: Option<HitId>) -> Option<Hit> {
         self.first_contact(ray, 0.0, leaving, None)
     }
 
@@ -144,7 +145,7 @@ impl Scene {
     /// without a nozzle; the distance is that of the centre, the place that of the contact.
     /// `leaving` is the spot that it touches at the start, if any.
     #[inline]
-    pub fn first_touch(&self, ray: &Ray, radius: f64, leaving: Option<Spot>) -> Option<Hit> {
+    pub fn first_touch(&self, ray: &Ray, radius: f64, leaving: Option<HitId>) -> Option<Hit> {
         self.first_contact(ray, radius, leaving, None)
     }
 
@@ -155,20 +156,23 @@ impl Scene {
         &self,
         ray: &Ray,
         radius: f64,
-        leaving: Option<Spot>,
-        stand: Option<&Stand<f64>>,
+        leaving: Option<HitId>,
+        nozzle_frame: Option<&NozzleFrame<f64>>,
     ) -> Option<Hit> {
         let is_sphere = radius > 0.0;
         let lift = LIFT * SLACK * self.size;
         let mut nearest = f64::INFINITY;
         let mut hit = None;
         for (index, part) in (0..).zip(&self.parts) {
-            let on_it = leaving.is_some_and(|spot| spot.part == index);
+            let on_it = leaving.is_some_and(|hit_id| hit_id.part == index);
             let contact = |ray: &Ray| part.first_contact(ray, radius, leaving, on_it, nearest);
-            let found = match (part.on_nozzle, stand) {
+            let found = match (part.on_nozzle, nozzle_frame) {
                 (false, _) => contact(ray),
-                (true, Some(stand)) => contact(&stand.ray_there(ray))
-                    .map(|(crossing, normal)| (crossing, stand.vector_back(normal.into()).into())),
+                (true, Some(nozzle_frame)) => {
+                    contact(&nozzle_frame.ray_there(ray)).map(|(crossing, normal)| {
+                        (crossing, nozzle_frame.vector_back(normal.into()).into())
+                    })
+                }
                 (true, None) => None,
             };
             let Some((crossing, front)) = found else {
@@ -186,7 +190,7 @@ impl Scene {
                 point: ray.origin + ray.direction * crossing.distance + normal * above,
                 normal,
                 surface: crossing.surface,
-                spot: Spot {
+                hit_id: HitId {
                     part: index,
                     piece: crossing.piece,
                     front: crossing.front,
@@ -205,8 +209,8 @@ impl Scene {
         for (index, part) in (0..).zip(&self.parts) {
             if !part.on_nozzle {
                 part.cross(index, rays, hits);
-            } else if let Some(stands) = &rays.stands {
-                moving::cross(part, index, rays, stands, hits);
+            } else if let Some(nozzle_frames) = &rays.nozzle_frames {
+                moving::cross(part, index, rays, nozzle_frames, hits);
             }
         }
         let lift = R::of(LIFT * SLACK * R::COARSENESS * self.size);
@@ -264,7 +268,11 @@ impl Scene {
 #[inline(always)]
 fn place<R: Real, const BALLS: bool>(rays: &Rays<R>, hits: &mut Hits<R>, lift: R) {
     for i in 0..padded(rays.count) {
-        let side = if hits.spots.front[i] { R::ONE } else { -R::ONE };
+        let side = if hits.hit_ids.front[i] {
+            R::ONE
+        } else {
+            -R::ONE
+        };
         let mut normal = scaled(components(&hits.normal, i), side);
         let missing = lift - hits.above[i];
         let mut above = if missing > R::ZERO { missing } else { R::ZERO };

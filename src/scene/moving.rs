@@ -3,9 +3,9 @@
 use multiversion::multiversion;
 
 use super::lanes::{LANES, components, padded, put};
+use super::nozzle_frame::NozzleFrames;
 use super::part::BuiltPart;
-use super::rays::{Hits, Rays, Spots};
-use super::stand::Stands;
+use super::rays::{HitIds, Hits, Rays};
 use crate::precision::Real;
 
 /// The part of no ray.
@@ -23,32 +23,32 @@ pub(super) fn cross<R: Real>(
     part: &BuiltPart,
     index: u32,
     rays: &Rays<R>,
-    stands: &Stands<R>,
+    nozzle_frames: &NozzleFrames<R>,
     hits: &mut Hits<R>,
 ) {
-    let there = rays_there(rays, stands);
+    let there = rays_there(rays, nozzle_frames);
     let mut met = Hits {
         distance: hits.distance,
-        spots: Spots {
+        hit_ids: HitIds {
             part: [NO_PART; LANES],
-            ..Spots::none()
+            ..HitIds::none()
         },
         ..Hits::none()
     };
     part.cross(index, &there, &mut met);
-    for i in (0..rays.count).filter(|&i| met.spots.part[i] == index) {
-        let normal = stands.at(i).vector_back(components(&met.normal, i));
+    for i in (0..rays.count).filter(|&i| met.hit_ids.part[i] == index) {
+        let normal = nozzle_frames.at(i).vector_back(components(&met.normal, i));
         hits.distance[i] = met.distance[i];
         hits.above[i] = met.above[i];
         hits.surface[i] = met.surface[i];
-        hits.spots.set(i, met.spots.at(i));
+        hits.hit_ids.set(i, met.hit_ids.at(i));
         put(&mut hits.normal, i, normal);
     }
 }
 
 /// Rays of the scene, each as it is in the frame of its own nozzle.
 #[inline(always)]
-fn rays_there<R: Real>(rays: &Rays<R>, stands: &Stands<R>) -> Rays<R> {
+fn rays_there<R: Real>(rays: &Rays<R>, nozzle_frames: &NozzleFrames<R>) -> Rays<R> {
     let mut there = Rays {
         count: rays.count,
         are_spheres: rays.are_spheres,
@@ -57,9 +57,9 @@ fn rays_there<R: Real>(rays: &Rays<R>, stands: &Stands<R>) -> Rays<R> {
         ..Rays::none()
     };
     for i in 0..padded(rays.count) {
-        let stand = stands.at(i);
-        let origin = stand.point_there(components(&rays.origin, i));
-        let direction = stand.vector_there(components(&rays.direction, i));
+        let nozzle_frame = nozzle_frames.at(i);
+        let origin = nozzle_frame.point_there(components(&rays.origin, i));
+        let direction = nozzle_frame.vector_there(components(&rays.direction, i));
         put(&mut there.origin, i, origin);
         put(&mut there.direction, i, direction);
     }

@@ -6,14 +6,14 @@ use std::sync::OnceLock;
 use nalgebra::{Point3, Vector3};
 
 use super::Walls;
-use super::facets::{self, Facets};
 use super::mesh::{Mesh, Shell, Shells};
 use super::mesh_file;
 use super::prism::Prism;
 use super::profile::Profile;
-use super::ray::{Crossing, Ray, Spot};
+use super::ray::{Crossing, HitId, Ray};
 use super::rays::{Hits, Rays};
 use super::tessellate;
+use super::triangle_mesh::{self, TriangleMesh};
 use super::winding::Winding;
 use crate::precision::Real;
 use crate::printable;
@@ -24,7 +24,7 @@ use crate::problem::part::{Ends, Part, Place, Shape};
 #[derive(Clone)]
 pub(super) struct BuiltPart {
     /// Its triangles: for distances, for the target patch, and for rays where there is no prism.
-    pub facets: Facets,
+    pub facets: TriangleMesh,
     /// Which side of its surfaces is free.
     pub free: FreeSide,
     /// Its shells, where it is a mesh from a file.
@@ -159,7 +159,7 @@ impl Geometry {
     /// Makes it ready for rays.
     pub fn build(self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
         BuiltPart {
-            facets: Facets::new(self.mesh, surface_base, slack),
+            facets: TriangleMesh::new(self.mesh, surface_base, slack),
             free: self.free,
             shells: self.shells,
             solid: OnceLock::new(),
@@ -191,7 +191,7 @@ fn prismatic(profile: Profile, length: f64, ends: Ends, walls: Walls) -> Built {
             let mesh = tessellate::prism(&profile, length, ends, CHORD_ANGLE);
             (mesh, Some((profile, length, ends)))
         }
-        Walls::Facets { chord_angle } => {
+        Walls::TriangleMesh { chord_angle } => {
             let mesh = tessellate::prism(&profile, length, ends, chord_angle);
             (mesh, None)
         }
@@ -290,7 +290,7 @@ impl BuiltPart {
         &self,
         ray: &Ray,
         radius: f64,
-        leaving: Option<Spot>,
+        leaving: Option<HitId>,
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
@@ -313,7 +313,7 @@ impl BuiltPart {
     pub fn first_crossing(
         &self,
         ray: &Ray,
-        leaving: Option<Spot>,
+        leaving: Option<HitId>,
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
@@ -331,8 +331,8 @@ impl BuiltPart {
     pub fn cross<R: Real>(&self, index: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
         match &self.prism {
             Some(prism) => prism.cross(index, rays, hits),
-            None if rays.are_spheres => facets::touch(&self.facets, index, rays, hits),
-            None => facets::cross(&self.facets, index, rays, hits),
+            None if rays.are_spheres => triangle_mesh::touch(&self.facets, index, rays, hits),
+            None => triangle_mesh::cross(&self.facets, index, rays, hits),
         }
     }
 }

@@ -6,8 +6,8 @@ use super::ray::Hit;
 use super::{SLACK, Scene};
 use crate::problem::LengthUnit;
 use crate::problem::fault::Fault;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::part::Target;
-use crate::problem::rule::Rule;
 
 /// The target of the scene.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ impl Patch {
     /// Whether a hit is on the target.
     #[inline]
     pub fn holds(&self, hit: &Hit) -> bool {
-        hit.surface == self.surface && hit.spot.front == self.front && self.covers(&hit.point)
+        hit.surface == self.surface && hit.hit_id.front == self.front && self.covers(&hit.point)
     }
 
     /// Whether a place on its surface belongs to it.
@@ -101,7 +101,7 @@ impl Patch {
         })?;
         if scene.surface_moves_with_nozzle(surface) {
             let fault = Fault::at_key(
-                Rule::TargetOnNozzle,
+                FaultCode::TargetOnNozzle,
                 "target.surface",
                 "moves with the nozzle",
             );
@@ -118,7 +118,7 @@ impl Patch {
         let (area, centre) = area_and_centre(clipped);
         if area <= 0.0 {
             let fault = Fault::at_key(
-                Rule::TargetEmpty,
+                FaultCode::TargetEmpty,
                 "target.within",
                 format!(
                     "no part of `{}` lies in this box: the target is empty",
@@ -153,7 +153,7 @@ impl Patch {
         let normal = if front { foot.front } else { -foot.front };
         let frame = Frame::new(aim, normal, target.along).ok_or_else(|| {
             let fault = Fault::at_key(
-                Rule::AlongPerpendicular,
+                FaultCode::AlongPerpendicular,
                 "target.along",
                 "is perpendicular to the target at the aim point",
             );
@@ -204,7 +204,7 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
     let place = format!("[{x}, {y}, {z}] {}", unit.name());
     match target.aim {
         Some(_) => Fault::at_key(
-            Rule::AimOffTarget,
+            FaultCode::AimOffTarget,
             "target.aim",
             format!("the aim point {place} is not on the target"),
         )
@@ -213,7 +213,7 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
             target.surface
         )),
         None => Fault::at_key(
-            Rule::CentreOffTarget,
+            FaultCode::CentreOffTarget,
             "target",
             format!("the centre of the target, {place}, does not lie on it"),
         )

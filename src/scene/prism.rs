@@ -7,16 +7,16 @@ mod touch;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::form::{Edge, Extent, Flight, Form, Meeting};
+use super::departure::Departure;
+use super::primitive::{Edge, Extent, Flight, Intersection, Primitive};
 use super::profile::{Corner, Profile};
-use super::ray::{Crossing, Ray, Spot};
-use super::start::Start;
+use super::ray::{Crossing, HitId, Ray};
 use crate::problem::part::{Ends, Place};
 
 /// A cross-section drawn along z from 0 to a length, somewhere in the scene.
 #[derive(Clone, Debug)]
 pub struct Prism {
-    walls: Vec<Form>,
+    walls: Vec<Primitive>,
     caps: Vec<Cap>,
     /// Of each wall, then of each cap.
     surfaces: Vec<u32>,
@@ -75,7 +75,10 @@ impl Prism {
         Self {
             edges: corners.iter().map(edge).collect(),
             edge_surfaces: corners.iter().map(|c| c.walls.map(surface)).collect(),
-            walls: pieces.iter().map(|piece| Form::of(&piece.curve)).collect(),
+            walls: pieces
+                .iter()
+                .map(|piece| Primitive::of(&piece.curve))
+                .collect(),
             caps,
             surfaces: of_walls
                 .chain(of_caps.map(|surface| surface as u32))
@@ -96,12 +99,12 @@ impl Prism {
     pub fn first_crossing(
         &self,
         ray: &Ray,
-        leaving: Option<Spot>,
+        leaving: Option<HitId>,
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
         let local = self.to_own_frame(ray);
-        let start = Start::of(leaving, on_this_part);
+        let start = Departure::of(leaving, on_this_part);
         let mut nearest = Nearest::within(limit);
         for (piece, wall) in (0..).zip(&self.walls) {
             let flight = Flight {
@@ -141,7 +144,7 @@ impl Prism {
     }
 
     /// Takes the crossing with a cap where it is the nearest.
-    fn cross_caps(&self, ray: &Ray, start: &Start, nearest: &mut Nearest) {
+    fn cross_caps(&self, ray: &Ray, start: &Departure, nearest: &mut Nearest) {
         for (piece, cap) in (self.walls.len() as u32..).zip(&self.caps) {
             if start.piece == Some(piece) {
                 continue;
@@ -162,7 +165,7 @@ impl Prism {
             };
             let ahead = (starts_on_it || distance > 0.0) && distance < nearest.best.rank;
             if ahead && self.holds((origin + ray.direction.xy() * distance).into()) {
-                let meeting = Meeting {
+                let meeting = Intersection {
                     distance,
                     rank: distance,
                     front: approach < 0.0,
@@ -193,7 +196,7 @@ impl Prism {
 
 /// The nearest crossing so far.
 struct Nearest {
-    best: Meeting<f64>,
+    best: Intersection<f64>,
     piece: Option<u32>,
     /// Component along z of the normal on the front; not 0 on a cap.
     cap: f64,
@@ -203,7 +206,7 @@ impl Nearest {
     /// None yet; only nearer ones than `limit` count.
     fn within(limit: f64) -> Self {
         Self {
-            best: Meeting {
+            best: Intersection {
                 distance: limit,
                 rank: limit,
                 front: true,
@@ -216,7 +219,7 @@ impl Nearest {
 
     /// Takes a crossing if it is nearer.
     #[inline]
-    fn take(&mut self, piece: u32, meeting: &Meeting<f64>) {
+    fn take(&mut self, piece: u32, meeting: &Intersection<f64>) {
         if meeting.rank < self.best.rank {
             self.best = *meeting;
             self.piece = Some(piece);

@@ -34,12 +34,12 @@ pub struct Hit {
     /// Index of the surface in the scene.
     pub surface: u32,
     /// The exact spot, for the ray that leaves it.
-    pub spot: Spot,
+    pub hit_id: HitId,
 }
 
 /// The piece of the scene that a ray starts from, so that it is not hit again at distance 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Spot {
+pub struct HitId {
     /// Index of the part in the scene.
     pub part: u32,
     /// Index of the wall or triangle in the part.

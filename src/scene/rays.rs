@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::lanes::{LANES, Lane, components, put};
-use super::ray::{Crossing, Ray, Spot};
-use super::stand::Stands;
+use super::nozzle_frame::NozzleFrames;
+use super::ray::{Crossing, HitId, Ray};
 use crate::precision::Real;
 
 /// Rays side by side; all of them start on a surface, or none.
@@ -20,14 +20,14 @@ pub struct Rays<R> {
     /// Radii of the shots, m.
     pub radius: Lane<R>,
     /// The spots that they start from, if they do.
-    pub leaving: Option<Spots>,
+    pub leaving: Option<HitIds>,
     /// The stands of their nozzles, where parts of the scene move with these.
-    pub stands: Option<Box<Stands<R>>>,
+    pub nozzle_frames: Option<Box<NozzleFrames<R>>>,
 }
 
 /// Spots side by side.
 #[derive(Clone)]
-pub struct Spots {
+pub struct HitIds {
     /// Index of the part in the scene.
     pub part: [u32; LANES],
     /// Index of the wall or triangle in the part.
@@ -49,10 +49,10 @@ pub struct Hits<R> {
     /// Indices of the surfaces in the scene.
     pub surface: [u32; LANES],
     /// The exact spots.
-    pub spots: Spots,
+    pub hit_ids: HitIds,
 }
 
-impl Spots {
+impl HitIds {
     pub(super) fn none() -> Self {
         Self {
             part: [0; LANES],
@@ -62,8 +62,8 @@ impl Spots {
     }
 
     /// One of them.
-    pub fn at(&self, index: usize) -> Spot {
-        Spot {
+    pub fn at(&self, index: usize) -> HitId {
+        HitId {
             part: self.part[index],
             piece: self.piece[index],
             front: self.front[index],
@@ -71,10 +71,10 @@ impl Spots {
     }
 
     /// Sets one of them.
-    pub fn set(&mut self, index: usize, spot: Spot) {
-        self.part[index] = spot.part;
-        self.piece[index] = spot.piece;
-        self.front[index] = spot.front;
+    pub fn set(&mut self, index: usize, hit_id: HitId) {
+        self.part[index] = hit_id.part;
+        self.piece[index] = hit_id.piece;
+        self.front[index] = hit_id.front;
     }
 }
 
@@ -91,7 +91,7 @@ impl<R: Real> Rays<R> {
             are_spheres: false,
             radius: [R::ZERO; LANES],
             leaving: None,
-            stands: None,
+            nozzle_frames: None,
         }
     }
 
@@ -113,7 +113,7 @@ impl<R: Real> Hits<R> {
             point: [[R::ZERO; LANES]; 3],
             normal: [[R::ZERO; LANES]; 3],
             surface: [0; LANES],
-            spots: Spots::none(),
+            hit_ids: HitIds::none(),
         }
     }
 
@@ -135,6 +135,6 @@ impl<R: Real> Hits<R> {
             [normal.x, normal.y, normal.z].map(R::of),
         );
         let (piece, front) = (crossing.piece, crossing.front);
-        self.spots.set(index, Spot { part, piece, front });
+        self.hit_ids.set(index, HitId { part, piece, front });
     }
 }

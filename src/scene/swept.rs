@@ -11,7 +11,7 @@ use parry3d_f64::query::gjk::{self, CsoPoint, GJKResult, VoronoiSimplex};
 use parry3d_f64::shape::SupportMap;
 
 use super::Scene;
-use super::facets::Facets;
+use super::triangle_mesh::TriangleMesh;
 
 /// What of the nozzle must not touch a wall, round the exit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,7 +130,7 @@ impl Scene {
     }
 }
 
-impl Facets {
+impl TriangleMesh {
     fn distance_to_swept(&self, swept: &Swept, limit: f64) -> Option<(f64, u32)> {
         let axes = [Vector::X, Vector::Y, Vector::Z];
         let reach = |sign: f64| axes.map(|axis| swept.local_support_point(axis * sign).dot(axis));

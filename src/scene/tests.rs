@@ -6,8 +6,8 @@ use super::nearest::spiral_direction;
 use super::*;
 use crate::problem::part::{Ends, Part, Place, Shape};
 use crate::scene::lanes::LANES;
-use crate::scene::rays::Spots;
-use crate::scene::stand::Stands;
+use crate::scene::nozzle_frame::NozzleFrames;
+use crate::scene::rays::HitIds;
 
 fn part(name: &str, shape: Shape, on_nozzle: bool) -> Part {
     Part {
@@ -103,7 +103,7 @@ fn walls_are_exact_where_no_part_is_of_triangles() {
         scene.has_exact_walls()
     };
     assert!(is_exact(&one, Walls::Exact));
-    assert!(!is_exact(&one, Walls::Facets { chord_angle: 0.1 }));
+    assert!(!is_exact(&one, Walls::TriangleMesh { chord_angle: 0.1 }));
     assert!(!is_exact(&two, Walls::Exact));
 }
 
@@ -248,43 +248,46 @@ fn many_rays_meet_what_each_of_them_meets() {
         [shield, stone, pot],
     ];
     let axes = [[0.6, 0.0, -0.8], [0.0, 1.0, 0.0], [0.8, 0.0, 0.6]];
-    let stand = Stand::new(axes.map(Vector3::from), Point3::new(0.1, 0.2, 1.6));
+    let nozzle_frame = NozzleFrame::new(axes.map(Vector3::from), Point3::new(0.1, 0.2, 1.6));
     for (parts, radius) in orders
         .iter()
         .flat_map(|order| [(order, 0.0), (order, 0.05)])
     {
         let scene = Scene::build(parts, Walls::Exact).expect("it is sound");
-        let mut stands = Stands::none();
+        let mut nozzle_frames = NozzleFrames::none();
         let mut rays = Rays::none();
         rays.count = LANES;
         rays.are_spheres = radius > 0.0;
         rays.radius = [radius; LANES];
-        let mut singles: Vec<(Ray, Option<Spot>)> = Vec::new();
+        let mut singles: Vec<(Ray, Option<HitId>)> = Vec::new();
         for i in 0..LANES {
-            stands.set(i, &stand);
+            nozzle_frames.set(i, &nozzle_frame);
             let origin = Point3::new(-0.6, 0.5 - 0.008 * i as f64, 2.4);
             let direction = spiral_direction(i, LANES);
             singles.push((Ray { origin, direction }, None));
         }
-        rays.stands = Some(Box::new(stands));
+        rays.nozzle_frames = Some(Box::new(nozzle_frames));
         let mut met = vec![0; scene.surfaces().len()];
         for flight in 0..12 {
-            let mut spots = Spots::none();
+            let mut hit_ids = HitIds::none();
             for (i, (ray, leaving)) in singles.iter().enumerate() {
                 put(&mut rays.origin, i, ray.origin.into());
                 put(&mut rays.direction, i, ray.direction.into());
-                if let Some(spot) = *leaving {
-                    spots.set(i, spot);
+                if let Some(hit_id) = *leaving {
+                    hit_ids.set(i, hit_id);
                 }
             }
-            rays.leaving = (flight > 0).then_some(spots);
+            rays.leaving = (flight > 0).then_some(hit_ids);
             let mut hits = Hits::none();
             scene.first_hits(&rays, &mut hits);
             for (i, (ray, leaving)) in singles.iter_mut().enumerate() {
-                let hit = scene.first_contact(ray, radius, *leaving, Some(&stand));
+                let hit = scene.first_contact(ray, radius, *leaving, Some(&nozzle_frame));
                 let hit = hit.expect("the pot is closed");
                 assert_eq!(hits.distance[i], hit.distance, "{ray:?} {leaving:?}");
-                assert_eq!((hits.surface[i], hits.spots.at(i)), (hit.surface, hit.spot));
+                assert_eq!(
+                    (hits.surface[i], hits.hit_ids.at(i)),
+                    (hit.surface, hit.hit_id)
+                );
                 let normal = Vector3::from(components(&hits.normal, i));
                 assert!((normal - hit.normal).norm() < 1e-12, "{ray:?}");
                 let point = Point3::from(components(&hits.point, i));
@@ -297,7 +300,7 @@ fn many_rays_meet_what_each_of_them_meets() {
                     hit.point
                 };
                 ray.direction = (ray.direction - hit.normal * (2.0 * into)).normalize();
-                *leaving = Some(hit.spot);
+                *leaving = Some(hit.hit_id);
             }
         }
         assert!(met.iter().all(|&count| count > 0), "{met:?}");
@@ -307,21 +310,22 @@ fn many_rays_meet_what_each_of_them_meets() {
 /// Where a ray starts on a second wall already, it is put on the side that it comes from.
 #[test]
 fn hits_are_a_lift_above_their_surface_or_as_high_as_the_ray_starts() {
-    let stand = Stand::new([Vector3::x(), Vector3::y(), Vector3::z()], Point3::origin());
+    let nozzle_frame =
+        NozzleFrame::new([Vector3::x(), Vector3::y(), Vector3::z()], Point3::origin());
     for on_nozzle in [false, true] {
         let room = [part("room", block([-2.0; 3], [2.0; 3]), on_nozzle)];
         let scene = Scene::build(&room, Walls::Exact).expect("it is sound");
         let lift = 2.0 * LIFT * SLACK;
         let side = scene.surface_named("room.x_max").expect("it is there");
         let to_side = Ray::of([0.0, 0.5, 0.5], [1.0, 0.0, 0.0]);
-        let leaving = scene.first_contact(&to_side, 0.0, None, Some(&stand));
+        let leaving = scene.first_contact(&to_side, 0.0, None, Some(&nozzle_frame));
         let leaving = leaving.expect("it is ahead");
         assert_eq!(leaving.surface, side);
         assert!((2.0 - leaving.point.x - lift).abs() < 1e-15);
         for height in [0.0, 0.25, 0.5, 0.9, 2.0, 8.0].map(|lifts| lifts * lift) {
             // From that wall into the one beside it.
             let ray = Ray::of([leaving.point.x, 2.0 - height, 0.5], [-0.6, 0.8, 0.0]);
-            let hit = scene.first_contact(&ray, 0.0, Some(leaving.spot), Some(&stand));
+            let hit = scene.first_contact(&ray, 0.0, Some(leaving.hit_id), Some(&nozzle_frame));
             let hit = hit.expect("at once");
             assert_eq!(hit.distance, 0.0);
             assert_eq!(scene.surfaces()[hit.surface as usize], "room.y_max");
@@ -333,12 +337,12 @@ fn hits_are_a_lift_above_their_surface_or_as_high_as_the_ray_starts() {
             rays.count = 1;
             put(&mut rays.origin, 0, ray.origin.into());
             put(&mut rays.direction, 0, ray.direction.into());
-            let mut spots = Spots::none();
-            spots.set(0, leaving.spot);
-            rays.leaving = Some(spots);
-            let mut stands = Stands::none();
-            stands.set(0, &stand);
-            rays.stands = Some(Box::new(stands));
+            let mut hit_ids = HitIds::none();
+            hit_ids.set(0, leaving.hit_id);
+            rays.leaving = Some(hit_ids);
+            let mut nozzle_frames = NozzleFrames::none();
+            nozzle_frames.set(0, &nozzle_frame);
+            rays.nozzle_frames = Some(Box::new(nozzle_frames));
             let mut hits = Hits::<f64>::none();
             scene.first_hits(&rays, &mut hits);
             assert_eq!(hits.distance[0], 0.0, "{height} {on_nozzle}");

@@ -1,19 +1,19 @@
 //! The answer for one contact, with its figures.
 
-use super::judge::{Effort, Standing};
+use super::evaluator::{Effort, Fitness};
 use super::polish::Candidate;
-use crate::evaluate::{Evaluation, evaluate_each_focused};
+use crate::evaluate::{Evaluation, evaluate_each_adaptively};
 use crate::feasibility::{Obstacle, infeasibility};
-use crate::jet::Fresh;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::jet::ValidationSample;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::verdict::Verdict;
 
 /// The best settings found for one contact.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The settings.
-    pub choice: Choice,
+    pub settings: Settings,
     /// What they do, on fresh shots; `None` when the nozzle does not fit.
     pub evaluation: Option<Evaluation>,
     /// Verdicts on that.
@@ -28,8 +28,8 @@ impl Answer {
     /// By this answers are ranked.
     pub(super) fn order(&self) -> f64 {
         match &self.evaluation {
-            Some(evaluation) => Standing::Feasible(evaluation.terms).rank(),
-            None => Standing::Blocked(self.violation).rank(),
+            Some(evaluation) => Fitness::Feasible(evaluation.terms).rank(),
+            None => Fitness::Infeasible(self.violation).rank(),
         }
     }
 
@@ -48,7 +48,7 @@ impl Answer {
     /// The standard error that J would have on so many shots, if these are fewer.
     pub(super) fn standard_error_on(&self, shots: usize) -> f64 {
         self.evaluation.as_ref().map_or(0.0, |evaluation| {
-            let seen = evaluation.shots + evaluation.rim_shots;
+            let seen = evaluation.shots + evaluation.boundary_shots;
             let times = (seen as f64 / shots as f64).max(1.0);
             evaluation.standard_error * times.sqrt()
         })
@@ -63,45 +63,54 @@ impl Answer {
 
     /// The answers that candidates are, with figures from shots that the search has not seen.
     pub(super) fn of_all(
-        setup: &Setup,
+        scenario: &Scenario,
         candidates: &[&Candidate],
-        fresh: &Fresh,
+        validation: &ValidationSample,
         effort: &Effort,
     ) -> Vec<Self> {
-        let fits = |candidate: &&&Candidate| candidate.standing.objective().is_some();
+        let fits = |candidate: &&&Candidate| candidate.fitness.objective().is_some();
         let feasible = candidates.iter().filter(fits);
-        let choices: Vec<Choice> = feasible.map(|candidate| candidate.choice).collect();
-        let mut evaluations = evaluate_each_focused(setup, &choices, fresh).into_iter();
-        let answer = |candidate: &&Candidate| match candidate.standing {
-            Standing::Feasible(_) => {
+        let choices: Vec<Settings> = feasible.map(|candidate| candidate.settings).collect();
+        let mut evaluations = evaluate_each_adaptively(scenario, &choices, validation).into_iter();
+        let answer = |candidate: &&Candidate| match candidate.fitness {
+            Fitness::Feasible(_) => {
                 let evaluation = evaluations.next()?;
-                Some(Self::feasible(setup, &candidate.choice, evaluation, effort))
+                Some(Self::feasible(
+                    scenario,
+                    &candidate.settings,
+                    evaluation,
+                    effort,
+                ))
             }
-            Standing::Blocked(_) => Some(Self::judged(setup, &candidate.choice, None)),
+            Fitness::Infeasible(_) => Some(Self::evaluated(scenario, &candidate.settings, None)),
         };
         candidates.iter().filter_map(answer).collect()
     }
 
     /// The answer that settings are at which the nozzle fits.
     pub(super) fn feasible(
-        setup: &Setup,
-        choice: &Choice,
+        scenario: &Scenario,
+        settings: &Settings,
         evaluation: Evaluation,
         effort: &Effort,
     ) -> Self {
         effort.add(1, evaluation.rays);
-        Self::judged(setup, choice, Some(evaluation))
+        Self::evaluated(scenario, settings, Some(evaluation))
     }
 
     /// Settings with the verdicts on what they do, if that is known, and on the pose that they mean.
-    pub fn judged(setup: &Setup, choice: &Choice, evaluation: Option<Evaluation>) -> Self {
-        let infeasible = infeasibility(setup, choice);
+    pub fn evaluated(
+        scenario: &Scenario,
+        settings: &Settings,
+        evaluation: Option<Evaluation>,
+    ) -> Self {
+        let infeasible = infeasibility(scenario, settings);
         let mut verdicts = evaluation
             .as_ref()
-            .map_or_else(Vec::new, |evaluation| Verdict::all(setup, evaluation));
-        verdicts.extend(Verdict::of_pose(setup, choice, infeasible.as_ref()));
+            .map_or_else(Vec::new, |evaluation| Verdict::all(scenario, evaluation));
+        verdicts.extend(Verdict::of_pose(scenario, settings, infeasible.as_ref()));
         Self {
-            choice: *choice,
+            settings: *settings,
             evaluation,
             verdicts,
             violation: infeasible.map_or(0.0, |it| it.violation),

@@ -26,7 +26,7 @@ pub struct Shortcuts {
     /// Poses that a part of their shots proves to be worse are given no more.
     pub early_ends: bool,
     /// More shots are drawn from where the leading settings do harm.
-    pub focus: bool,
+    pub importance: bool,
 }
 
 impl Default for Shortcuts {
@@ -34,7 +34,7 @@ impl Default for Shortcuts {
         Self {
             single_precision: true,
             early_ends: true,
-            focus: true,
+            importance: true,
         }
     }
 }
@@ -44,7 +44,7 @@ pub struct Control<'a> {
     /// Most shots at a pose.
     pub most_shots: usize,
     /// Most fresh shots for the reported figures.
-    pub fresh_shots: usize,
+    pub validation_shots: usize,
     /// Set to end the search with the best answer so far.
     pub stop: &'a AtomicBool,
     /// Told about progress; called from any thread.
@@ -57,8 +57,8 @@ pub struct Control<'a> {
 
 impl Control<'_> {
     /// Fresh shots that are fired first; all of them only where these say too little.
-    pub fn first_fresh_shots(&self) -> usize {
-        self.fresh_shots.div_ceil(PARTS)
+    pub fn first_validation_shots(&self) -> usize {
+        self.validation_shots.div_ceil(PARTS)
     }
 
     /// Whether the search should come to an end.
@@ -76,7 +76,7 @@ impl Default for Control<'_> {
     fn default() -> Self {
         Self {
             most_shots: 1 << 18,
-            fresh_shots: 1 << 16,
+            validation_shots: 1 << 16,
             stop: &NEVER,
             watch: &|_| (),
             checkpoint: None,

@@ -3,37 +3,37 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use super::accuracy::is_vague;
 use super::answer::Answer;
 use super::control::Control;
-use super::judge::Effort;
+use super::evaluator::Effort;
 use super::polish::Candidate;
 use super::search::Search;
+use super::stopping_rule::is_noisy;
 use super::tie::recommended;
-use crate::jet::{Fresh, purpose};
+use crate::jet::{ValidationSample, purpose};
 use crate::problem::Problem;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 use crate::verdict::Verdict;
 
 /// Evaluates what searches have found on shots that they have not seen.
 pub(super) struct Figures<'a> {
-    setup: &'a Setup,
+    scenario: &'a Scenario,
     effort: &'a Effort,
     most_shots: usize,
     stop: &'a AtomicBool,
-    fresh: Fresh,
+    validation: ValidationSample,
 }
 
 impl<'a> Figures<'a> {
     /// Draws a part of the shots.
-    pub fn new(setup: &'a Setup, control: &Control<'a>, effort: &'a Effort) -> Self {
-        let first = control.first_fresh_shots();
+    pub fn new(scenario: &'a Scenario, control: &Control<'a>, effort: &'a Effort) -> Self {
+        let first = control.first_validation_shots();
         Self {
-            setup,
+            scenario,
             effort,
-            most_shots: control.fresh_shots,
+            most_shots: control.validation_shots,
             stop: control.stop,
-            fresh: Fresh::new(&setup.problem, purpose::ANSWERS, first),
+            validation: ValidationSample::new(&scenario.problem, purpose::ANSWERS, first),
         }
     }
 
@@ -45,11 +45,13 @@ impl<'a> Figures<'a> {
 
     /// The answers again, where searches have gone on.
     pub fn renewed(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
-        let has_moved = |answer: &Answer, search: &Search| answer.choice != search.best().choice;
+        let has_moved =
+            |answer: &Answer, search: &Search| answer.settings != search.best().settings;
         let pairs = answers.iter().zip(searches);
         let moved = pairs.filter(|(answer, search)| has_moved(answer, search));
         let moved: Vec<&Candidate> = moved.map(|(_, search)| search.best()).collect();
-        let mut new = Answer::of_all(self.setup, &moved, &self.fresh, self.effort).into_iter();
+        let mut new =
+            Answer::of_all(self.scenario, &moved, &self.validation, self.effort).into_iter();
         let pairs = answers.into_iter().zip(searches);
         let renewed = pairs.filter_map(|(answer, search)| {
             if has_moved(&answer, search) {
@@ -65,31 +67,33 @@ impl<'a> Figures<'a> {
     /// Evaluates answers again on all shots that may be drawn, where those so far say too little: about
     /// J of a contact that could win, or about a verdict on the best one.
     fn sharpened(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
-        let problem = &self.setup.problem;
-        let has_all = problem.has_one_ray() || self.fresh.shots() >= self.most_shots;
+        let problem = &self.scenario.problem;
+        let has_all = problem.has_one_ray() || self.validation.shots() >= self.most_shots;
         if has_all
             || self.stop.load(Ordering::Relaxed)
-            || !(is_vague(&answers, problem) || is_open(&answers, problem))
+            || !(is_noisy(&answers, problem) || is_open(&answers, problem))
         {
             return answers;
         }
-        self.fresh = Fresh::new(problem, purpose::ANSWERS, self.most_shots);
+        self.validation = ValidationSample::new(problem, purpose::ANSWERS, self.most_shots);
         self.of(searches)
     }
 
     fn of(&self, searches: &[Search]) -> Vec<Answer> {
         let candidates: Vec<&Candidate> = searches.iter().map(Search::best).collect();
-        let on = |fresh: &Fresh| Answer::of_all(self.setup, &candidates, fresh, self.effort);
+        let on = |validation: &ValidationSample| {
+            Answer::of_all(self.scenario, &candidates, validation, self.effort)
+        };
         if self.stop.load(Ordering::Relaxed) {
-            let few = Fresh::new(&self.setup.problem, purpose::ANSWERS, FEW);
+            let few = ValidationSample::new(&self.scenario.problem, purpose::ANSWERS, FEW);
             let began = Instant::now();
             let roughly = on(&few);
-            let times = self.fresh.shots() as f64 / few.shots() as f64;
+            let times = self.validation.shots() as f64 / few.shots() as f64;
             if began.elapsed().as_secs_f64() * times > PATIENCE {
                 return roughly;
             }
         }
-        on(&self.fresh)
+        on(&self.validation)
     }
 }
 

@@ -9,16 +9,16 @@ use rayon::prelude::*;
 
 use super::SCREENING_SHOTS;
 use super::answer::Answer;
-use super::archive::{Archive, Judged, dominates, not_dominated, spread_out};
 use super::control::{Control, Progress};
-use super::judge::{Effort, Judge};
-use super::risks::{Risks, risks};
+use super::evaluator::{Effort, Evaluator};
+use super::objectives::{Objectives, objectives};
+use super::pareto_archive::{Evaluated, ParetoArchive, dominates, not_dominated, spread_out};
 use super::search::{STAGES, Search};
 use crate::elementary::hypot;
-use crate::evaluate::evaluate_focused;
-use crate::jet::{Fresh, Samples, Stream, purpose};
+use crate::evaluate::evaluate_adaptively;
+use crate::jet::{Samples, Stream, ValidationSample, purpose};
 use crate::precision::Precision;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 
 /// What can be had.
 #[derive(Clone, Debug)]
@@ -41,34 +41,43 @@ const MOST_SHOWN: usize = 12;
 const CONFIDENCE: f64 = 2.0;
 
 /// The front round answers that a search has found, the recommended one first.
-pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
+pub fn front(scenario: &Scenario, found: &[Answer], control: &Control) -> Front {
     let effort = Effort::default();
-    let archive = Archive::default();
-    let contacts = &setup.problem.settings.contact;
-    let runs: Vec<(Risks, usize)> = weightings(setup)
+    let archive = ParetoArchive::default();
+    let contacts = &scenario.problem.ranges.contact;
+    let runs: Vec<(Objectives, usize)> = weightings(scenario)
         .into_iter()
         .flat_map(|weights| contacts.iter().map(move |&contact| (weights, contact)))
         .collect();
-    let samples = Samples::with_rim(&setup.problem, Stream::Search, STAGES[1].shots);
+    let samples = Samples::with_boundary(&scenario.problem, Stream::Search, STAGES[1].shots);
     runs.par_iter().for_each(|&(weights, contact)| {
         search(
-            setup, weights, contact, &samples, &archive, &effort, control,
+            scenario, weights, contact, &samples, &archive, &effort, control,
         );
     });
-    let judged = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
-    let fresh = Fresh::new(&setup.problem, purpose::ANSWERS, control.fresh_shots);
-    let answer = |judged: &Judged| {
+    let evaluated = spread_out(not_dominated(archive.into_sorted()), MOST_EVALUATED);
+    let validation = ValidationSample::new(
+        &scenario.problem,
+        purpose::ANSWERS,
+        control.validation_shots,
+    );
+    let answer = |evaluated: &Evaluated| {
         if control.is_stopped() {
             return None;
         }
-        let evaluation = evaluate_focused(setup, &judged.choice, &fresh);
-        Some(Answer::feasible(setup, &judged.choice, evaluation, &effort))
+        let evaluation = evaluate_adaptively(scenario, &evaluated.settings, &validation);
+        Some(Answer::feasible(
+            scenario,
+            &evaluated.settings,
+            evaluation,
+            &effort,
+        ))
     };
-    let evaluated: Vec<Answer> = judged.par_iter().filter_map(answer).collect();
+    let evaluated: Vec<Answer> = evaluated.par_iter().filter_map(answer).collect();
     let all = found.iter().chain(&evaluated).filter_map(Measured::of);
     let all: Vec<Measured> = all.collect();
     let mut kept = apart(&all);
-    kept.sort_by(|a, b| a.risks[0].total_cmp(&b.risks[0]));
+    kept.sort_by(|a, b| a.objectives[0].total_cmp(&b.objectives[0]));
     let recommended = found.first().filter(|first| first.evaluation.is_some());
     let is_recommended =
         |it: &&Measured| recommended.is_some_and(|first| std::ptr::eq(it.answer, first));
@@ -81,14 +90,14 @@ pub fn front(setup: &Setup, found: &[Answer], control: &Control) -> Front {
 }
 
 /// Factors on the three risks, each weighting once: all alike, each one nearly alone, and between.
-fn weightings(setup: &Setup) -> Vec<Risks> {
-    let goals = &setup.problem.goals;
+fn weightings(scenario: &Scenario) -> Vec<Objectives> {
+    let goals = &scenario.problem.goals;
     let is_open = [
         true,
         goals
             .tangential_impulse
             .is_some_and(|goal| goal.weight > 0.0),
-        setup
+        scenario
             .surfaces
             .iter()
             .any(|limits| limits.allow.is_some() && limits.weight > 0.0),
@@ -114,8 +123,8 @@ fn weightings(setup: &Setup) -> Vec<Risks> {
 const ALMOST_NOTHING: f64 = 1e-6;
 
 /// The problem with factors on its weights.
-fn weighted(setup: &Setup, [target, tangential, rebound]: Risks) -> Setup {
-    let mut weighted = setup.clone();
+fn weighted(scenario: &Scenario, [target, tangential, rebound]: Objectives) -> Scenario {
+    let mut weighted = scenario.clone();
     let goals = &mut weighted.problem.goals;
     goals.normal_impulse.weight *= target;
     goals.miss.weight *= target;
@@ -130,21 +139,21 @@ fn weighted(setup: &Setup, [target, tangential, rebound]: Risks) -> Setup {
 
 /// One search with factors on the weights; what it judges in its last stage goes to the archive.
 fn search(
-    setup: &Setup,
-    weights: Risks,
+    scenario: &Scenario,
+    weights: Objectives,
     contact: usize,
     samples: &Samples,
-    archive: &Archive,
+    archive: &ParetoArchive,
     effort: &Effort,
     control: &Control,
 ) {
-    let weighted = weighted(setup, weights);
-    let judge = |shots: usize| {
-        let shots = shots.min(samples.deviates.len());
-        Judge::new(
+    let weighted = weighted(scenario, weights);
+    let evaluator = |shots: usize| {
+        let shots = shots.min(samples.shots.len());
+        Evaluator::new(
             &weighted,
             Precision::F64,
-            &samples.deviates[..shots],
+            &samples.shots[..shots],
             effort,
             control,
         )
@@ -152,10 +161,10 @@ fn search(
     if control.is_stopped() {
         return;
     }
-    let accuracy = setup.problem.accuracy;
-    let mut search = Search::screen(&weighted, contact, &judge(SCREENING_SHOTS));
-    search.refine(&judge(STAGES[0].shots), &STAGES[0], accuracy);
-    let last = judge(STAGES[1].shots).keeping(archive, weights);
+    let accuracy = scenario.problem.accuracy;
+    let mut search = Search::screen(&weighted, contact, &evaluator(SCREENING_SHOTS));
+    search.refine(&evaluator(STAGES[0].shots), &STAGES[0], accuracy);
+    let last = evaluator(STAGES[1].shots).keeping(archive, weights);
     search.refine(&last, &STAGES[1], accuracy);
     (control.watch)(Progress {
         poses: effort.poses(),
@@ -166,8 +175,8 @@ fn search(
 /// An answer with its risks and their standard errors.
 struct Measured<'a> {
     answer: &'a Answer,
-    risks: Risks,
-    errors: Risks,
+    objectives: Objectives,
+    errors: Objectives,
     total: f64,
 }
 
@@ -177,7 +186,7 @@ impl<'a> Measured<'a> {
         let errors = &evaluation.term_errors;
         Some(Self {
             answer,
-            risks: risks(&evaluation.terms),
+            objectives: objectives(&evaluation.terms),
             errors: [
                 hypot(errors.normal_impulse, errors.miss),
                 errors.tangential_impulse,
@@ -191,8 +200,8 @@ impl<'a> Measured<'a> {
     fn beats_somewhere(&self, other: &Self) -> bool {
         (0..3).any(|risk| {
             let error = hypot(self.errors[risk], other.errors[risk]);
-            let rounding = 1e-9 * (self.risks[risk] + other.risks[risk]);
-            self.risks[risk] < other.risks[risk] - (CONFIDENCE * error).max(rounding)
+            let rounding = 1e-9 * (self.objectives[risk] + other.objectives[risk]);
+            self.objectives[risk] < other.objectives[risk] - (CONFIDENCE * error).max(rounding)
         })
     }
 }
@@ -205,7 +214,7 @@ fn apart<'a, 'b>(all: &'b [Measured<'a>]) -> Vec<&'b Measured<'a>> {
     };
     let least = |risk: usize| {
         let by_risk = |a: &&Measured, b: &&Measured| {
-            let order = a.risks[risk].total_cmp(&b.risks[risk]);
+            let order = a.objectives[risk].total_cmp(&b.objectives[risk]);
             order.then(a.total.total_cmp(&b.total))
         };
         others.iter().min_by(by_risk)
@@ -226,7 +235,8 @@ fn apart<'a, 'b>(all: &'b [Measured<'a>]) -> Vec<&'b Measured<'a>> {
         let mut others = others.map(|(_, other)| other);
         index == 0
             || others.all(|other| {
-                !(dominates(&other.risks, &kept[index].risks) && other.beats_somewhere(kept[index]))
+                !(dominates(&other.objectives, &kept[index].objectives)
+                    && other.beats_somewhere(kept[index]))
             })
     };
     (0..kept.len())

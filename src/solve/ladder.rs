@@ -12,8 +12,8 @@ use rayon::prelude::*;
 
 use crate::precision::Precision;
 use crate::problem::model::{Effect, Model};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::verdict::Subject;
 
 /// What one effect does: the model without it against the whole model.
@@ -28,9 +28,9 @@ pub struct Rung {
     /// The verdicts that turn without it.
     pub turned: Vec<Subject>,
     /// The best settings near the leading ones without it, and with it.
-    pub best_without: Choice,
+    pub best_without: Settings,
     /// See `best_without`.
-    pub best_with: Choice,
+    pub best_with: Settings,
     /// By how much J of the whole model is higher at the former, relative.
     pub regret: f64,
     /// Rays of a pose without it over rays with it.
@@ -68,9 +68,9 @@ impl Rung {
 
 impl Ladder {
     /// Nothing was measured yet.
-    pub fn of(setup: &Setup) -> Self {
+    pub fn of(scenario: &Scenario) -> Self {
         Self {
-            model: setup.problem.model.clone(),
+            model: scenario.problem.model.clone(),
             ..Self::default()
         }
     }
@@ -83,7 +83,7 @@ impl Ladder {
 
     /// Lets the search trace in single precision, if that changes next to nothing at the best candidates.
     pub(super) fn choose_precision(&mut self, bench: &Bench) {
-        let tolerable = Precision::LITTLE * bench.setup.problem.accuracy;
+        let tolerable = Precision::LITTLE * bench.scenario.problem.accuracy;
         if bench.largest_change_in(Precision::F32) <= tolerable {
             self.precision = Precision::F32;
         }
@@ -121,7 +121,7 @@ impl Ladder {
 
     /// Leaves out one effect of a kind after the other as long as all of them together do not matter.
     fn leave_out(&mut self, bench: &Bench, share: f64, is_of_kind: impl Fn(Effect) -> bool) {
-        let tolerable = share * bench.setup.problem.accuracy;
+        let tolerable = share * bench.scenario.problem.accuracy;
         let mut left_out = self.left_out();
         for rung in &mut self.rungs {
             if rung.left_out || rung.matters(tolerable) || !is_of_kind(rung.effect) {
@@ -145,7 +145,7 @@ impl Ladder {
     /// Puts back the effects that matter at the best candidates by now, or the one that matters most
     /// where none does alone.
     pub(super) fn put_back(&mut self, bench: &Bench) {
-        let tolerable = TOLERABLE * bench.setup.problem.accuracy;
+        let tolerable = TOLERABLE * bench.scenario.problem.accuracy;
         let mut left_out: Vec<&mut Rung> =
             self.rungs.iter_mut().filter(|rung| rung.left_out).collect();
         for rung in &mut left_out {

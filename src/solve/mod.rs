@@ -7,41 +7,41 @@
 //! report the winner on shots that the search has not seen. The speed is not searched: its best value
 //! follows exactly from the traced paths wherever restitution does not depend on it.
 
-mod accuracy;
 mod answer;
-mod archive;
 mod control;
+mod evaluator;
 mod figures;
 mod front;
-mod judge;
 mod ladder;
 mod models;
+mod objectives;
+mod pareto_archive;
 mod polish;
-mod risks;
 mod search;
 mod space;
+mod stopping_rule;
 mod tie;
 mod window;
 
 pub use answer::Answer;
 pub use control::{Control, Progress, Shortcuts, Status};
+pub use evaluator::{Effort, Fitness};
 pub use front::{Front, front};
-pub use judge::{Effort, Standing};
 pub use ladder::{Ladder, Rung};
-pub use risks::{Risks, risks};
+pub use objectives::{Objectives, objectives};
 pub use tie::is_tie;
 pub use window::{Drift, Turn, Window, passing_windows, passing_windows_until, windows};
 
 use rayon::prelude::*;
 
-use crate::problem::setting::{Choice, Tolerance};
-use crate::setup::Setup;
-use accuracy::{Claim, is_in_reach, least_objective, unsettled};
+use crate::problem::setting::{Settings, Tolerance};
+use crate::scenario::Scenario;
+use evaluator::Evaluator;
 use figures::Figures;
-use judge::Judge;
 use models::Models;
 use search::{STAGES, STAGES_SET_EXACTLY, Search, Stage};
 use space::Space;
+use stopping_rule::{SearchEstimate, is_in_reach, least_objective, not_converged};
 use tie::ranked;
 
 /// What a search found.
@@ -78,36 +78,48 @@ const CHEAP_SHOTS: usize = 1024;
 const RISE: usize = 4;
 
 /// Choices for a contact, spread evenly over all settings: one where every setting is held.
-pub fn spread_choices(setup: &Setup, contact: usize, count: usize) -> Vec<Choice> {
-    let space = Space::new(&setup.problem, contact, true);
+pub fn spread_settings(scenario: &Scenario, contact: usize, count: usize) -> Vec<Settings> {
+    let space = Space::new(&scenario.problem, contact, true);
     let count = if space.dimensions() == 0 { 1 } else { count };
-    let seed = setup.problem.seed as u32;
+    let seed = scenario.problem.seed as u32;
     (0..count as u32)
-        .map(|index| space.choice(&space.spread(index, seed)))
+        .map(|index| space.settings(&space.spread(index, seed)))
         .collect()
 }
 
 /// Finds the best settings of a problem.
-pub fn solve(setup: &Setup, control: &Control) -> Solution {
+pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
     let effort = Effort::default();
-    let mut models = Models::new(setup);
+    let mut models = Models::new(scenario);
     let asked = models.asked.clone();
     let ((mut searches, mut shots), mut figures) = rayon::join(
         || descend(&mut models, control, &effort),
         || Figures::new(&asked, control, &effort),
     );
-    let mut claims = agree(&mut models, &mut searches, shots, control, &effort);
+    let mut estimates = agree(&mut models, &mut searches, shots, control, &effort);
     let mut answers = figures.all(&searches);
-    let problem = &setup.problem;
-    let mut open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
+    let problem = &scenario.problem;
+    let mut open = not_converged(
+        &estimates,
+        &answers,
+        problem,
+        shots,
+        control.validation_shots,
+    );
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         let stage = Stage::beyond(shots);
-        models.focus_on_harm(&searches, &effort, control);
+        models.importance_of(&searches, &effort, control);
         refine(&models, &mut searches, &open, &stage, control, &effort);
-        claims = agree(&mut models, &mut searches, shots, control, &effort);
+        estimates = agree(&mut models, &mut searches, shots, control, &effort);
         answers = figures.renewed(answers, &searches);
-        open = unsettled(&claims, &answers, problem, shots, control.fresh_shots);
+        open = not_converged(
+            &estimates,
+            &answers,
+            problem,
+            shots,
+            control.validation_shots,
+        );
     }
     if !control.is_stopped() {
         models.measure_unasked(&searches, &effort, control);
@@ -137,15 +149,15 @@ fn agree(
     shots: usize,
     control: &Control,
     effort: &Effort,
-) -> Vec<Claim> {
-    let mut claims = models.claims(searches, shots, control);
-    while !control.is_stopped() && models.put_back(searches, &claims, effort, control) {
+) -> Vec<SearchEstimate> {
+    let mut estimates = models.estimates(searches, shots, control);
+    while !control.is_stopped() && models.put_back(searches, &estimates, effort, control) {
         let all: Vec<usize> = (0..searches.len()).collect();
         let stage = Stage::beyond(shots);
         refine(models, searches, &all, &stage, control, effort);
-        claims = models.claims(searches, shots, control);
+        estimates = models.estimates(searches, shots, control);
     }
-    claims
+    estimates
 }
 
 /// Takes some of the searches through a stage, in turn.
@@ -158,9 +170,9 @@ fn refine(
     effort: &Effort,
 ) {
     let samples = models.draw(stage.shots);
-    let judge = models.judge(&samples, effort, control);
+    let evaluator = models.evaluator(&samples, effort, control);
     let accuracy = models.asked.problem.accuracy;
-    refine_in_turn(searches, which, &judge, stage, accuracy);
+    refine_in_turn(searches, which, &evaluator, stage, accuracy);
     tell(control, effort, searches);
 }
 
@@ -177,12 +189,12 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
     };
     let stages: Vec<&Stage> = all.iter().filter(affordable).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
-    let contacts = &models.asked.problem.settings.contact;
+    let contacts = &models.asked.problem.ranges.contact;
     let samples = models.draw(SCREENING_SHOTS);
-    let judge = models.judge(&samples, effort, control);
+    let evaluator = models.evaluator(&samples, effort, control);
     let mut searches: Vec<Search> = contacts
         .par_iter()
-        .map(|&contact| Search::screen(&models.searched, contact, &judge))
+        .map(|&contact| Search::screen(&models.searched, contact, &evaluator))
         .collect();
     if !control.is_stopped() {
         models.choose_precision(&searches, effort, control);
@@ -193,7 +205,7 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         }
         let before = searches.clone();
         if index > 0 {
-            models.focus_on_harm(&searches, effort, control);
+            models.importance_of(&searches, effort, control);
         }
         if stage.shots > CHEAP_SHOTS {
             models.leave_out_size(&mut searches, effort, control);
@@ -205,16 +217,17 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
         if index == 0 {
             models.climb(&mut searches, effort, control);
         } else if stage.shots < most_shots {
-            let mut claims = models.claims(&searches, stage.shots, control);
+            let mut estimates = models.estimates(&searches, stage.shots, control);
             // What was found without effects that matter leads astray: once more from where it began.
-            while !control.is_stopped() && models.put_back(&mut searches, &claims, effort, control)
+            while !control.is_stopped()
+                && models.put_back(&mut searches, &estimates, effort, control)
             {
                 let carried = |search: &Search| search.carried_over(&models.searched);
                 searches = before.iter().map(carried).collect();
                 advance(models, &mut searches, stage, control, effort);
-                claims = models.claims(&searches, stage.shots, control);
+                estimates = models.estimates(&searches, stage.shots, control);
             }
-            if is_set_exactly && models.are_sharp(&searches, stage.shots, effort) {
+            if is_set_exactly && models.are_precise(&searches, stage.shots, effort) {
                 return (searches, stage.shots);
             }
         }
@@ -238,10 +251,10 @@ fn advance(
         return refine(models, searches, &open, stage, control, effort);
     }
     let samples = models.draw(stage.shots);
-    let judge = models.judge(&samples, effort, control);
+    let evaluator = models.evaluator(&samples, effort, control);
     let accuracy = models.asked.problem.accuracy;
     let each = searches.par_iter_mut();
-    each.for_each(|search| search.refine(&judge, stage, accuracy));
+    each.for_each(|search| search.refine(&evaluator, stage, accuracy));
     tell(control, effort, searches);
 }
 
@@ -250,19 +263,19 @@ fn advance(
 fn refine_in_turn(
     searches: &mut [Search],
     which: &[usize],
-    judge: &Judge,
+    evaluator: &Evaluator,
     stage: &Stage,
     accuracy: f64,
 ) {
-    let rank = |search: &Search| search.best().standing.rank();
+    let rank = |search: &Search| search.best().fitness.rank();
     let mut order = which.to_vec();
     order.sort_by(|&a, &b| rank(&searches[a]).total_cmp(&rank(&searches[b])));
     let mut leader = order[0];
     let mut beside = vec![None; searches.len()];
-    searches[leader].refine(judge, stage, accuracy);
+    searches[leader].refine(evaluator, stage, accuracy);
     for &index in &order[1..] {
         let leading = searches[leader].best().clone();
-        searches[index].refine_beside(&leading, judge, stage, accuracy);
+        searches[index].refine_from_incumbent(&leading, evaluator, stage, accuracy);
         beside[index] = Some(leader);
         if rank(&searches[index]) < rank(&searches[leader]) {
             leader = index;
@@ -271,7 +284,7 @@ fn refine_in_turn(
     let leading = searches[leader].best().clone();
     for (index, search) in searches.iter_mut().enumerate() {
         if index != leader && beside[index] != Some(leader) {
-            search.follow(&leading, judge, stage, accuracy);
+            search.follow(&leading, evaluator, stage, accuracy);
         }
     }
 }

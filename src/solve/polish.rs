@@ -5,9 +5,9 @@ use std::cell::RefCell;
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::neldermead::NelderMead;
 
-use super::judge::{Judge, Standing};
+use super::evaluator::{Evaluator, Fitness};
 use super::space::Space;
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
 
 /// A point of the search with what it is worth.
 #[derive(Clone, Debug)]
@@ -15,30 +15,30 @@ pub struct Candidate {
     /// Coordinates in the unit cube; any number on a periodic axis.
     pub point: Vec<f64>,
     /// The settings there, with the best speed.
-    pub choice: Choice,
+    pub settings: Settings,
     /// What they are worth on the shots they were judged on.
-    pub standing: Standing,
+    pub fitness: Fitness,
 }
 
 impl Candidate {
     /// Judges a point.
-    pub fn at(space: &Space, judge: &Judge, point: &[f64]) -> Self {
-        Self::beside(f64::INFINITY, space, judge, point)
+    pub fn at(space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
+        Self::beside(f64::INFINITY, space, evaluator, point)
     }
 
     /// Judges a point, roughly where it is far above the best J so far.
-    fn beside(best: f64, space: &Space, judge: &Judge, point: &[f64]) -> Self {
-        let (choice, standing) = judge.judge(&space.choice(point), best);
+    fn beside(best: f64, space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
+        let (settings, fitness) = evaluator.evaluator(&space.settings(point), best);
         Self {
             point: space.within(point),
-            choice,
-            standing,
+            settings,
+            fitness,
         }
     }
 
     /// This one, or another that is better.
     pub fn or_better(self, other: Self) -> Self {
-        if other.standing.rank() < self.standing.rank() {
+        if other.fitness.rank() < self.fitness.rank() {
             other
         } else {
             self
@@ -50,7 +50,7 @@ impl Candidate {
 /// ends early.
 struct Descent<'a> {
     space: &'a Space,
-    judge: &'a Judge<'a>,
+    evaluator: &'a Evaluator<'a>,
     /// The first simplex: argmin asks for its corners again.
     corners: &'a [Candidate],
     /// As many points as a simplex has, the best one first.
@@ -62,20 +62,20 @@ impl CostFunction for &Descent<'_> {
     type Output = f64;
 
     fn cost(&self, point: &Vec<f64>) -> Result<f64, Error> {
-        if self.judge.is_stopped() {
+        if self.evaluator.is_stopped() {
             // A flat cost ends the run at once.
             return Ok(f64::MAX);
         }
         if let Some(corner) = self.corners.iter().find(|corner| corner.point == *point) {
-            return Ok(corner.standing.rank());
+            return Ok(corner.fitness.rank());
         }
         let mut leading = self.leading.borrow_mut();
-        let best = leading[0].standing.rank();
-        let candidate = Candidate::beside(best, self.space, self.judge, point);
-        let rank = candidate.standing.rank();
+        let best = leading[0].fitness.rank();
+        let candidate = Candidate::beside(best, self.space, self.evaluator, point);
+        let rank = candidate.fitness.rank();
         let pairs = point.iter().zip(&candidate.point);
         let outside: f64 = pairs.map(|(x, within)| (x - within).abs()).sum();
-        let place = leading.partition_point(|other| other.standing.rank() <= rank);
+        let place = leading.partition_point(|other| other.fitness.rank() <= rank);
         leading.insert(place, candidate);
         leading.truncate(self.corners.len());
         // Were it as flat beyond a bound as it is on it, a simplex would fall over to the outside and
@@ -89,26 +89,26 @@ impl CostFunction for &Descent<'_> {
 /// valley the values may be alike on both sides.
 pub fn polish(
     space: &Space,
-    judge: &Judge,
+    evaluator: &Evaluator,
     start: Candidate,
     size: f64,
     accuracy: f64,
 ) -> Candidate {
-    if space.dimensions() == 0 || judge.is_stopped() {
+    if space.dimensions() == 0 || evaluator.is_stopped() {
         return start;
     }
-    let start = best_bound(space, judge, start);
-    let mut leading = descend(space, judge, start, size, accuracy);
+    let start = best_bound(space, evaluator, start);
+    let mut leading = descend(space, evaluator, start, size, accuracy);
     for _ in 0..MOST_DESCENTS {
-        if judge.is_stopped() {
+        if evaluator.is_stopped() {
             break;
         }
-        let middle = Candidate::at(space, judge, &middle(&leading));
+        let middle = Candidate::at(space, evaluator, &middle(&leading));
         let best = &leading[0];
-        if middle.standing.rank() >= best.standing.rank() * (1.0 - accuracy) {
+        if middle.fitness.rank() >= best.fitness.rank() * (1.0 - accuracy) {
             return best.clone().or_better(middle);
         }
-        leading = descend(space, judge, middle, 0.5 * extent(&leading), accuracy);
+        leading = descend(space, evaluator, middle, 0.5 * extent(&leading), accuracy);
     }
     leading.swap_remove(0)
 }
@@ -116,18 +116,18 @@ pub fn polish(
 /// The best points found downhill from `start`, the very best one first.
 fn descend(
     space: &Space,
-    judge: &Judge,
+    evaluator: &Evaluator,
     start: Candidate,
     size: f64,
     accuracy: f64,
 ) -> Vec<Candidate> {
-    let scale = start.standing.rank().max(f64::MIN_POSITIVE);
-    let corners = first_simplex(space, judge, &start, size);
+    let scale = start.fitness.rank().max(f64::MIN_POSITIVE);
+    let corners = first_simplex(space, evaluator, &start, size);
     let mut leading = corners.clone();
-    leading.sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
+    leading.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
     let descent = Descent {
         space,
-        judge,
+        evaluator,
         corners: &corners,
         leading: RefCell::new(leading),
     };
@@ -167,17 +167,17 @@ const MOST_DESCENTS: usize = 3;
 
 /// The start, or a better point where one coordinate is on a bound: that is where the best value of
 /// a setting often is, and from afar a descent creeps towards it.
-fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
+fn best_bound(space: &Space, evaluator: &Evaluator, start: Candidate) -> Candidate {
     let mut best = start;
     for axis in 0..space.dimensions() {
         for bound in [0.0, 1.0] {
-            if best.point[axis] == bound || judge.is_stopped() {
+            if best.point[axis] == bound || evaluator.is_stopped() {
                 continue;
             }
             let mut point = best.point.clone();
             point[axis] = bound;
-            let rank = best.standing.rank();
-            best = best.or_better(Candidate::beside(rank, space, judge, &point));
+            let rank = best.fitness.rank();
+            best = best.or_better(Candidate::beside(rank, space, evaluator, &point));
         }
     }
     best
@@ -186,8 +186,13 @@ fn best_bound(space: &Space, judge: &Judge, start: Candidate) -> Candidate {
 /// A simplex whose edges are so short that J rises by no more than a moderate share along them:
 /// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
 /// into a narrow valley loses sight of the valley's length.
-fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> Vec<Candidate> {
-    let rank = start.standing.rank();
+fn first_simplex(
+    space: &Space,
+    evaluator: &Evaluator,
+    start: &Candidate,
+    size: f64,
+) -> Vec<Candidate> {
+    let rank = start.fitness.rank();
     let corner = |axis: usize| {
         // Inwards, so that a start on a bound does not make a flat simplex.
         let towards_middle = if start.point[axis] > 0.5 { -1.0 } else { 1.0 };
@@ -195,10 +200,10 @@ fn first_simplex(space: &Space, judge: &Judge, start: &Candidate, size: f64) -> 
         loop {
             let mut point = start.point.clone();
             point[axis] += towards_middle * edge;
-            let corner = Candidate::beside(rank, space, judge, &point);
-            let rise = corner.standing.rank() / rank - 1.0;
+            let corner = Candidate::beside(rank, space, evaluator, &point);
+            let rise = corner.fitness.rank() / rank - 1.0;
             let is_short = edge <= SHORTEST_EDGE * size;
-            if is_short || rise <= STEEPEST_EDGE || judge.is_stopped() {
+            if is_short || rise <= STEEPEST_EDGE || evaluator.is_stopped() {
                 return corner;
             }
             edge *= if rise > FAR_TOO_STEEP { 0.25 } else { 0.5 };

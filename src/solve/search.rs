@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::judge::Judge;
+use super::evaluator::Evaluator;
 use super::polish::{Candidate, polish};
 use super::space::Space;
-use crate::setup::Setup;
+use crate::scenario::Scenario;
 
 /// A stage of the search.
 #[derive(Clone, Copy)]
@@ -74,12 +74,18 @@ impl Stage {
     }
 
     /// Where the descents from a candidate end.
-    fn descent(&self, space: &Space, judge: &Judge, start: Candidate, accuracy: f64) -> Candidate {
+    fn descent(
+        &self,
+        space: &Space,
+        evaluator: &Evaluator,
+        start: Candidate,
+        accuracy: f64,
+    ) -> Candidate {
         let descents = 0..self.descents;
         descents.fold(start, |best, _| {
             let next = polish(
                 space,
-                judge,
+                evaluator,
                 best.clone(),
                 self.size,
                 self.settled * accuracy,
@@ -96,13 +102,17 @@ pub(super) struct Search {
     /// Best first.
     candidates: Vec<Candidate>,
     /// Whether any place of the screening did harm.
-    has_met_harm: bool,
+    has_violations: bool,
 }
 
 impl Search {
     /// Judges a low-discrepancy set of points all over the space.
-    pub fn screen(setup: &Setup, contact: usize, judge: &Judge) -> Self {
-        let space = Space::new(&setup.problem, contact, !setup.speed_scales_out(contact));
+    pub fn screen(scenario: &Scenario, contact: usize, evaluator: &Evaluator) -> Self {
+        let space = Space::new(
+            &scenario.problem,
+            contact,
+            !scenario.speed_scales_out(contact),
+        );
         let dimensions = space.dimensions();
         let points = match dimensions {
             0 => 1,
@@ -111,16 +121,16 @@ impl Search {
             3 => 192,
             _ => 128 * dimensions,
         };
-        let seed = setup.problem.seed as u32;
+        let seed = scenario.problem.seed as u32;
         // When it is told to stop, one is enough to answer with.
         let candidates: Vec<Candidate> = (0..points as u32)
             .into_par_iter()
-            .filter(|&index| index == 0 || !judge.is_stopped())
-            .map(|index| Candidate::at(&space, judge, &space.spread(index, seed)))
+            .filter(|&index| index == 0 || !evaluator.is_stopped())
+            .map(|index| Candidate::at(&space, evaluator, &space.spread(index, seed)))
             .collect();
         let mut search = Self {
             space,
-            has_met_harm: candidates.iter().any(|it| it.standing.does_harm()),
+            has_violations: candidates.iter().any(|it| it.fitness.violates()),
             candidates,
         };
         search.sort();
@@ -134,16 +144,20 @@ impl Search {
 
     /// Whether shots missed or met secondary surfaces anywhere when it looked all over the settings: then
     /// there are cliffs.
-    pub fn has_met_harm(&self) -> bool {
-        self.has_met_harm
+    pub fn has_violations(&self) -> bool {
+        self.has_violations
     }
 
     /// The same candidates in the space of another model of the same problem.
-    pub fn carried_over(&self, setup: &Setup) -> Self {
-        let contact = self.best().choice.contact;
-        let space = Space::new(&setup.problem, contact, !setup.speed_scales_out(contact));
+    pub fn carried_over(&self, scenario: &Scenario) -> Self {
+        let contact = self.best().settings.contact;
+        let space = Space::new(
+            &scenario.problem,
+            contact,
+            !scenario.speed_scales_out(contact),
+        );
         let carried = |candidate: &Candidate| Candidate {
-            point: space.point(&candidate.choice),
+            point: space.point(&candidate.settings),
             ..candidate.clone()
         };
         Self {
@@ -155,11 +169,11 @@ impl Search {
 
     fn sort(&mut self) {
         self.candidates
-            .sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
+            .sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
     }
 
     /// Goes on from the best few candidates with more shots.
-    pub fn refine(&mut self, judge: &Judge, stage: &Stage, accuracy: f64) {
+    pub fn refine(&mut self, evaluator: &Evaluator, stage: &Stage, accuracy: f64) {
         let space = &self.space;
         let mut starts: Vec<Candidate> = Vec::new();
         for candidate in &self.candidates {
@@ -173,31 +187,37 @@ impl Search {
         self.candidates = starts
             .into_par_iter()
             .map(|start| {
-                let start = Candidate::at(space, judge, &start.point);
-                stage.descent(space, judge, start, accuracy)
+                let start = Candidate::at(space, evaluator, &start.point);
+                stage.descent(space, evaluator, start, accuracy)
             })
             .collect();
         self.sort();
     }
 
     /// Goes on from the best candidate with more shots, or from where another contact is best.
-    pub fn refine_beside(
+    pub fn refine_from_incumbent(
         &mut self,
         leader: &Candidate,
-        judge: &Judge,
+        evaluator: &Evaluator,
         stage: &Stage,
         accuracy: f64,
     ) {
-        let here = Candidate::at(&self.space, judge, &self.best().point);
-        let found = self.beside(&here, leader, judge, stage, accuracy);
-        let own = || stage.descent(&self.space, judge, here, accuracy);
+        let here = Candidate::at(&self.space, evaluator, &self.best().point);
+        let found = self.beside(&here, leader, evaluator, stage, accuracy);
+        let own = || stage.descent(&self.space, evaluator, here, accuracy);
         self.candidates = vec![found.unwrap_or_else(own)];
     }
 
     /// Goes on from where another contact is best, if that is better than where this one is.
-    pub fn follow(&mut self, leader: &Candidate, judge: &Judge, stage: &Stage, accuracy: f64) {
-        let here = Candidate::at(&self.space, judge, &self.best().point);
-        if let Some(found) = self.beside(&here, leader, judge, stage, accuracy) {
+    pub fn follow(
+        &mut self,
+        leader: &Candidate,
+        evaluator: &Evaluator,
+        stage: &Stage,
+        accuracy: f64,
+    ) {
+        let here = Candidate::at(&self.space, evaluator, &self.best().point);
+        if let Some(found) = self.beside(&here, leader, evaluator, stage, accuracy) {
             self.candidates = vec![found];
         }
     }
@@ -211,28 +231,28 @@ impl Search {
         &self,
         here: &Candidate,
         leader: &Candidate,
-        judge: &Judge,
+        evaluator: &Evaluator,
         stage: &Stage,
         accuracy: f64,
     ) -> Option<Candidate> {
         if leader.point.len() != self.space.dimensions() {
             return None;
         }
-        let at = |point: &[f64]| Candidate::at(&self.space, judge, point);
+        let at = |point: &[f64]| Candidate::at(&self.space, evaluator, point);
         let there = at(&leader.point);
-        if here.standing.rank() <= there.standing.rank() {
+        if here.fitness.rank() <= there.fitness.rank() {
             return None;
         }
         let back = |share: f64| at(&between(&there.point, &here.point, share));
         let way_back = WAY_BACK.map(back).into_iter();
         let start = way_back.fold(there.clone(), Candidate::or_better);
         let little = 0.5 * accuracy;
-        let is_close = there.standing.rank() <= leader.standing.rank() * (1.0 + little);
-        let gains = start.standing.rank() < there.standing.rank() * (1.0 - little);
+        let is_close = there.fitness.rank() <= leader.fitness.rank() * (1.0 + little);
+        let gains = start.fitness.rank() < there.fitness.rank() * (1.0 - little);
         Some(if is_close && !gains {
             start
         } else {
-            stage.descent(&self.space, judge, start, accuracy)
+            stage.descent(&self.space, evaluator, start, accuracy)
         })
     }
 }
@@ -253,7 +273,7 @@ mod tests {
     use crate::jet::{Samples, Stream};
     use crate::precision::Precision;
     use crate::problem::model::Effect;
-    use crate::problem::setting::Choice;
+    use crate::problem::setting::Settings;
     use crate::solve::{Control, Effort};
 
     const DRY: usize = 0;
@@ -262,81 +282,81 @@ mod tests {
     const STAGE: &Stage = &STAGES[2];
     const ACCURACY: f64 = 0.01;
 
-    fn setup() -> Setup {
+    fn scenario() -> Scenario {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway-long.yaml");
-        let (mut setup, _) = Setup::load(&file).expect("it is sound");
-        setup.problem.paths.shot_size = false;
-        setup
+        let (mut scenario, _) = Scenario::load(&file).expect("it is sound");
+        scenario.problem.paths.shot_size = false;
+        scenario
     }
 
     /// Runs with a judge and a search that stands at an incidence, deg.
-    fn on_common_shots(check: impl Fn(&Judge, &dyn Fn(usize, f64) -> Search)) {
-        let setup = setup();
-        let shots = Samples::with_rim(&setup.problem, Stream::Search, 1024).deviates;
+    fn on_common_shots(check: impl Fn(&Evaluator, &dyn Fn(usize, f64) -> Search)) {
+        let scenario = scenario();
+        let shots = Samples::with_boundary(&scenario.problem, Stream::Search, 1024).shots;
         let (effort, control) = (Effort::default(), Control::default());
-        let judge = Judge::new(&setup, Precision::F64, &shots, &effort, &control);
+        let evaluator = Evaluator::new(&scenario, Precision::F64, &shots, &effort, &control);
         let search = |contact: usize, degrees: f64| {
-            let space = Space::new(&setup.problem, contact, false);
-            let choice = Choice {
+            let space = Space::new(&scenario.problem, contact, false);
+            let settings = Settings {
                 incidence: degrees.to_radians(),
                 azimuth: 0.0,
                 standoff: 6e-3,
-                ..space.choice(&space.spread(0, 0))
+                ..space.settings(&space.spread(0, 0))
             };
-            let candidates = vec![Candidate::at(&space, &judge, &space.point(&choice))];
+            let candidates = vec![Candidate::at(&space, &evaluator, &space.point(&settings))];
             Search {
                 space,
                 candidates,
-                has_met_harm: true,
+                has_violations: true,
             }
         };
-        check(&judge, &search);
+        check(&evaluator, &search);
     }
 
     fn rank(search: &Search) -> f64 {
-        search.best().standing.rank()
+        search.best().fitness.rank()
     }
 
     #[test]
     fn a_contact_beyond_its_cliff_does_not_stop_at_that_of_another() {
-        on_common_shots(|judge, search| {
+        on_common_shots(|evaluator, search| {
             // J of both is the same at 42.6 deg, but oiled walls allow 44.3 deg.
             let (damp, mut oiled) = (search(DAMP, 42.6), search(OILED, 45.8));
             assert!(rank(&oiled) > 1.02 * rank(&damp));
-            oiled.follow(damp.best(), judge, STAGE, ACCURACY);
+            oiled.follow(damp.best(), evaluator, STAGE, ACCURACY);
             assert!(rank(&oiled) < 0.97 * rank(&damp), "{}", rank(&oiled));
         });
     }
 
     #[test]
     fn a_descent_that_begins_on_a_bound_finds_what_is_better_inside() {
-        let setup = setup();
-        let space = Space::new(&setup.problem, DRY, false);
+        let scenario = scenario();
+        let space = Space::new(&scenario.problem, DRY, false);
         let point = [0.0, 0.5020436366399129, 0.5086951096852622];
         let effects = [Effect::ExitWidth, Effect::LaterRebounds, Effect::Spin];
-        let setup = setup.without(&effects, &space.choice(&point));
-        let shots = Samples::with_rim(&setup.problem, Stream::Search, 1024).deviates;
+        let scenario = scenario.without(&effects, &space.settings(&point));
+        let shots = Samples::with_boundary(&scenario.problem, Stream::Search, 1024).shots;
         let (effort, control) = (Effort::default(), Control::default());
-        let judge = Judge::new(&setup, Precision::F64, &shots, &effort, &control);
-        let candidates = vec![Candidate::at(&space, &judge, &point)];
+        let evaluator = Evaluator::new(&scenario, Precision::F64, &shots, &effort, &control);
+        let candidates = vec![Candidate::at(&space, &evaluator, &point)];
         let mut search = Search {
             space,
             candidates,
-            has_met_harm: true,
+            has_violations: true,
         };
         // J falls by 3 % from the bound to the cliff at 33.3 deg, and is higher again beyond.
         let on_bound = rank(&search);
-        search.refine(&judge, &STAGES_SET_EXACTLY[1], ACCURACY);
+        search.refine(&evaluator, &STAGES_SET_EXACTLY[1], ACCURACY);
         assert!(rank(&search) < 0.98 * on_bound, "{}", rank(&search));
     }
 
     #[test]
     fn a_contact_that_is_better_where_it_is_stays_there() {
-        on_common_shots(|judge, search| {
+        on_common_shots(|evaluator, search| {
             let (damp, mut oiled) = (search(DAMP, 42.6), search(OILED, 44.2));
-            let before = oiled.best().choice;
-            oiled.follow(damp.best(), judge, STAGE, ACCURACY);
-            assert_eq!(oiled.best().choice, before);
+            let before = oiled.best().settings;
+            oiled.follow(damp.best(), evaluator, STAGE, ACCURACY);
+            assert_eq!(oiled.best().settings, before);
         });
     }
 }

@@ -1,13 +1,13 @@
 //! The settings that are searched, as points of the unit cube.
 
 use crate::problem::Problem;
-use crate::problem::setting::{Choice, Range, Setting};
+use crate::problem::setting::{Range, Setting, Settings};
 
 /// The searched settings of one contact.
 #[derive(Clone, Debug)]
 pub struct Space {
     axes: Vec<Axis>,
-    base: Choice,
+    base: Settings,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -32,17 +32,17 @@ impl Axis {
 impl Space {
     /// The space of a contact. The speed has an axis only where it cannot be taken out.
     pub fn new(problem: &Problem, contact: usize, search_speed: bool) -> Self {
-        let settings = &problem.settings;
+        let ranges = &problem.ranges;
         let friction = problem.contacts[contact].static_friction;
-        let base = Choice {
+        let base = Settings {
             contact,
             static_friction: friction.min,
-            ..settings.at(0.0)
+            ..ranges.at(0.0)
         };
         let of_the_nozzle = Setting::OF_THE_NOZZLE
             .into_iter()
             .filter(|&setting| setting != Setting::Speed || search_speed)
-            .filter_map(|setting| Some((setting, settings.range(setting)?)));
+            .filter_map(|setting| Some((setting, ranges.range(setting)?)));
         let axes = of_the_nozzle
             .chain([(Setting::StaticFriction, friction)])
             .filter(|(_, range)| !range.is_held())
@@ -69,8 +69,8 @@ impl Space {
 
     /// The choice at a point; coordinates outside 0 to 1 go round on a periodic axis and stop at
     /// the bound on any other.
-    pub fn choice(&self, point: &[f64]) -> Choice {
-        let mut choice = self.base;
+    pub fn settings(&self, point: &[f64]) -> Settings {
+        let mut settings = self.base;
         for (axis, &coordinate) in self.axes.iter().zip(point) {
             let coordinate = axis.within(coordinate);
             let fraction = if axis.periodic {
@@ -78,9 +78,9 @@ impl Space {
             } else {
                 coordinate
             };
-            choice = axis.setting.with(&choice, axis.range.at(fraction));
+            settings = axis.setting.with(&settings, axis.range.at(fraction));
         }
-        choice
+        settings
     }
 
     /// The nearest point within the bounds.
@@ -90,9 +90,9 @@ impl Space {
     }
 
     /// The point of a choice.
-    pub fn point(&self, choice: &Choice) -> Vec<f64> {
+    pub fn point(&self, settings: &Settings) -> Vec<f64> {
         let coordinate =
-            |axis: &Axis| (axis.setting.of(choice) - axis.range.min) / axis.range.width();
+            |axis: &Axis| (axis.setting.of(settings) - axis.range.min) / axis.range.width();
         self.axes.iter().map(coordinate).collect()
     }
 

@@ -23,7 +23,7 @@ pub fn is_tie((least, least_error): Measured, (other, error): Measured, accuracy
 /// fewer than it, stand in the order of the file's contacts.
 pub(super) fn ranked(mut answers: Vec<Answer>, problem: &Problem) -> Vec<Answer> {
     answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
-    let Some(best) = answers.first().and_then(standing) else {
+    let Some(best) = answers.first().and_then(fitness) else {
         return answers;
     };
     let (mut tied, behind): (Vec<Answer>, Vec<Answer>) = answers
@@ -38,29 +38,29 @@ pub(super) fn ranked(mut answers: Vec<Answer>, problem: &Problem) -> Vec<Answer>
 pub(super) fn recommended<'a>(answers: &'a [Answer], problem: &Problem) -> Option<&'a Answer> {
     let all = answers.iter();
     let least = all.min_by(|a, b| a.order().total_cmp(&b.order()))?;
-    let Some(best) = standing(least) else {
+    let Some(best) = fitness(least) else {
         return Some(least);
     };
     let tied = answers.iter().filter(|answer| ties(answer, best, problem));
     tied.min_by_key(|answer| place_in_file(answer, problem))
 }
 
-fn ties(answer: &Answer, (least, failing): Standing, problem: &Problem) -> bool {
-    standing(answer).is_some_and(|(measured, fails)| {
+fn ties(answer: &Answer, (least, failing): Fitness, problem: &Problem) -> bool {
+    fitness(answer).is_some_and(|(measured, fails)| {
         fails == failing && is_tie(least, measured, problem.accuracy)
     })
 }
 
 fn place_in_file(answer: &Answer, problem: &Problem) -> Option<usize> {
-    let mut contacts = problem.settings.contact.iter();
-    contacts.position(|&contact| contact == answer.choice.contact)
+    let mut contacts = problem.ranges.contact.iter();
+    contacts.position(|&contact| contact == answer.settings.contact)
 }
 
 /// J with its standard error, and how many verdicts fail.
-type Standing = (Measured, usize);
+type Fitness = (Measured, usize);
 
 /// Where the nozzle fits.
-fn standing(answer: &Answer) -> Option<Standing> {
+fn fitness(answer: &Answer) -> Option<Fitness> {
     let failing = answer.verdicts.iter().filter(|verdict| !verdict.passes());
     let measured = (answer.objective()?, answer.standard_error());
     Some((measured, failing.count()))

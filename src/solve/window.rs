@@ -9,8 +9,8 @@ use crate::elementary::whole_power;
 use crate::evaluate::{Counts, Survey};
 use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::{Replicate, Replicates, purpose};
-use crate::problem::setting::{Choice, Range, Setting};
-use crate::setup::Setup;
+use crate::problem::setting::{Range, Setting, Settings};
+use crate::scenario::Scenario;
 use crate::verdict::{Subject, Verdict};
 
 /// The window of one setting round a choice.
@@ -52,12 +52,16 @@ const HALVINGS: usize = 6;
 const DOUBLINGS: i32 = 5;
 
 /// The windows round the best answer, for the verdicts that it passes; none without a pose that fits.
-pub fn passing_windows(setup: &Setup, solution: &Solution) -> Vec<Window> {
-    passing_windows_until(setup, solution, &AtomicBool::new(false))
+pub fn passing_windows(scenario: &Scenario, solution: &Solution) -> Vec<Window> {
+    passing_windows_until(scenario, solution, &AtomicBool::new(false))
 }
 
 /// The same, without those that are not known when `stop` is set.
-pub fn passing_windows_until(setup: &Setup, solution: &Solution, stop: &AtomicBool) -> Vec<Window> {
+pub fn passing_windows_until(
+    scenario: &Scenario,
+    solution: &Solution,
+    stop: &AtomicBool,
+) -> Vec<Window> {
     let Some(best) = solution.answers.first() else {
         return Vec::new();
     };
@@ -70,8 +74,9 @@ pub fn passing_windows_until(setup: &Setup, solution: &Solution, stop: &AtomicBo
         .filter(|verdict| verdict.passes())
         .map(|verdict| verdict.subject)
         .collect();
-    let fresh = Replicates::without_rim(&setup.problem, purpose::WINDOWS, WINDOW_SHOTS);
-    windows_until(setup, &best.choice, &passing, &fresh, stop)
+    let validation =
+        Replicates::without_boundary(&scenario.problem, purpose::WINDOWS, WINDOW_SHOTS);
+    windows_until(scenario, &best.settings, &passing, &validation, stop)
 }
 
 /// Shots behind each verdict of a window at most.
@@ -79,125 +84,144 @@ const WINDOW_SHOTS: usize = 4096;
 
 /// The windows of all settings that have a range, each as far as its range goes.
 pub fn windows(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     passing: &[Subject],
-    fresh: &Replicates,
+    validation: &Replicates,
 ) -> Vec<Window> {
-    windows_until(setup, choice, passing, fresh, &AtomicBool::new(false))
+    windows_until(
+        scenario,
+        settings,
+        passing,
+        validation,
+        &AtomicBool::new(false),
+    )
 }
 
 fn windows_until(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     passing: &[Subject],
-    fresh: &Replicates,
+    validation: &Replicates,
     stop: &AtomicBool,
 ) -> Vec<Window> {
     let is_stopped = || stop.load(Ordering::Relaxed);
-    let settings: Vec<(Setting, Range)> = Setting::OF_THE_NOZZLE
+    let ranges: Vec<(Setting, Range)> = Setting::OF_THE_NOZZLE
         .into_iter()
-        .filter_map(|setting| Some((setting, setup.problem.settings.range(setting)?)))
+        .filter_map(|setting| Some((setting, scenario.problem.ranges.range(setting)?)))
         .filter(|(_, range)| !range.is_held())
         .collect();
-    let shares_paths = setup.speed_scales_out(choice.contact);
+    let shares_paths = scenario.speed_scales_out(settings.contact);
     let window = |&(setting, Range { min, max }): &(Setting, Range)| {
         // A window that is cut short says nothing.
         let drift = |end: f64, shots: &mut dyn Shots| {
-            drift(setup, choice, (setting, end), passing, shots, stop)
+            drift(scenario, settings, (setting, end), passing, shots, stop)
         };
         let (down, up) = if setting == Setting::Speed && shares_paths {
-            let mut shots = Recorded::of(setup, choice, fresh);
+            let mut shots = Recorded::of(scenario, settings, validation);
             (drift(min, &mut shots), drift(max, &mut shots))
         } else {
-            let traced = || Traced { setup, fresh };
+            let traced = || Traced {
+                scenario,
+                validation,
+            };
             rayon::join(|| drift(min, &mut traced()), || drift(max, &mut traced()))
         };
         (!is_stopped()).then_some(Window { setting, down, up })
     };
-    settings.par_iter().filter_map(window).collect()
+    ranges.par_iter().filter_map(window).collect()
 }
 
 /// Shots that tell what turns at a choice, some sets after the other.
 trait Shots {
     /// What some of them do; `None` beyond the last.
-    fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts>;
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Counts>;
 }
 
 /// Scramblings that are fired together.
 const SETS: usize = 2;
 
 /// Surveys of some of the sets, those that are fired together; `None` beyond the last.
-fn surveys(setup: &Setup, choice: &Choice, fresh: &Replicates, part: usize) -> Option<Vec<Survey>> {
-    let sets = fresh.sets.chunks(SETS).nth(part)?.par_iter();
-    let survey = |set: &Replicate| Survey::of(setup, choice, &set.jet.deviates);
+fn surveys(
+    scenario: &Scenario,
+    settings: &Settings,
+    validation: &Replicates,
+    part: usize,
+) -> Option<Vec<Survey>> {
+    let sets = validation.sets.chunks(SETS).nth(part)?.par_iter();
+    let survey = |set: &Replicate| Survey::of(scenario, settings, &set.jet.shots);
     Some(sets.map(survey).collect())
 }
 
 /// What is seen in them with shots of some speed, m/s.
-fn counts(setup: &Setup, surveys: &[Survey], speed: f64) -> Counts {
-    let each = surveys.iter().map(|survey| survey.counts(setup, speed));
-    Counts::together(setup, each)
+fn counts(scenario: &Scenario, surveys: &[Survey], speed: f64) -> Counts {
+    let each = surveys.iter().map(|survey| survey.counts(scenario, speed));
+    Counts::together(scenario, each)
 }
 
 /// Shots that are traced at every choice.
 struct Traced<'a> {
-    setup: &'a Setup,
-    fresh: &'a Replicates,
+    scenario: &'a Scenario,
+    validation: &'a Replicates,
 }
 
 impl Shots for Traced<'_> {
-    fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
-        let surveys = surveys(self.setup, choice, self.fresh, part)?;
-        Some(counts(self.setup, &surveys, choice.speed))
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Counts> {
+        let surveys = surveys(self.scenario, settings, self.validation, part)?;
+        Some(counts(self.scenario, &surveys, settings.speed))
     }
 }
 
 /// Shots at choices that differ in the speed only, on which their paths do not depend.
 struct Recorded<'a> {
-    setup: &'a Setup,
-    choice: &'a Choice,
-    fresh: &'a Replicates,
+    scenario: &'a Scenario,
+    settings: &'a Settings,
+    validation: &'a Replicates,
     /// Those that were asked for.
     seen: Vec<Vec<Survey>>,
 }
 
 impl<'a> Recorded<'a> {
-    fn of(setup: &'a Setup, choice: &'a Choice, fresh: &'a Replicates) -> Self {
+    fn of(scenario: &'a Scenario, settings: &'a Settings, validation: &'a Replicates) -> Self {
         Self {
-            setup,
-            choice,
-            fresh,
+            scenario,
+            settings,
+            validation,
             seen: Vec::new(),
         }
     }
 }
 
 impl Shots for Recorded<'_> {
-    fn counts(&mut self, choice: &Choice, part: usize) -> Option<Counts> {
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Counts> {
         if part == self.seen.len() {
-            let surveys = surveys(self.setup, self.choice, self.fresh, part)?;
+            let surveys = surveys(self.scenario, self.settings, self.validation, part)?;
             self.seen.push(surveys);
         }
-        Some(counts(self.setup, self.seen.get(part)?, choice.speed))
+        Some(counts(self.scenario, self.seen.get(part)?, settings.speed))
     }
 }
 
 fn drift(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     (setting, end): (Setting, f64),
     passing: &[Subject],
     shots: &mut dyn Shots,
     stop: &AtomicBool,
 ) -> Drift {
-    let start = setting.of(choice);
+    let start = setting.of(settings);
     let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
     let mut turn = |fraction: f64| {
         if stop.load(Ordering::Relaxed) {
             return None;
         }
-        turned(setup, &setting.with(choice, at(fraction)), passing, shots)
+        turned(
+            scenario,
+            &setting.with(settings, at(fraction)),
+            passing,
+            shots,
+        )
     };
     if start == end {
         return Drift {
@@ -242,25 +266,25 @@ fn drift(
 /// What turns at a choice among the verdicts that passed: the one that is exceeded most, on no more
 /// shots than it takes to tell.
 fn turned(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     passing: &[Subject],
     shots: &mut dyn Shots,
 ) -> Option<Turn> {
-    if let Some(infeasible) = infeasibility(setup, choice) {
+    if let Some(infeasible) = infeasibility(scenario, settings) {
         return Some(match infeasible.obstacle {
             Obstacle::Surface(_) => Turn::Clearance,
             Obstacle::Material(_) | Obstacle::Body => Turn::FreeSpace,
         });
     }
-    let mut all = Counts::none(setup);
+    let mut all = Counts::none(scenario);
     let mut turn = None;
     for part in 0.. {
-        let Some(counts) = shots.counts(choice, part) else {
+        let Some(counts) = shots.counts(settings, part) else {
             break;
         };
         all = all.plus(&counts);
-        let verdicts: Vec<Verdict> = Verdict::on(setup, &all)
+        let verdicts: Vec<Verdict> = Verdict::on(scenario, &all)
             .into_iter()
             .filter(|verdict| passing.contains(&verdict.subject))
             .collect();

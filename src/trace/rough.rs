@@ -1,6 +1,6 @@
 //! Rough surfaces: every impact meets a normal that is tilted by chance.
 
-use crate::jet::{Deviate, normal_pair};
+use crate::jet::{ShotSample, normal_pair};
 use crate::precision::{Real, Triple, along, cross, dot, unit};
 
 /// The tangents of a normal are laid out from this direction, which no surface that anybody draws
@@ -13,8 +13,8 @@ const LEAST_SQUARE: f64 = 1e-20;
 /// Tangents of the angles by which a shot finds a surface tilted at the end of a flight of its
 /// path, about two directions in the surface; the same in every pose.
 #[inline]
-pub(super) fn tilt(deviate: &Deviate, flight: u32, roughness: f64) -> [f64; 2] {
-    let [a, b] = normal_pair(deviate.tilts, flight);
+pub(super) fn tilt(sample: &ShotSample, flight: u32, roughness: f64) -> [f64; 2] {
+    let [a, b] = normal_pair(sample.tilts, flight);
     [roughness * a, roughness * b]
 }
 

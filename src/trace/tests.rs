@@ -15,12 +15,12 @@ struct Scribe {
     stories: Vec<Story>,
 }
 
-impl Witness<f64> for Scribe {
-    fn impacts(&mut self, volley: &Volley<f64>) {
-        for i in 0..volley.rays.count {
-            if volley.impacts.counts[i] != 0.0 {
-                let story = &mut self.stories[volley.shot[i] as usize];
-                story.0.push(impact_of(volley, i));
+impl Observer<f64> for Scribe {
+    fn impacts(&mut self, packet: &RayPacket<f64>) {
+        for i in 0..packet.rays.count {
+            if packet.impacts.counts[i] != 0.0 {
+                let story = &mut self.stories[packet.shot[i] as usize];
+                story.0.push(impact_of(packet, i));
             }
         }
     }
@@ -30,38 +30,38 @@ impl Witness<f64> for Scribe {
     }
 }
 
-fn impact_of(volley: &Volley<f64>, i: usize) -> PathImpact {
+fn impact_of(packet: &RayPacket<f64>, i: usize) -> PathImpact {
     let vector = |lanes| Vector3::from(crate::scene::lanes::components(lanes, i));
     PathImpact {
-        number: volley.number[i] as usize,
-        surface: volley.hits.surface[i],
+        number: packet.number[i] as usize,
+        surface: packet.hits.surface[i],
         on_target: false,
-        normal_impulse: volley.impacts.normal[i],
-        tangential_impulse: volley.impacts.tangential[i],
-        regime: if volley.impacts.sticks[i] != 0.0 {
+        normal_impulse: packet.impacts.normal[i],
+        tangential_impulse: packet.impacts.tangential[i],
+        regime: if packet.impacts.sticks[i] != 0.0 {
             Regime::Stick
         } else {
             Regime::Slip
         },
-        point: vector(&volley.hits.point).into(),
-        normal: vector(&volley.hits.normal),
-        centre: vector(&volley.hits.point).into(),
-        velocity: vector(&volley.velocity),
-        rolling: vector(&volley.rolling),
+        point: vector(&packet.hits.point).into(),
+        normal: vector(&packet.hits.normal),
+        centre: vector(&packet.hits.point).into(),
+        velocity: vector(&packet.velocity),
+        rolling: vector(&packet.rolling),
     }
 }
 
 /// As points and with the size that they have.
-fn same_paths(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
+fn same_paths(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) {
     for shot_size in [false, true] {
-        let mut setup = setup.clone();
-        setup.problem.paths.shot_size = shot_size;
-        same_paths_in(&setup, choice, shots);
+        let mut scenario = scenario.clone();
+        scenario.problem.paths.shot_size = shot_size;
+        same_paths_in(&scenario, settings, shots);
     }
 }
 
-fn same_paths_in(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
-    let tracer = Tracer::new(setup, choice, choice.speed);
+fn same_paths_in(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) {
+    let tracer = Tracer::new(scenario, settings, settings.speed);
     let mut told: Vec<Story> = Vec::new();
     let mut scribe = Scribe {
         stories: vec![Story::default(); LANES],
@@ -73,9 +73,9 @@ fn same_paths_in(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
         rays_told += rays;
     });
     let mut rays_followed = 0;
-    for (deviate, (impacts, end)) in shots.iter().zip(&told) {
+    for (sample, (impacts, end)) in shots.iter().zip(&told) {
         let mut path = Vec::new();
-        let followed = tracer.follow(deviate, |impact| {
+        let followed = tracer.follow(sample, |impact| {
             path.push(PathImpact {
                 on_target: false,
                 centre: impact.point,
@@ -83,42 +83,42 @@ fn same_paths_in(setup: &Setup, choice: &Choice, shots: &[Deviate]) {
             });
         });
         rays_followed += followed.1;
-        assert_eq!(Some(followed), *end, "{choice:?} {deviate:?}");
-        assert_eq!(&path, impacts, "{choice:?} {deviate:?}");
+        assert_eq!(Some(followed), *end, "{settings:?} {sample:?}");
+        assert_eq!(&path, impacts, "{settings:?} {sample:?}");
     }
     assert_eq!(told.len(), shots.len());
     assert_eq!(rays_told, rays_followed);
 }
 
 /// Poses all over the settings of a problem, with every contact.
-fn poses(setup: &Setup, count: u32) -> impl Iterator<Item = Choice> + '_ {
-    let settings = &setup.problem.settings;
+fn poses(scenario: &Scenario, count: u32) -> impl Iterator<Item = Settings> + '_ {
+    let ranges = &scenario.problem.ranges;
     (0..count).map(move |index| {
         let share = |axis| f64::from(sobol_burley::sample(index, axis, 5));
-        Choice {
-            incidence: settings.incidence.at(share(0)),
-            azimuth: settings.azimuth.at(share(1)),
-            standoff: settings.standoff.at(share(2)),
-            speed: settings.speed.at(share(3)),
+        Settings {
+            incidence: ranges.incidence.at(share(0)),
+            azimuth: ranges.azimuth.at(share(1)),
+            standoff: ranges.standoff.at(share(2)),
+            speed: ranges.speed.at(share(3)),
             aim_along: 0.0,
             aim_across: 0.0,
             aim_above: 0.0,
-            contact: settings.contact[index as usize % settings.contact.len()],
+            contact: ranges.contact[index as usize % ranges.contact.len()],
             static_friction: 0.2,
         }
     })
 }
 
-fn shipped(file: &str, walls: Walls) -> Setup {
+fn shipped(file: &str, walls: Walls) -> Scenario {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
     let reading = problem::read(&folder.join(file)).expect("it can be read");
     let problem = reading.problem.expect("it has no faults");
-    Setup::new(problem, walls).expect("its scene has no faults")
+    Scenario::new(problem, walls).expect("its scene has no faults")
 }
 
 #[test]
 fn shipped_problems() {
-    let facets = Walls::Facets { chord_angle: 0.05 };
+    let facets = Walls::TriangleMesh { chord_angle: 0.05 };
     for (file, walls) in [
         ("keyway.yaml", Walls::Exact),
         ("keyway.yaml", facets),
@@ -126,60 +126,60 @@ fn shipped_problems() {
         ("keyway-blind.yaml", Walls::Exact),
         ("plate.yaml", Walls::Exact),
     ] {
-        let setup = shipped(file, walls);
-        let samples = Samples::with_rim(&setup.problem, Stream::Search, 300);
-        for choice in poses(&setup, 12) {
-            same_paths(&setup, &choice, &samples.deviates);
+        let scenario = shipped(file, walls);
+        let samples = Samples::with_boundary(&scenario.problem, Stream::Search, 300);
+        for settings in poses(&scenario, 12) {
+            same_paths(&scenario, &settings, &samples.shots);
         }
     }
 }
 
 #[test]
 fn laws_and_contacts_of_all_kinds() {
-    let mut setup = shipped("keyway.yaml", Walls::Exact);
-    let samples = Samples::new(&setup.problem, Stream::Search, 200);
+    let mut scenario = shipped("keyway.yaml", Walls::Exact);
+    let samples = Samples::new(&scenario.problem, Stream::Search, 200);
     for law in Law::ALL {
-        for contact in &mut setup.problem.contacts {
+        for contact in &mut scenario.problem.contacts {
             contact.contact.law = law;
             contact.contact.tangential_restitution = 0.3;
         }
-        for choice in poses(&setup, 6) {
-            same_paths(&setup, &choice, &samples.deviates);
+        for settings in poses(&scenario, 6) {
+            same_paths(&scenario, &settings, &samples.shots);
         }
     }
-    for contact in &mut setup.problem.contacts {
+    for contact in &mut scenario.problem.contacts {
         contact.contact.restitution = Restitution::Falling {
             reference: 0.5,
             speed: 3.0,
             exponent: 0.25,
         };
     }
-    for choice in poses(&setup, 6) {
-        same_paths(&setup, &choice, &samples.deviates);
+    for settings in poses(&scenario, 6) {
+        same_paths(&scenario, &settings, &samples.shots);
     }
 }
 
 #[test]
 fn surfaces_that_differ() {
-    let mut setup = shipped("keyway-long.yaml", Walls::Exact);
-    let samples = Samples::new(&setup.problem, Stream::Search, 200);
+    let mut scenario = shipped("keyway-long.yaml", Walls::Exact);
+    let samples = Samples::new(&scenario.problem, Stream::Search, 200);
     let contact = Contact::new(0.8, 0.7, 0.9).expect("a legal contact");
-    setup.surfaces[3].contact = Some(contact);
-    for choice in poses(&setup, 6) {
-        same_paths(&setup, &choice, &samples.deviates);
+    scenario.surfaces[3].contact = Some(contact);
+    for settings in poses(&scenario, 6) {
+        same_paths(&scenario, &settings, &samples.shots);
     }
-    setup.surfaces[3].deflector = true;
-    setup.surfaces[1].contact = Some(Contact {
+    scenario.surfaces[3].deflector = true;
+    scenario.surfaces[1].contact = Some(Contact {
         restitution: Restitution::Constant(0.0),
         ..contact
     });
-    for choice in poses(&setup, 6) {
-        same_paths(&setup, &choice, &samples.deviates);
+    for settings in poses(&scenario, 6) {
+        same_paths(&scenario, &settings, &samples.shots);
     }
 }
 
 /// A pot with a pin in it, moved, beside a block; any further parts and groups of keys.
-fn pot(parts: &str, groups: &str) -> Setup {
+fn pot(parts: &str, groups: &str) -> Scenario {
     let text = format!(
         "
 format: 1
@@ -211,26 +211,26 @@ paths: {{ impacts: 12, least_energy: 0.01 % }}
     let problem = reading
         .problem
         .unwrap_or_else(|| panic!("{:?}", reading.faults));
-    let setup = Setup::new(problem, Walls::Exact);
-    setup.unwrap_or_else(|faults| panic!("{faults:?}"))
+    let scenario = Scenario::new(problem, Walls::Exact);
+    scenario.unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
 #[test]
 fn parts_that_are_moved_and_closed() {
-    let setup = pot("", "");
-    let samples = Samples::new(&setup.problem, Stream::Search, 300);
-    for choice in poses(&setup, 40) {
-        same_paths(&setup, &choice, &samples.deviates);
+    let scenario = pot("", "");
+    let samples = Samples::new(&scenario.problem, Stream::Search, 300);
+    for settings in poses(&scenario, 40) {
+        same_paths(&scenario, &settings, &samples.shots);
     }
 }
 
 /// How many of the impacts of some shots are on the surfaces of a part.
-fn impacts_on(part: &str, setup: &Setup, choice: &Choice, shots: &[Deviate]) -> usize {
-    let tracer = Tracer::new(setup, choice, choice.speed);
+fn impacts_on(part: &str, scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> usize {
+    let tracer = Tracer::new(scenario, settings, settings.speed);
     let mut count = 0;
-    for deviate in shots {
-        tracer.follow(deviate, |impact| {
-            let surface = &setup.scene.surfaces()[impact.surface as usize];
+    for sample in shots {
+        tracer.follow(sample, |impact| {
+            let surface = &scenario.scene.surfaces()[impact.surface as usize];
             count += usize::from(surface.starts_with(part));
         });
     }
@@ -249,13 +249,13 @@ fn parts_that_move_with_the_nozzle() {
 tolerance: { incidence: 2 deg, azimuth: 3 deg, standoff: 1 mm, aim_along: 0.5 mm, aim_above: 0.3 mm }
 ";
     for groups in ["", tolerance] {
-        let setup = pot(parts, groups);
-        let samples = Samples::with_rim(&setup.problem, Stream::Search, 300);
+        let scenario = pot(parts, groups);
+        let samples = Samples::with_boundary(&scenario.problem, Stream::Search, 300);
         let (mut on_stub, mut on_brick) = (0, 0);
-        for choice in poses(&setup, 20) {
-            same_paths(&setup, &choice, &samples.deviates);
-            on_stub += impacts_on("stub.", &setup, &choice, &samples.deviates);
-            on_brick += impacts_on("brick.", &setup, &choice, &samples.deviates);
+        for settings in poses(&scenario, 20) {
+            same_paths(&scenario, &settings, &samples.shots);
+            on_stub += impacts_on("stub.", &scenario, &settings, &samples.shots);
+            on_brick += impacts_on("brick.", &scenario, &settings, &samples.shots);
         }
         assert!(on_stub > 500 && on_brick > 500, "{on_stub} {on_brick}");
     }
@@ -265,26 +265,26 @@ tolerance: { incidence: 2 deg, azimuth: 3 deg, standoff: 1 mm, aim_along: 0.5 mm
 fn rough_surfaces() {
     let of_one_contact = pot("", "surfaces: { pot.wall: { roughness: 15 deg } }");
     let samples = Samples::new(&of_one_contact.problem, Stream::Search, 100);
-    for choice in poses(&of_one_contact, 10) {
-        same_paths(&of_one_contact, &choice, &samples.deviates);
+    for settings in poses(&of_one_contact, 10) {
+        same_paths(&of_one_contact, &settings, &samples.shots);
     }
     let rough = "
 surfaces:
   pot.far: { roughness: 3 deg }
   pot.wall: { roughness: 15 deg, contact: { mu_s: 0.1, mu_d: 0.1, restitution: { value: 0.5, at: 5 m/s, exponent: 0.2 } } }
 ";
-    let (setup, smooth) = (pot("", rough), pot("", ""));
-    let samples = Samples::new(&setup.problem, Stream::Search, 300);
-    for choice in poses(&setup, 20) {
-        same_paths(&setup, &choice, &samples.deviates);
+    let (scenario, smooth) = (pot("", rough), pot("", ""));
+    let samples = Samples::new(&scenario.problem, Stream::Search, 300);
+    for settings in poses(&scenario, 20) {
+        same_paths(&scenario, &settings, &samples.shots);
     }
     // Without rough surfaces nothing is drawn for them, and every other number is the same.
     let drawn = Samples::new(&smooth.problem, Stream::Search, 300);
-    for (rough, smooth) in samples.deviates.iter().zip(&drawn.deviates) {
+    for (rough, smooth) in samples.shots.iter().zip(&drawn.shots) {
         assert_eq!(smooth.tilts, 0.0);
         assert_eq!(
             *smooth,
-            Deviate {
+            ShotSample {
                 tilts: 0.0,
                 ..*rough
             }
@@ -303,18 +303,18 @@ fn energy_of_a_rolling_sphere() {
 #[test]
 fn deviates_change_restitution_and_friction_of_a_contact() {
     let contact = Contact::new(0.3, 0.24, 0.5).unwrap();
-    assert_eq!(perturbed(contact, &Deviate::NONE), contact);
-    let rougher = Deviate {
+    assert_eq!(perturbed(contact, &ShotSample::NONE), contact);
+    let rougher = ShotSample {
         friction: 1.5,
-        ..Deviate::NONE
+        ..ShotSample::NONE
     };
     let met = perturbed(contact, &rougher);
     assert_eq!(met.static_friction, 0.3 * 1.5);
     assert_eq!(met.dynamic_friction, 0.24 * 1.5);
     assert_eq!(met.restitution, contact.restitution);
-    let livelier = Deviate {
+    let livelier = ShotSample {
         restitution: 0.1,
-        ..Deviate::NONE
+        ..ShotSample::NONE
     };
     let met = perturbed(contact, &livelier);
     assert_eq!(met.restitution, contact.restitution.shifted(0.1));
@@ -325,10 +325,10 @@ fn deviates_change_restitution_and_friction_of_a_contact() {
 
 #[test]
 fn friction_that_scatters() {
-    let setup = pot("", "tolerance: { restitution: 0.1, friction: 30 % }");
-    let samples = Samples::new(&setup.problem, Stream::Search, 100);
-    for choice in poses(&setup, 10) {
-        same_paths(&setup, &choice, &samples.deviates);
+    let scenario = pot("", "tolerance: { restitution: 0.1, friction: 30 % }");
+    let samples = Samples::new(&scenario.problem, Stream::Search, 100);
+    for settings in poses(&scenario, 10) {
+        same_paths(&scenario, &settings, &samples.shots);
     }
 }
 
@@ -340,17 +340,17 @@ fn deflections_end_a_path_when_they_are_very_many() {
     bore: { diameter: 300 mm, length: 300 mm, ends: closed }
     place: { at: [0, 0, -150] }
 ";
-    let mut setup = pot(cage, "");
-    for limits in &mut setup.surfaces {
+    let mut scenario = pot(cage, "");
+    for limits in &mut scenario.surfaces {
         limits.deflector = true;
         limits.contact = Some(Contact::new(0.0, 0.0, 1.0).expect("a legal contact"));
     }
-    let samples = Samples::new(&setup.problem, Stream::Search, 20);
-    for choice in poses(&setup, 5) {
-        same_paths(&setup, &choice, &samples.deviates);
-        let tracer = Tracer::new(&setup, &choice, choice.speed);
-        for deviate in &samples.deviates {
-            let end = tracer.follow(deviate, |_| ());
+    let samples = Samples::new(&scenario.problem, Stream::Search, 20);
+    for settings in poses(&scenario, 5) {
+        same_paths(&scenario, &settings, &samples.shots);
+        let tracer = Tracer::new(&scenario, &settings, settings.speed);
+        for sample in &samples.shots {
+            let end = tracer.follow(sample, |_| ());
             assert_eq!(end, (End::Limit, MOST_DEFLECTIONS as usize));
         }
     }

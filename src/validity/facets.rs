@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use super::Note;
 use crate::digits::fixed;
 use crate::problem::part::Shape;
+use crate::scenario::Scenario;
 use crate::scene::mesh::Mesh;
-use crate::setup::Setup;
 
 /// Neighbours whose normals differ by less belong to one smooth surface, rad; others meet in an edge.
 const SMOOTH: f64 = 30.0 / 180.0 * PI;
@@ -14,11 +14,11 @@ const SMOOTH: f64 = 30.0 / 180.0 * PI;
 const FLAT: f64 = 0.01 / 180.0 * PI;
 
 /// The largest angle between neighbouring facets of a smooth surface, deg.
-pub(super) fn note(setup: &Setup) -> Option<Note> {
-    let parts = setup.problem.parts.iter();
+pub(super) fn note(scenario: &Scenario) -> Option<Note> {
+    let parts = scenario.problem.parts.iter();
     let meshes = parts.filter(|part| matches!(part.shape, Shape::Mesh { .. }));
     let angles = meshes.filter_map(|part| {
-        let angle = mesh_of(setup, &part.name).largest_smooth_angle(SMOOTH)?;
+        let angle = mesh_of(scenario, &part.name).largest_smooth_angle(SMOOTH)?;
         Some((angle, part.name.as_str()))
     });
     let (angle, part) = angles.max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -35,9 +35,9 @@ pub(super) fn note(setup: &Setup) -> Option<Note> {
 }
 
 /// The triangles of a part in their place; corners at the same point are one.
-fn mesh_of(setup: &Setup, part: &str) -> Mesh {
+fn mesh_of(scenario: &Scenario, part: &str) -> Mesh {
     let prefix = format!("{part}.");
-    let surfaces = (0..).zip(setup.scene.surfaces());
+    let surfaces = (0..).zip(scenario.scene.surfaces());
     let own = surfaces.filter(|(_, name)| name.starts_with(&prefix));
-    Mesh::joined(own.flat_map(|(surface, _)| setup.scene.surface_triangles(surface)))
+    Mesh::joined(own.flat_map(|(surface, _)| scenario.scene.surface_triangles(surface)))
 }

@@ -3,8 +3,8 @@
 use super::Note;
 use crate::digits::{fixed, plain};
 use crate::elementary::{exp, power};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 
 /// Air at 20 deg C and 1013 hPa: density, kg/m3, and dynamic viscosity, Pa s (ISO 2533 values).
 const AIR: (f64, f64) = (1.204, 1.81e-5);
@@ -15,8 +15,8 @@ const MATTERS: f64 = 0.03;
 /// Steps along the flight; the loss is then right to far better than the drag law is.
 const STEPS: usize = 64;
 
-pub(super) fn gravity(choice: &Choice) -> Note {
-    let time = choice.standoff / choice.speed;
+pub(super) fn gravity(settings: &Settings) -> Note {
+    let time = settings.standoff / settings.speed;
     let drop = 0.5 * GRAVITY * time * time;
     Note {
         name: "gravity",
@@ -29,15 +29,15 @@ pub(super) fn gravity(choice: &Choice) -> Note {
 }
 
 /// Share of the speed lost or gained on the way to the target.
-pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
-    let shot = setup.problem.shot;
+pub(super) fn drag(scenario: &Scenario, settings: &Settings) -> Note {
+    let shot = scenario.problem.shot;
     let end = speed_at_end(
         2.0 * shot.radius,
         shot.density,
-        choice,
-        setup.problem.jet.air_speed,
+        settings,
+        scenario.problem.jet.air_speed,
     );
-    let gain = end / choice.speed - 1.0;
+    let gain = end / settings.speed - 1.0;
     let follows = |how: &str| {
         if gain.abs() > MATTERS {
             format!("; N* {how} by as much, unless the speed is measured at the target")
@@ -45,7 +45,7 @@ pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
             String::new()
         }
     };
-    let Some(air) = setup.problem.jet.air_speed else {
+    let Some(air) = scenario.problem.jet.air_speed else {
         return Note {
             name: "drag",
             value: -gain,
@@ -76,18 +76,18 @@ pub(super) fn drag(setup: &Setup, choice: &Choice) -> Note {
 }
 
 /// Speed at the end of the flight, m/s, in air that moves along at a speed, or rests.
-fn speed_at_end(diameter: f64, density: f64, choice: &Choice, air: Option<f64>) -> f64 {
+fn speed_at_end(diameter: f64, density: f64, settings: &Settings, air: Option<f64>) -> f64 {
     match air {
-        None => speed_left(diameter, density, choice),
-        Some(air) => speed_in_moving_air(diameter, density, choice, air),
+        None => speed_left(diameter, density, settings),
+        Some(air) => speed_in_moving_air(diameter, density, settings, air),
     }
 }
 
 /// The same in air at rest: dv/dx = -decay(v) v, each step with the decay of its middle.
-fn speed_left(diameter: f64, density: f64, choice: &Choice) -> f64 {
-    let step = choice.standoff / STEPS as f64;
+fn speed_left(diameter: f64, density: f64, settings: &Settings) -> f64 {
+    let step = settings.standoff / STEPS as f64;
     let after = |speed: f64, at: f64, way: f64| speed * exp(-decay(diameter, density, at) * way);
-    let mut speed = choice.speed;
+    let mut speed = settings.speed;
     for _ in 0..STEPS {
         let middle = after(speed, speed, 0.5 * step);
         speed = after(speed, middle, step);
@@ -97,7 +97,7 @@ fn speed_left(diameter: f64, density: f64, choice: &Choice) -> f64 {
 
 /// The same in moving air, which draws at the shot with the speed u that it has relative to it:
 /// dv/dt = decay(u) u |u|. The shot never gets past the air.
-fn speed_in_moving_air(diameter: f64, density: f64, choice: &Choice, air: f64) -> f64 {
+fn speed_in_moving_air(diameter: f64, density: f64, settings: &Settings, air: f64) -> f64 {
     // u falls by this rate in time; within a step it is that of the middle.
     let rate = |speed: f64| {
         let relative = (air - speed).abs();
@@ -108,8 +108,8 @@ fn speed_in_moving_air(diameter: f64, density: f64, choice: &Choice, air: f64) -
         }
     };
     let after = |speed: f64, at: f64, time: f64| air - (air - speed) * exp(-rate(at) * time);
-    let step = choice.standoff / STEPS as f64;
-    let mut speed = choice.speed;
+    let step = settings.standoff / STEPS as f64;
+    let mut speed = settings.speed;
     for _ in 0..STEPS {
         let middle = after(speed, speed, 0.5 * step / speed);
         let mean = after(speed, middle, 0.5 * step / middle);

@@ -5,9 +5,9 @@ use nalgebra::Vector3;
 use super::Note;
 use crate::elementary::tan;
 use crate::evaluate::Evaluation;
-use crate::jet::{Deviate, Pose};
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::jet::{Pose, ShotSample};
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::trace::{End, Tracer};
 
 /// Mean number of encounters from which they show in the figures.
@@ -35,18 +35,18 @@ struct Stream {
 
 /// How many incoming shots a rebounding one meets on its way out of the jet.
 pub(super) fn note(
-    setup: &Setup,
-    choice: &Choice,
+    scenario: &Scenario,
+    settings: &Settings,
     evaluation: Option<&Evaluation>,
 ) -> Option<Note> {
-    let flow = setup.problem.jet.mass_flow?;
-    if setup.surfaces.iter().any(|surface| surface.deflector) {
+    let flow = scenario.problem.jet.mass_flow?;
+    if scenario.surfaces.iter().any(|surface| surface.deflector) {
         return Some(unknown_behind_a_deflector());
     }
-    let stream = Stream::new(setup, choice, flow);
-    let rebound = mean_rebound(setup, choice)?;
+    let stream = Stream::new(scenario, settings, flow);
+    let rebound = mean_rebound(scenario, settings)?;
     let passes = passes(evaluation);
-    let diameter = 2.0 * setup.problem.shot.radius;
+    let diameter = 2.0 * scenario.problem.shot.radius;
     let encounters = (stream.encounters(&rebound, diameter) * passes).min(MOST);
     let (name, verdict) = if encounters >= SPOILS {
         (
@@ -84,17 +84,17 @@ fn unknown_behind_a_deflector() -> Note {
 }
 
 impl Stream {
-    fn new(setup: &Setup, choice: &Choice, mass_flow: f64) -> Self {
-        let (jet, shot) = (&setup.problem.jet, &setup.problem.shot);
-        let spread = choice.standoff * tan(jet.divergence);
+    fn new(scenario: &Scenario, settings: &Settings, mass_flow: f64) -> Self {
+        let (jet, shot) = (&scenario.problem.jet, &scenario.problem.shot);
+        let spread = settings.standoff * tan(jet.divergence);
         // A jet of no width is as wide as its shots.
         let radius = (jet.exit_diameter / 2.0 + spread).max(shot.radius);
         let area = std::f64::consts::PI * radius * radius;
         Self {
-            velocity: Pose::new(&setup.target.frame, choice).direction * choice.speed,
+            velocity: Pose::new(&scenario.target.frame, settings).direction * settings.speed,
             radius,
-            length: choice.standoff,
-            density: mass_flow / (shot.mass() * choice.speed * area),
+            length: settings.standoff,
+            density: mass_flow / (shot.mass() * settings.speed * area),
         }
     }
 
@@ -118,9 +118,9 @@ impl Stream {
 }
 
 /// Velocity after its first hit of the mean shot, on the axis, m/s; `None` when it hits nothing.
-fn mean_rebound(setup: &Setup, choice: &Choice) -> Option<Vector3<f64>> {
+fn mean_rebound(scenario: &Scenario, settings: &Settings) -> Option<Vector3<f64>> {
     let mut rebound = None;
-    Tracer::new(setup, choice, choice.speed).follow(&Deviate::NONE, |impact| {
+    Tracer::new(scenario, settings, settings.speed).follow(&ShotSample::NONE, |impact| {
         rebound = rebound.or(Some(impact.velocity));
     });
     rebound

@@ -4,21 +4,25 @@ use super::Note;
 use crate::digits::{fixed, plain, significant};
 use crate::evaluate::Evaluation;
 use crate::impact::Restitution;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 
 /// From this factor between the speeds on, the law is no longer a small correction.
 const FAR: f64 = 2.0;
 
-pub(super) fn note(setup: &Setup, choice: &Choice, evaluation: Option<&Evaluation>) -> Note {
-    let contact = setup.contact_on(setup.target.surface, choice);
+pub(super) fn note(
+    scenario: &Scenario,
+    settings: &Settings,
+    evaluation: Option<&Evaluation>,
+) -> Note {
+    let contact = scenario.contact_on(scenario.target.surface, settings);
     let arriving = evaluation
         .filter(|evaluation| evaluation.target.hits > 0)
         .map(|evaluation| {
             let impulse = evaluation.target.normal_impulse.mean;
             contact
                 .restitution
-                .approach_speed(impulse / setup.problem.shot.mass())
+                .approach_speed(impulse / scenario.problem.shot.mass())
         });
     match (contact.restitution, arriving) {
         (Restitution::Constant(value), _) => Note {

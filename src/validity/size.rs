@@ -8,9 +8,9 @@ use crate::elementary::cos;
 use crate::jet::Pose;
 use crate::problem::curve::Curve;
 use crate::problem::part::{Part, Shape};
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::scene::profile::Profile;
-use crate::setup::Setup;
 
 /// ASTM B851: the diameter of the shot is at most this part of a fillet's radius.
 const OF_A_FILLET: f64 = 0.5;
@@ -22,9 +22,9 @@ const FACING: f64 = 10.0 / 180.0 * std::f64::consts::PI;
 const CHORD_ANGLE: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 
 /// Shots that fly as points.
-pub(super) fn point_shots(setup: &Setup) -> Option<Note> {
-    let radius = setup.problem.shot.radius;
-    (!setup.problem.paths.shot_size).then(|| Note {
+pub(super) fn point_shots(scenario: &Scenario) -> Option<Note> {
+    let radius = scenario.problem.shot.radius;
+    (!scenario.problem.paths.shot_size).then(|| Note {
         name: "point_shots",
         value: radius,
         text: format!(
@@ -36,9 +36,9 @@ pub(super) fn point_shots(setup: &Setup) -> Option<Note> {
 }
 
 /// Shots that are too large for the smallest fillet of the part that holds the target.
-pub(super) fn fillet(setup: &Setup) -> Option<Note> {
-    let radius = smallest_fillet(&target_part(setup)?.shape)?;
-    let diameter = 2.0 * setup.problem.shot.radius;
+pub(super) fn fillet(scenario: &Scenario) -> Option<Note> {
+    let radius = smallest_fillet(&target_part(scenario)?.shape)?;
+    let diameter = 2.0 * scenario.problem.shot.radius;
     (diameter > OF_A_FILLET * radius).then(|| Note {
         name: "fillet",
         value: diameter / radius,
@@ -67,9 +67,9 @@ fn against_a_fillet(part: f64) -> String {
 }
 
 /// Shots that are too large for the narrowest gap of the part that holds the target.
-pub(super) fn opening(setup: &Setup, choice: &Choice) -> Option<Note> {
-    let width = narrowest_gap(setup, choice, target_part(setup)?)?;
-    let diameter = 2.0 * setup.problem.shot.radius;
+pub(super) fn opening(scenario: &Scenario, settings: &Settings) -> Option<Note> {
+    let width = narrowest_gap(scenario, settings, target_part(scenario)?)?;
+    let diameter = 2.0 * scenario.problem.shot.radius;
     (diameter > OF_AN_OPENING * width).then(|| Note {
         name: "opening",
         value: diameter / width,
@@ -83,9 +83,9 @@ pub(super) fn opening(setup: &Setup, choice: &Choice) -> Option<Note> {
     })
 }
 
-fn target_part(setup: &Setup) -> Option<&Part> {
-    let (name, _) = setup.problem.target.surface.split_once('.')?;
-    setup.problem.parts.iter().find(|part| part.name == name)
+fn target_part(scenario: &Scenario) -> Option<&Part> {
+    let (name, _) = scenario.problem.target.surface.split_once('.')?;
+    scenario.problem.parts.iter().find(|part| part.name == name)
 }
 
 /// Least radius of a rounded inner corner, m. Sharp corners have none.
@@ -106,11 +106,11 @@ fn smallest_fillet(shape: &Shape) -> Option<f64> {
 }
 
 /// Least width of an opening, m; not known for meshes.
-fn narrowest_gap(setup: &Setup, choice: &Choice, part: &Part) -> Option<f64> {
+fn narrowest_gap(scenario: &Scenario, settings: &Settings, part: &Part) -> Option<f64> {
     match &part.shape {
         Shape::Keyway(keyway) => Some(keyway.width.min(keyway.bore)),
         Shape::Bore { diameter, .. } => {
-            is_shot_from_inside(setup, choice, part, *diameter).then_some(*diameter)
+            is_shot_from_inside(scenario, settings, part, *diameter).then_some(*diameter)
         }
         Shape::Extrude { profile, .. } => gap_of_outline(&Profile::outline(profile)),
         Shape::Box { .. } | Shape::Mesh { .. } => None,
@@ -118,10 +118,15 @@ fn narrowest_gap(setup: &Setup, choice: &Choice, part: &Part) -> Option<f64> {
 }
 
 /// Whether a bore is a hole: a pin is aimed at from outside.
-fn is_shot_from_inside(setup: &Setup, choice: &Choice, part: &Part, diameter: f64) -> bool {
-    let frame = &setup.target.frame;
+fn is_shot_from_inside(
+    scenario: &Scenario,
+    settings: &Settings,
+    part: &Part,
+    diameter: f64,
+) -> bool {
+    let frame = &scenario.target.frame;
     let above = frame.aim + frame.normal * (1e-3 * diameter);
-    let exit = Pose::new(frame, choice).exit;
+    let exit = Pose::new(frame, settings).exit;
     [above, exit].into_iter().any(|point| {
         let own = part.place.rotation.inverse() * (point.coords - part.place.shift);
         own.xy().norm() < diameter / 2.0

@@ -4,8 +4,8 @@ use nalgebra::{Point3, Vector3};
 
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::setting::{Range, Setting};
-use crate::problem::warning::{Doubt, Warning, short};
-use crate::setup::Setup;
+use crate::problem::warning::{Warning, WarningCode, short};
+use crate::scenario::Scenario;
 
 /// Sizes that differ by more than this factor are not in the same unit.
 const ANOTHER_UNIT: f64 = 300.0;
@@ -19,32 +19,36 @@ const FACETS: f64 = 0.05;
 /// A box, m.
 type Bounds = (Point3<f64>, Point3<f64>);
 
-pub(super) fn warnings(setup: &Setup) -> Vec<Warning> {
-    let Some(bounds) = part_bounds(setup) else {
+pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
+    let Some(bounds) = part_bounds(scenario) else {
         return Vec::new();
     };
-    let Some(of_target) = bounds.iter().find(|(name, _)| is_targets(setup, name)) else {
+    let Some(of_target) = bounds.iter().find(|(name, _)| is_targets(scenario, name)) else {
         return Vec::new();
     };
     let own = &of_target.1;
-    [unit(setup, own), patch_box(setup, own), room(setup)]
-        .into_iter()
-        .flatten()
-        .chain(parts(setup, &bounds, own))
-        .chain(standoff(setup, &bounds))
-        .chain(aims(setup))
-        .collect()
+    [
+        unit(scenario, own),
+        patch_box(scenario, own),
+        room(scenario),
+    ]
+    .into_iter()
+    .flatten()
+    .chain(parts(scenario, &bounds, own))
+    .chain(standoff(scenario, &bounds))
+    .chain(aims(scenario))
+    .collect()
 }
 
 /// The box round each part, in the order of the file.
-fn part_bounds(setup: &Setup) -> Option<Vec<(String, Bounds)>> {
-    let parts = setup.problem.parts.iter();
+fn part_bounds(scenario: &Scenario) -> Option<Vec<(String, Bounds)>> {
+    let parts = scenario.problem.parts.iter();
     parts
         .map(|part| {
             let own = format!("{}.", part.name);
-            let names = (0..).zip(setup.scene.surfaces());
+            let names = (0..).zip(scenario.scene.surfaces());
             let surfaces = names.filter(|(_, name)| name.starts_with(&own));
-            let corners = surfaces.flat_map(|(index, _)| setup.scene.surface_triangles(index));
+            let corners = surfaces.flat_map(|(index, _)| scenario.scene.surface_triangles(index));
             Some((part.name.clone(), around(corners.flatten())?))
         })
         .collect()
@@ -59,15 +63,15 @@ fn longest_side((low, high): &Bounds) -> f64 {
     (high - low).max()
 }
 
-fn is_targets(setup: &Setup, part: &str) -> bool {
-    let target = &setup.problem.target.surface;
+fn is_targets(scenario: &Scenario, part: &str) -> bool {
+    let target = &scenario.problem.target.surface;
     target
         .strip_prefix(part)
         .is_some_and(|rest| rest.starts_with('.'))
 }
 
-fn unit(setup: &Setup, part: &Bounds) -> Option<Warning> {
-    let (side, shot) = (longest_side(part), 2.0 * setup.problem.shot.radius);
+fn unit(scenario: &Scenario, part: &Bounds) -> Option<Warning> {
+    let (side, shot) = (longest_side(part), 2.0 * scenario.problem.shot.radius);
     let times = side / shot;
     let (doubt, message) = if times < 1.0 {
         let message = format!(
@@ -75,14 +79,14 @@ fn unit(setup: &Setup, part: &Bounds) -> Option<Warning> {
             short(side * 1e3),
             short(shot * 1e3)
         );
-        (Doubt::PartSmallerThanShot, message)
+        (WarningCode::PartSmallerThanShot, message)
     } else if times > LONGEST_IN_SHOTS {
         let message = format!(
             "the part with the target is {} mm long, {} times the diameter of the shot",
             short(side * 1e3),
             short(times)
         );
-        (Doubt::PartFarTooLarge, message)
+        (WarningCode::PartFarTooLarge, message)
     } else {
         return None;
     };
@@ -90,53 +94,53 @@ fn unit(setup: &Setup, part: &Bounds) -> Option<Warning> {
     Some(Warning::new(doubt, "lengths_in", message, help))
 }
 
-fn patch_box(setup: &Setup, part: &Bounds) -> Option<Warning> {
+fn patch_box(scenario: &Scenario, part: &Bounds) -> Option<Warning> {
     let side = longest_side(part);
-    let within = setup.target.within?;
+    let within = scenario.target.within?;
     (longest_side(&within) > ANOTHER_UNIT * side).then(|| {
         let message = format!(
             "is {} times as long as the part itself: it cuts nothing off",
             short(longest_side(&within) / side)
         );
         let help = "its corners are in `lengths_in`; leave it out if all of the surface is meant";
-        Warning::new(Doubt::BoxTooLarge, "target.within", message, help)
+        Warning::new(WarningCode::BoxTooLarge, "target.within", message, help)
     })
 }
 
 /// A shot that touches the aim point must not reach into a wall.
-fn room(setup: &Setup) -> Option<Warning> {
-    let radius = setup.problem.shot.radius;
-    let frame = &setup.target.frame;
+fn room(scenario: &Scenario) -> Option<Warning> {
+    let radius = scenario.problem.shot.radius;
+    let frame = &scenario.target.frame;
     let ball = Nozzle {
         body: vec![Body::Ball { radius }],
         clearance: 0.0,
     };
     let centre = frame.aim + frame.normal * radius;
-    let (gap, surface) = setup
+    let (gap, surface) = scenario
         .scene
         .clearance(&ball, &centre, &-frame.normal, radius)?;
     (gap < -FACETS * radius).then(|| {
         let message = format!(
             "a shot of {} mm cannot touch the aim point: `{}` is {} mm too near",
             short(2.0 * radius * 1e3),
-            setup.scene.surfaces()[surface as usize],
+            scenario.scene.surfaces()[surface as usize],
             short(-gap * 1e3),
         );
         let help = "take smaller shot, or aim farther away from the wall";
-        Warning::new(Doubt::NoRoom, "shot.radius", message, help)
+        Warning::new(WarningCode::NoRoom, "shot.radius", message, help)
     })
 }
 
 /// Parts in another unit than the one with the target.
-fn parts(setup: &Setup, bounds: &[(String, Bounds)], own: &Bounds) -> Vec<Warning> {
+fn parts(scenario: &Scenario, bounds: &[(String, Bounds)], own: &Bounds) -> Vec<Warning> {
     let standing = |name: &str| {
-        let mut parts = setup.problem.parts.iter();
+        let mut parts = scenario.problem.parts.iter();
         parts.any(|part| part.name == name && !part.on_nozzle)
     };
     let side = longest_side(own);
     let others = bounds
         .iter()
-        .filter(|(name, _)| standing(name) && !is_targets(setup, name));
+        .filter(|(name, _)| standing(name) && !is_targets(scenario, name));
     others
         .filter_map(|(name, other)| {
             let times = longest_side(other) / side;
@@ -147,11 +151,11 @@ fn parts(setup: &Setup, bounds: &[(String, Bounds)], own: &Bounds) -> Vec<Warnin
             let (doubt, message) = if !(1.0 / ANOTHER_UNIT..ANOTHER_UNIT).contains(&times) {
                 let times = short(times);
                 let message = format!("is {times} times as long as the part with the target");
-                (Doubt::PartOfAnotherSize, message)
+                (WarningCode::PartOfAnotherSize, message)
             } else if gap > ANOTHER_UNIT * side.max(longest_side(other)) {
                 let gap = short(gap);
                 let message = format!("lies {gap} m away from the part with the target");
-                (Doubt::PartFarAway, message)
+                (WarningCode::PartFarAway, message)
             } else {
                 return None;
             };
@@ -161,10 +165,10 @@ fn parts(setup: &Setup, bounds: &[(String, Bounds)], own: &Bounds) -> Vec<Warnin
         .collect()
 }
 
-fn standoff(setup: &Setup, bounds: &[(String, Bounds)]) -> Option<Warning> {
+fn standoff(scenario: &Scenario, bounds: &[(String, Bounds)]) -> Option<Warning> {
     let corners = bounds.iter().flat_map(|(_, (low, high))| [*low, *high]);
     let scene = longest_side(&around(corners)?);
-    let farthest = setup.problem.settings.standoff.max;
+    let farthest = scenario.problem.ranges.standoff.max;
     (farthest > FARTHEST_IN_SCENES * scene).then(|| {
         let message = format!(
             "the exit may be {} mm away, {} times the length of the scene",
@@ -172,21 +176,26 @@ fn standoff(setup: &Setup, bounds: &[(String, Bounds)]) -> Option<Warning> {
             short(farthest / scene)
         );
         let help = "it counts from the aim point back to the exit of the nozzle";
-        Warning::new(Doubt::StandoffTooLong, "settings.standoff", message, help)
+        Warning::new(
+            WarningCode::StandoffTooLong,
+            "settings.standoff",
+            message,
+            help,
+        )
     })
 }
 
 /// Shifts of the aim point that leave the target altogether.
-fn aims(setup: &Setup) -> Vec<Warning> {
-    let frame = &setup.target.frame;
+fn aims(scenario: &Scenario) -> Vec<Warning> {
+    let frame = &scenario.target.frame;
     let axes = [
         (Setting::AimAlong, frame.along),
         (Setting::AimAcross, frame.across),
     ];
     axes.into_iter()
         .filter_map(|(setting, axis)| {
-            let Range { min, max } = setup.problem.settings.range(setting)?;
-            let (pieces, _) = setup.target.cut_out(&setup.scene);
+            let Range { min, max } = scenario.problem.ranges.range(setting)?;
+            let (pieces, _) = scenario.target.cut_out(&scenario.scene);
             let points = pieces.into_iter().flatten();
             let places = points.map(|point| axis.dot(&(point - frame.aim)));
             let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| {
@@ -201,7 +210,7 @@ fn aims(setup: &Setup) -> Vec<Warning> {
                 );
                 let help = "shifts count from `target.aim`";
                 let key = format!("settings.{}", setting.name());
-                Warning::new(Doubt::AimOffTarget, key, message, help)
+                Warning::new(WarningCode::AimOffTarget, key, message, help)
             })
         })
         .collect()

@@ -5,23 +5,23 @@ use rayon::prelude::*;
 use crate::feasibility::infeasibility;
 use crate::jet::{Samples, Stream};
 use crate::objective::Tally;
-use crate::problem::setting::Choice;
-use crate::problem::warning::{Doubt, Warning};
-use crate::setup::Setup;
-use crate::solve::spread_choices;
+use crate::problem::setting::Settings;
+use crate::problem::warning::{Warning, WarningCode};
+use crate::scenario::Scenario;
+use crate::solve::spread_settings;
 
 /// Settings that are tried.
 const PLACES: usize = 512;
 /// Shots at each.
 const SHOTS: usize = 8;
 
-pub(super) fn warning(setup: &Setup) -> Option<Warning> {
-    let contact = setup.problem.settings.contact.first().copied()?;
-    let choices = spread_choices(setup, contact, PLACES);
-    let fits = |choice: &&Choice| infeasibility(setup, choice).is_none();
-    let shots = Samples::new(&setup.problem, Stream::Search, SHOTS).deviates;
-    let hits = |choice: &Choice| {
-        let tally = Tally::trace(setup, choice, choice.speed, &shots);
+pub(super) fn warning(scenario: &Scenario) -> Option<Warning> {
+    let contact = scenario.problem.ranges.contact.first().copied()?;
+    let choices = spread_settings(scenario, contact, PLACES);
+    let fits = |settings: &&Settings| infeasibility(scenario, settings).is_none();
+    let shots = Samples::new(&scenario.problem, Stream::Search, SHOTS).shots;
+    let hits = |settings: &Settings| {
+        let tally = Tally::trace(scenario, settings, settings.speed, &shots);
         !tally.hits.is_empty()
     };
     if choices.par_iter().filter(fits).any(hits) {
@@ -31,17 +31,17 @@ pub(super) fn warning(setup: &Setup) -> Option<Warning> {
         1 => "the given settings".into(),
         count => format!("any of {count} settings all over the ranges"),
     };
-    let fits_somewhere = choices.par_iter().any(|choice| fits(&choice));
+    let fits_somewhere = choices.par_iter().any(|settings| fits(&settings));
     Some(if fits_somewhere {
         Warning::new(
-            Doubt::TargetOutOfSight,
+            WarningCode::TargetOutOfSight,
             "target",
             format!("no shot hits it first with {tried}"),
             "compare `aim`, `along`, `facing` and the ranges of the settings",
         )
     } else {
         Warning::new(
-            Doubt::NozzleFitsNowhere,
+            WarningCode::NozzleFitsNowhere,
             "settings",
             format!("the nozzle does not fit with {tried}"),
             "compare `nozzle.body`, `nozzle.clearance` and the range of `standoff`",

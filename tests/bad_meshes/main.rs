@@ -14,7 +14,7 @@ use block::{Block, CELLS};
 use held::held;
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use tempfile::TempDir;
 
 /// A block under a jet, with a lid that sends shots back.
@@ -70,11 +70,11 @@ impl Case {
 
     /// What 4000 shots do, as points or with their size.
     fn tally(&self, shots_have_size: bool) -> Tally {
-        let (mut setup, _) = Setup::load(&self.folder.path().join("block.yaml")).unwrap();
-        setup.problem.paths.shot_size = shots_have_size;
-        let choice = held(&setup);
-        let shots = Samples::new(&setup.problem, Stream::Search, 4000).deviates;
-        Tally::trace(&setup, &choice, choice.speed, &shots)
+        let (mut scenario, _) = Scenario::load(&self.folder.path().join("block.yaml")).unwrap();
+        scenario.problem.paths.shot_size = shots_have_size;
+        let settings = held(&scenario);
+        let shots = Samples::new(&scenario.problem, Stream::Search, 4000).shots;
+        Tally::trace(&scenario, &settings, settings.speed, &shots)
     }
 }
 

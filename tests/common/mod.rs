@@ -8,7 +8,7 @@ use peenpose::problem::equipment::{Body, ContactChoice, Jet, Nozzle, PathLimits,
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
 use peenpose::problem::model::Model;
 use peenpose::problem::part::{Keyway, Part, Place, Shape, Target};
-use peenpose::problem::setting::{Range, Settings, Tolerance};
+use peenpose::problem::setting::{Range, SettingRanges, Tolerance};
 
 pub fn keyway(length: f64) -> Problem {
     let middle = length / 2.0;
@@ -69,7 +69,7 @@ pub fn keyway(length: f64) -> Problem {
             contact("damp", 0.15),
             contact("oiled", 0.06),
         ],
-        settings: Settings {
+        ranges: SettingRanges {
             incidence: Range {
                 min: degrees(30.0),
                 max: degrees(85.0),

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use nalgebra::{Point3, Vector3};
-use peenpose::problem::rule::Rule;
-use peenpose::setup::Setup;
+use peenpose::problem::fault_code::FaultCode;
+use peenpose::scenario::Scenario;
 
 /// A mesh in mm, each triangle with the name of its surface.
 #[derive(Clone, Default)]
@@ -300,7 +300,11 @@ pub fn bodies() -> Vec<Body> {
 
 impl Kind {
     /// A problem with one setting, its exit 5 mm from the target.
-    pub fn setup(&self, folder: &Path, facing: Option<Vector3<f64>>) -> Result<Setup, Vec<Rule>> {
+    pub fn scenario(
+        &self,
+        folder: &Path,
+        facing: Option<Vector3<f64>>,
+    ) -> Result<Scenario, Vec<FaultCode>> {
         std::fs::write(folder.join("body.obj"), self.body.text()).expect("there is space");
         let [x, y, z] = self.aim.into();
         let facing = facing.map_or(String::new(), |it| {
@@ -318,8 +322,8 @@ impl Kind {
         );
         let path = folder.join("kind.yaml");
         std::fs::write(&path, text).expect("there is space");
-        match Setup::load(&path) {
-            Ok((setup, _)) => Ok(setup),
+        match Scenario::load(&path) {
+            Ok((scenario, _)) => Ok(scenario),
             Err(rejection) => Err(rejection.faults.iter().map(|fault| fault.rule).collect()),
         }
     }

@@ -7,7 +7,7 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use peenpose::problem::LengthUnit;
 use peenpose::problem::part::{Part, Place, Shape, Target};
 use peenpose::scene::patch::Patch;
-use peenpose::scene::ray::{Ray, Spot};
+use peenpose::scene::ray::{HitId, Ray};
 use peenpose::scene::{Scene, Walls};
 
 use crate::solids::{self, Solid};
@@ -33,8 +33,8 @@ pub struct Room {
 impl Room {
     /// Whether a hit is on a side that shots inside can see: fronts of a part in a box, and backs of what
     /// is round them, be it the box or a hollow.
-    pub fn shows(&self, spot: &Spot) -> bool {
-        spot.front == (spot.part == 0 && !self.is_hollow)
+    pub fn shows(&self, hit_id: &HitId) -> bool {
+        hit_id.front == (hit_id.part == 0 && !self.is_hollow)
     }
 
     /// The triangles round a corner of a triangle.

@@ -120,17 +120,17 @@ impl<'a> Walk<'a> {
     /// Follows shots until there have been so many casts.
     pub fn run(&mut self, casts: u64) {
         let inside = self.room.inside;
-        let fresh = || Start {
+        let validation = || Start {
             at: inside,
             left: None,
         };
-        let mut start = fresh();
+        let mut start = validation();
         while self.count.casts < casts {
             let direction = self.aim(&start);
             let rebounds = *self.random.of(&REBOUNDS);
             start = self
                 .follow(start, direction, rebounds)
-                .unwrap_or_else(fresh);
+                .unwrap_or_else(validation);
         }
     }
 
@@ -182,7 +182,7 @@ impl<'a> Walk<'a> {
         for cast in 0.. {
             self.count.casts += 1;
             self.count.of_spheres += u64::from(self.radius > 0.0);
-            let leaving = left.map(|hit| hit.spot);
+            let leaving = left.map(|hit| hit.hit_id);
             let found = if self.radius > 0.0 {
                 self.room.scene.first_touch(&ray, self.radius, leaving)
             } else {
@@ -274,7 +274,7 @@ impl<'a> Walk<'a> {
         let outside = if self.radius > 0.0 {
             self.sphere_is_outside(hit)
         } else {
-            !self.room.shows(&hit.spot)
+            !self.room.shows(&hit.hit_id)
         };
         if outside || ray.direction.dot(&hit.normal) > ALONG {
             self.count.leaks += 1;
@@ -299,7 +299,7 @@ impl<'a> Walk<'a> {
         };
         self.count.casts += 1;
         let seen = scene.first_hit(&look, None);
-        seen.is_none_or(|seen| !self.room.shows(&seen.spot))
+        seen.is_none_or(|seen| !self.room.shows(&seen.hit_id))
     }
 
     fn note(&mut self, what: &str, ray: &Ray, left: Option<&Hit>, found: Option<&Hit>) {
@@ -320,7 +320,7 @@ impl<'a> Walk<'a> {
     /// a piece and hit its face.
     fn hits_again(&self, left: &Hit, hit: &Hit) -> bool {
         let turned = (left.normal - hit.normal).norm() * self.radius;
-        let same_place = left.spot == hit.spot && turned <= 1e-3 * self.slack;
+        let same_place = left.hit_id == hit.hit_id && turned <= 1e-3 * self.slack;
         same_place || (left.normal + hit.normal).norm() < 1e-6
     }
 }

@@ -7,8 +7,8 @@
 //! is compared up to there. Of 256 shots 99 % are compared to their end, and in each world an eighth.
 
 use nalgebra::Vector3;
-use peenpose::jet::Deviate;
-use peenpose::setup::Setup;
+use peenpose::jet::ShotSample;
+use peenpose::scenario::Scenario;
 use peenpose::trace::{PathImpact, Tracer};
 
 use crate::held::held;
@@ -22,20 +22,20 @@ const NUDGE: f64 = 1e-9;
 pub const MOST: f64 = 1e-6;
 
 /// Whether all impacts of a shot can be compared.
-pub fn is_steady(setup: &Setup, shot: &Deviate) -> bool {
-    roundings(setup, shot).len() == path(setup, shot).len()
+pub fn is_steady(scenario: &Scenario, shot: &ShotSample) -> bool {
+    roundings(scenario, shot).len() == path(scenario, shot).len()
 }
 
 /// Relative rounding of the impacts of a path, one after the other, as far as they can be compared.
-pub fn roundings(setup: &Setup, shot: &Deviate) -> Vec<f64> {
-    let size = setup.scene.size();
-    let choice = held(setup);
-    let momentum = setup.problem.shot.mass() * choice.speed;
-    if starts_in_a_wall(setup, shot) {
+pub fn roundings(scenario: &Scenario, shot: &ShotSample) -> Vec<f64> {
+    let size = scenario.scene.size();
+    let settings = held(scenario);
+    let momentum = scenario.problem.shot.mass() * settings.speed;
+    if starts_in_a_wall(scenario, shot) {
         return Vec::new();
     }
-    let here = path(setup, shot);
-    let beside = beside(shot, size).map(|shot| path(setup, &shot));
+    let here = path(scenario, shot);
+    let beside = beside(shot, size).map(|shot| path(scenario, &shot));
     // Of what comes in at the start and at each impact, what it is worth at the start.
     let mut sources = 1.0;
     let mut all = Vec::new();
@@ -56,23 +56,23 @@ pub fn roundings(setup: &Setup, shot: &Deviate) -> Vec<f64> {
 }
 
 /// Whether a shot leaves the nozzle inside a wall, or inside two at once.
-pub fn starts_in_a_wall(setup: &Setup, shot: &Deviate) -> bool {
-    let choice = held(setup);
-    let tracer = Tracer::new(setup, &choice, choice.speed);
+pub fn starts_in_a_wall(scenario: &Scenario, shot: &ShotSample) -> bool {
+    let settings = held(scenario);
+    let tracer = Tracer::new(scenario, &settings, settings.speed);
     let exit = tracer.launch(shot).origin;
-    let path = path(setup, shot);
+    let path = path(scenario, shot);
     path.first().is_some_and(|first| first.centre == exit)
 }
 
 /// The shot with each coordinate of its exit and of its direction nudged.
-fn beside(shot: &Deviate, size: f64) -> [Deviate; 4] {
+fn beside(shot: &ShotSample, size: f64) -> [ShotSample; 4] {
     let [x, y] = shot.exit;
     let [across, upward, forward] = shot.cone;
-    let exit = |x: f64, y: f64| Deviate {
+    let exit = |x: f64, y: f64| ShotSample {
         exit: [x, y],
         ..*shot
     };
-    let cone = |across: f64, upward: f64| Deviate {
+    let cone = |across: f64, upward: f64| ShotSample {
         cone: Vector3::new(across, upward, forward).normalize().into(),
         ..*shot
     };

@@ -80,30 +80,30 @@ proptest! {
     fn every_impact_and_flight_of_a_path_obeys_mechanics(
         world in prop_oneof![world(), meshed_world()],
     ) {
-        let setup = PLAIN.of(&world);
-        let choice = held(&setup);
-        let tracer = Tracer::new(&setup, &choice, choice.speed);
-        for shot in Samples::new(&setup.problem, Stream::Search, 16).deviates {
+        let scenario = PLAIN.of(&world);
+        let settings = held(&scenario);
+        let tracer = Tracer::new(&scenario, &settings, settings.speed);
+        for shot in Samples::new(&scenario.problem, Stream::Search, 16).shots {
             let launch = tracer.launch(&shot);
-            let mass = setup.problem.shot.mass() * shot.mass();
-            let start = launch.direction * (choice.speed * shot.speed);
+            let mass = scenario.problem.shot.mass() * shot.mass();
+            let start = launch.direction * (settings.speed * shot.speed);
             let mut before = Arrival { velocity: start, rolling: Vector3::zeros() };
             let mut at = launch.origin;
             let mut momentum = Vector3::zeros();
-            for (count, impact) in (1..).zip(path(&setup, &shot)) {
+            for (count, impact) in (1..).zip(path(&scenario, &shot)) {
                 obeys_mechanics(&before, &impact, mass, world.friction())?;
                 prop_assert_eq!(impact.number, count);
                 // The flight was straight.
                 let way = impact.centre - at;
                 let aside = way.cross(&before.velocity.normalize()).norm();
-                prop_assert!(aside <= ROUNDING * setup.scene.size(), "{aside}");
+                prop_assert!(aside <= ROUNDING * scenario.scene.size(), "{aside}");
                 let ahead = way.dot(&before.velocity.normalize());
-                prop_assert!(ahead >= -ROUNDING * setup.scene.size(), "{ahead}");
+                prop_assert!(ahead >= -ROUNDING * scenario.scene.size(), "{ahead}");
                 // The shot touches the wall and no more.
                 let gap = (impact.centre - impact.point).dot(&impact.normal);
-                let radius = setup.problem.shot.radius * shot.size;
+                let radius = scenario.problem.shot.radius * shot.size;
                 let expected = if world.shots_have_size { radius } else { 0.0 };
-                prop_assert!((gap - expected).abs() <= ROUNDING * setup.scene.size());
+                prop_assert!((gap - expected).abs() <= ROUNDING * scenario.scene.size());
                 let across = impact.velocity - before.velocity;
                 let across = across - impact.normal * across.dot(&impact.normal);
                 momentum += impact.normal * impact.normal_impulse

@@ -1,8 +1,8 @@
 //! The same worlds of triangles seen in other ways.
 
 use nalgebra::Vector3;
-use peenpose::jet::Deviate;
-use peenpose::setup::Setup;
+use peenpose::jet::ShotSample;
+use peenpose::scenario::Scenario;
 use peenpose::trace::PathImpact;
 use proptest::prelude::*;
 
@@ -13,16 +13,16 @@ use crate::views::{figures, same_in, same_in_mirror, shots};
 use crate::world::meshed_world;
 
 /// All digits of every impact of a shot, with the name of what it meets.
-fn impacts(setup: &Setup, shot: &Deviate) -> Vec<String> {
+fn impacts(scenario: &Scenario, shot: &ShotSample) -> Vec<String> {
     let told = |impact: &PathImpact| {
-        let surface = &setup.scene.surfaces()[impact.surface as usize];
+        let surface = &scenario.scene.surfaces()[impact.surface as usize];
         let impact = PathImpact {
             surface: 0,
             ..*impact
         };
         format!("{surface} {impact:?}")
     };
-    path(setup, shot).iter().map(told).collect()
+    path(scenario, shot).iter().map(told).collect()
 }
 
 proptest! {

@@ -6,10 +6,10 @@ use std::fs;
 use std::path::Path;
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
-use peenpose::jet::Deviate;
+use peenpose::jet::ShotSample;
 use peenpose::problem;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::trace::{PathImpact, Tracer};
 use tempfile::TempDir;
 
@@ -247,7 +247,7 @@ impl View {
         }
     }
 
-    pub fn of(&self, world: &World) -> Setup {
+    pub fn of(&self, world: &World) -> Scenario {
         let text = self.text(world);
         let folder = TempDir::new().unwrap();
         self.write_meshes(world, folder.path());
@@ -257,14 +257,14 @@ impl View {
             panic!("{text}\n{faults}");
         };
         problem.paths.shot_size = world.shots_have_size;
-        Setup::new(problem, Walls::Exact).unwrap_or_else(|faults| panic!("{text}\n{faults:?}"))
+        Scenario::new(problem, Walls::Exact).unwrap_or_else(|faults| panic!("{text}\n{faults:?}"))
     }
 }
 
 /// Every impact of a shot.
-pub fn path(setup: &Setup, shot: &Deviate) -> Vec<PathImpact> {
-    let choice = held(setup);
+pub fn path(scenario: &Scenario, shot: &ShotSample) -> Vec<PathImpact> {
+    let settings = held(scenario);
     let mut impacts = Vec::new();
-    Tracer::new(setup, &choice, choice.speed).follow(shot, |impact| impacts.push(*impact));
+    Tracer::new(scenario, &settings, settings.speed).follow(shot, |impact| impacts.push(*impact));
     impacts
 }

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 use peenpose::evaluate::{Evaluation, evaluate};
-use peenpose::jet::{Deviate, Replicates, Samples, Stream, purpose};
+use peenpose::jet::{Replicates, Samples, ShotSample, Stream, purpose};
 use peenpose::objective::{Tally, Terms};
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::trace::PathImpact;
 use proptest::prelude::*;
 
@@ -14,15 +14,15 @@ use crate::held::held;
 use crate::view::{PLAIN, View, path};
 use crate::world::{World, world};
 
-pub fn shots(setup: &Setup, count: usize) -> Vec<Deviate> {
-    Samples::new(&setup.problem, Stream::Search, count).deviates
+pub fn shots(scenario: &Scenario, count: usize) -> Vec<ShotSample> {
+    Samples::new(&scenario.problem, Stream::Search, count).shots
 }
 
 /// J's terms on some shots.
-fn terms(setup: &Setup, shots: &[Deviate]) -> Terms {
-    let choice = held(setup);
-    let tally = Tally::trace(setup, &choice, choice.speed, shots);
-    tally.terms(&setup.problem.goals, choice.speed)
+fn terms(scenario: &Scenario, shots: &[ShotSample]) -> Terms {
+    let settings = held(scenario);
+    let tally = Tally::trace(scenario, &settings, settings.speed, shots);
+    tally.terms(&scenario.problem.goals, settings.speed)
 }
 
 fn close(one: f64, other: f64, off: f64) -> Result<(), TestCaseError> {
@@ -32,12 +32,12 @@ fn close(one: f64, other: f64, off: f64) -> Result<(), TestCaseError> {
 }
 
 /// A shot and what it becomes in another view.
-type Pair = [Deviate; 2];
+type Pair = [ShotSample; 2];
 
 /// Compares J on those of the shots which rounding does not lead astray.
-fn terms_are_close(one: &Setup, other: &Setup, shots: &[Pair]) -> Result<(), TestCaseError> {
+fn terms_are_close(one: &Scenario, other: &Scenario, shots: &[Pair]) -> Result<(), TestCaseError> {
     let steady = shots.iter().filter(|[here, _]| is_steady(one, here));
-    let (here, there): (Vec<Deviate>, Vec<Deviate>) = steady.map(|[a, b]| (*a, *b)).unzip();
+    let (here, there): (Vec<ShotSample>, Vec<ShotSample>) = steady.map(|[a, b]| (*a, *b)).unzip();
     // In some worlds the nozzle is in a wall.
     prop_assert!(here.len() * 8 > shots.len(), "{}", here.len());
     let (one, other) = (terms(one, &here), terms(other, &there));
@@ -61,7 +61,7 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    fn paths(&self, one: &Setup, other: &Setup, shots: &[Pair]) -> Result<(), TestCaseError> {
+    fn paths(&self, one: &Scenario, other: &Scenario, shots: &[Pair]) -> Result<(), TestCaseError> {
         for [here, there] in shots {
             let roundings = roundings(one, here);
             let (here, there) = (path(one, here), path(other, there));
@@ -132,18 +132,18 @@ pub fn same_in(view: &View, world: &World) -> Result<(), TestCaseError> {
 }
 
 /// A shot of the mirror's jet: across changes sides.
-fn mirrored(shot: &Deviate) -> Deviate {
+fn mirrored(shot: &ShotSample) -> ShotSample {
     let [x, y] = shot.exit;
     let [across, upward, forward] = shot.cone;
-    Deviate {
+    ShotSample {
         exit: [-x, y],
         cone: [-across, upward, forward],
         ..*shot
     }
 }
 
-fn mirrored_pairs(setup: &Setup) -> Vec<Pair> {
-    let shots = shots(setup, 256).into_iter();
+fn mirrored_pairs(scenario: &Scenario) -> Vec<Pair> {
+    let shots = shots(scenario, 256).into_iter();
     shots.map(|shot| [shot, mirrored(&shot)]).collect()
 }
 
@@ -163,13 +163,13 @@ pub fn same_in_mirror(world: &World) -> Result<(), TestCaseError> {
     terms_are_close(&one, &other, &pairs)
 }
 
-fn evaluation(setup: &Setup) -> Evaluation {
-    let fresh = Replicates::new(&setup.problem, purpose::ANSWERS, 256);
-    evaluate(setup, &held(setup), &fresh)
+fn evaluation(scenario: &Scenario) -> Evaluation {
+    let fresh = Replicates::new(&scenario.problem, purpose::ANSWERS, 256);
+    evaluate(scenario, &held(scenario), &fresh)
 }
 
 /// Every figure of an evaluation, and those of each surface with its name without a prefix.
-pub fn figures(setup: &Setup, prefix: &str) -> (String, Vec<(String, String)>) {
+pub fn figures(scenario: &Scenario, prefix: &str) -> (String, Vec<(String, String)>) {
     let Evaluation {
         terms,
         term_errors,
@@ -178,8 +178,8 @@ pub fn figures(setup: &Setup, prefix: &str) -> (String, Vec<(String, String)>) {
         ends,
         rays,
         ..
-    } = evaluation(setup);
-    let names = setup.scene.surfaces().iter();
+    } = evaluation(scenario);
+    let names = scenario.scene.surfaces().iter();
     let names = names.map(|name| name.replace(prefix, ""));
     let receipts = surfaces.iter().map(|receipt| format!("{receipt:?}"));
     let mut surfaces: Vec<_> = names.zip(receipts).collect();

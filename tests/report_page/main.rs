@@ -8,10 +8,10 @@ mod kept;
 use std::path::Path;
 
 use peenpose::evidence::Evidence;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
 use peenpose::record::{EvidenceRecord, Record};
 use peenpose::report::{page, sheet};
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 
 use browser::Browser;
 
@@ -26,14 +26,14 @@ const HOSTILE: &str =
 fn illustrated() -> Record {
     let mut record = kept::record("keyway");
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
-    let (setup, _) = Setup::load(&file).unwrap();
+    let (scenario, _) = Scenario::load(&file).unwrap();
     let settings = &record.best.settings;
-    let contacts = &setup.problem.contacts;
+    let contacts = &scenario.problem.contacts;
     let contact = contacts
         .iter()
         .position(|it| it.name == record.best.contact)
         .unwrap();
-    let choice = Choice {
+    let settings = Settings {
         incidence: settings.incidence_deg.to_radians(),
         azimuth: settings.azimuth_deg.to_radians(),
         standoff: settings.standoff_m,
@@ -44,8 +44,8 @@ fn illustrated() -> Record {
         contact,
         static_friction: contacts[contact].static_friction.min,
     };
-    let evidence = Evidence::of(&setup, &choice, SHOTS);
-    record.evidence = Some(EvidenceRecord::new(&setup, &choice, &evidence));
+    let evidence = Evidence::of(&scenario, &settings, SHOTS);
+    record.evidence = Some(EvidenceRecord::new(&scenario, &settings, &evidence));
     record
 }
 

@@ -5,19 +5,19 @@ use std::path::Path;
 use nalgebra::{Point3, Vector3};
 use peenpose::evaluate::evaluate;
 use peenpose::jet::Replicates;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
 use peenpose::scene::ray::Ray;
-use peenpose::setup::Setup;
 use peenpose::trace::End;
 
-use crate::{PLATE, Random, edited, held, path, setup, setup_beside};
+use crate::{PLATE, Random, edited, held, path, scenario, setup_beside};
 
 const PLATE_PART: &str = "plate: { box: { min: [-50, -50, -10], max: [50, 50, 0] } }";
 const PLATE_TARGET: &str = "plate.z_max, aim: [0, 0, 0], along: [1, 0, 0]";
 
 /// A wedge of this angle along z, its apex at the origin and its mouth at x = 50 mm; `Walls` say
 /// whether it is two planes or triangles.
-fn wedge(angle: f64, walls: Walls) -> Setup {
+fn wedge(angle: f64, walls: Walls) -> Scenario {
     let (x, y) = (50.0 * (angle / 2.0).cos(), 50.0 * (angle / 2.0).sin());
     let part = format!(
         "plate: {{ extrude: {{ length: 40 mm, ends: open, profile: [
@@ -58,7 +58,7 @@ fn unfolded(angle: f64, origin: Point3<f64>, direction: Vector3<f64>) -> usize {
 
 #[test]
 fn shots_come_out_of_a_wedge_after_as_many_hits_as_unfolding_says() {
-    for walls in [Walls::Exact, Walls::Facets { chord_angle: 0.1 }] {
+    for walls in [Walls::Exact, Walls::TriangleMesh { chord_angle: 0.1 }] {
         for angle in [1.0_f64, 7.3, 36.5, 91.0] {
             let angle = angle.to_radians();
             let scene = wedge(angle, walls).scene;
@@ -83,7 +83,7 @@ fn shots_come_out_of_a_wedge_after_as_many_hits_as_unfolding_says() {
                             origin: p,
                             direction: (ray.direction - hit.normal * (2.0 * into)).normalize(),
                         };
-                        leaving = Some(hit.spot);
+                        leaving = Some(hit.hit_id);
                     }
                     assert_eq!(hits, expected, "{angle} {aside} {walls:?}");
                 }
@@ -127,8 +127,8 @@ fn an_offset_along_the_normal_leaves_a_wedge_through_its_wall() {
 }
 
 /// A room with walls as they are: restitution, friction and spin.
-fn room(contact: &str, paths: &str) -> Setup {
-    setup(&edited(
+fn room(contact: &str, paths: &str) -> Scenario {
+    scenario(&edited(
         PLATE,
         &[
             (
@@ -184,7 +184,7 @@ fn shots_rattle_in_corners_until_they_are_spent() {
 #[test]
 fn a_start_on_a_surface_is_no_hit() {
     let block = room("mu_s: 0.3, mu_d: 0.2, restitution: 0.9", "{ impacts: 2 }");
-    let bore = setup(&edited(
+    let bore = scenario(&edited(
         PLATE,
         &[
             (
@@ -209,10 +209,10 @@ fn a_start_on_a_surface_is_no_hit() {
                     origin: hit.point,
                     direction,
                 };
-                let next = scene.first_hit(&away, Some(hit.spot)).unwrap();
+                let next = scene.first_hit(&away, Some(hit.hit_id)).unwrap();
                 // Never the piece that it left, unless that is round: then a chord of it, across
                 // 2 R times the sine of its rise.
-                if next.spot.piece == hit.spot.piece {
+                if next.hit_id.piece == hit.hit_id.piece {
                     let turned = 1.0 - next.normal.dot(&hit.normal);
                     let chord = 2.0 * 10e-3 * direction.dot(&hit.normal);
                     assert!(
@@ -234,8 +234,8 @@ fn a_start_on_a_surface_is_no_hit() {
 }
 
 /// A bore that is closed but for a slit between its wall and a plug.
-fn nearly_closed(contact: &str, paths: &str) -> Setup {
-    setup(&edited(
+fn nearly_closed(contact: &str, paths: &str) -> Scenario {
+    scenario(&edited(
         PLATE,
         &[
             (
@@ -305,7 +305,7 @@ fn paths_in_a_nearly_closed_bore_end_and_are_counted() {
             .map(|s| s.impacts_by_number.len())
             .max();
         assert!(longest.unwrap() <= most);
-        assert!(evaluation.rays <= (evaluation.shots + evaluation.rim_shots) * (most + 1));
+        assert!(evaluation.rays <= (evaluation.shots + evaluation.boundary_shots) * (most + 1));
     }
     // Through a slit of less than 4 % of the end, and with 200 impacts, some find the way out and
     // some do not.

@@ -6,12 +6,12 @@ use std::path::Path;
 use nalgebra::{Point3, Rotation3, Vector3};
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
 use peenpose::scene::ray::Ray;
-use peenpose::setup::Setup;
 
-use crate::{PLATE, Random, edited, held, setup, setup_beside};
+use crate::{PLATE, Random, edited, held, scenario, setup_beside};
 
 type Triangle = [Point3<f64>; 3];
 
@@ -72,7 +72,7 @@ fn cube(cuts: [&[f64]; 6]) -> Vec<Triangle> {
 }
 
 /// The plate with a mesh in its place; without settings that depend on its shape.
-fn of_mesh(triangles: &[Triangle], aim: &str) -> Setup {
+fn of_mesh(triangles: &[Triangle], aim: &str) -> Scenario {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("part.obj"), obj(triangles)).unwrap();
     let text = edited(
@@ -89,7 +89,7 @@ fn of_mesh(triangles: &[Triangle], aim: &str) -> Setup {
 }
 
 /// A setup for the cube; its target matters to nobody.
-fn room(cuts: [&[f64]; 6]) -> Setup {
+fn room(cuts: [&[f64]; 6]) -> Scenario {
     let triangles = cube(cuts);
     let [a, b, c] = triangles[0];
     let aim = (a.coords + b.coords + c.coords) / 3.0;
@@ -121,12 +121,12 @@ fn moller_trumbore(ray: &Ray, [a, b, c]: &Triangle) -> Option<f64> {
 /// Rays from inside the cube at points of the mesh; counts what leaks through for the naive test
 /// and asserts that nothing does for ours, and that the wall is where it should be to within `slack`.
 fn naive_leaks(
-    setup: &Setup,
+    scenario: &Scenario,
     rays: usize,
     slack: f64,
     aim: impl Fn(&Triangle, &mut Random) -> Point3<f64>,
 ) -> usize {
-    let triangles: Vec<Triangle> = setup.scene.surface_triangles(0).collect();
+    let triangles: Vec<Triangle> = scenario.scene.surface_triangles(0).collect();
     let mut random = Random(21);
     let mut leaks = 0;
     for number in 0..rays {
@@ -136,7 +136,7 @@ fn naive_leaks(
             origin,
             direction: (at - origin).normalize(),
         };
-        let hit = setup.scene.first_hit(&ray, None);
+        let hit = scenario.scene.first_hit(&ray, None);
         let hit = hit.unwrap_or_else(|| panic!("{ray:?} leaks at {at}"));
         // As near as the slope of the ray on the wall allows.
         let slope = -hit.normal.dot(&ray.direction);
@@ -159,8 +159,8 @@ fn at_a_corner(corners: &Triangle, random: &mut Random) -> Point3<f64> {
 }
 
 /// What the reader of the mesh noticed about edges that do not join two triangles.
-fn open_edges(setup: &Setup) -> Option<&String> {
-    let mut warnings = setup.scene.warnings().iter();
+fn open_edges(scenario: &Scenario) -> Option<&String> {
+    let mut warnings = scenario.scene.warnings().iter();
     warnings.find(|warning| warning.contains("edge"))
 }
 
@@ -263,7 +263,7 @@ fn slivers_do_not_turn_shots_aside() {
                 origin: hit.point,
                 direction: direction - hit.normal * (2.0 * direction.dot(&hit.normal)),
             };
-            let next = room.scene.first_hit(&away, Some(hit.spot)).unwrap();
+            let next = room.scene.first_hit(&away, Some(hit.hit_id)).unwrap();
             assert!(next.distance > 1e-4, "{width}: {}", next.distance);
         }
     }
@@ -285,7 +285,7 @@ fn the_sign_of_a_zero_makes_no_difference() {
     ];
     let tiny = f64::MIN_POSITIVE * f64::EPSILON;
     for (shape, target) in shapes.into_iter().zip(targets) {
-        for walls in [Walls::Exact, Walls::Facets { chord_angle: 0.1 }] {
+        for walls in [Walls::Exact, Walls::TriangleMesh { chord_angle: 0.1 }] {
             let text = edited(
                 PLATE,
                 &[
@@ -318,7 +318,7 @@ fn the_sign_of_a_zero_makes_no_difference() {
 }
 
 /// The plate as two triangles, turned so that rounding plays its part.
-fn plate(copies: usize, flipped: usize) -> Setup {
+fn plate(copies: usize, flipped: usize) -> Scenario {
     let flat = grid(
         Vector3::new(-50.0, -50.0, 0.0),
         [Vector3::x() * 100.0, Vector3::y() * 100.0],
@@ -346,19 +346,19 @@ fn plate(copies: usize, flipped: usize) -> Setup {
 /// Triangles that are there twice, the wrong way round, or both, count as one surface.
 #[test]
 fn duplicate_and_flipped_triangles_are_hit_once() {
-    let reference = setup(&edited(
+    let reference = scenario(&edited(
         PLATE,
         &[("divergence: 0 deg", "divergence: 20 deg")],
     ));
-    let choice = Choice {
+    let settings = Settings {
         incidence: 0.9,
         ..held(&reference)
     };
-    let shots = Samples::new(&reference.problem, Stream::Search, 2000).deviates;
-    let expected = Tally::trace(&reference, &choice, 10.0, &shots);
+    let shots = Samples::new(&reference.problem, Stream::Search, 2000).shots;
+    let expected = Tally::trace(&reference, &settings, 10.0, &shots);
     for (copies, flipped) in [(1, 0), (0, 1), (2, 0), (1, 1), (2, 2)] {
         let plate = plate(copies, flipped);
-        let found = Tally::trace(&plate, &choice, 10.0, &shots);
+        let found = Tally::trace(&plate, &settings, 10.0, &shots);
         // One ray to the plate and one away from it.
         assert_eq!(found.rays, expected.rays, "{copies} {flipped}");
         assert_eq!(found.hits.len(), expected.hits.len());
@@ -395,7 +395,7 @@ fn rebounds_hit_the_surface_that_they_leave_in_the_naive_test_and_not_in_ours() 
                 origin: hit.point,
                 direction,
             };
-            assert_eq!(plate.scene.first_hit(&away, Some(hit.spot)), None);
+            assert_eq!(plate.scene.first_hit(&away, Some(hit.hit_id)), None);
             let naive = Ray {
                 origin: ray.origin + ray.direction * hit.distance,
                 direction,

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use nalgebra::{Point3, Vector3};
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 
-use crate::{search, setup, setup_beside};
+use crate::{scenario, search, setup_beside};
 
 /// A keyway with a bore target or a floor target; lengths in a unit, moved by whole metres.
 struct Keyway {
@@ -94,9 +94,9 @@ tolerance: {{ incidence: 2 deg, azimuth: 2 deg }}
         )
     }
 
-    fn setup(&self) -> Setup {
+    fn scenario(&self) -> Scenario {
         if !self.mesh {
-            return setup(&self.text());
+            return scenario(&self.text());
         }
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("hub.obj"), self.obj()).unwrap();
@@ -129,9 +129,9 @@ tolerance: {{ incidence: 2 deg, azimuth: 2 deg }}
     }
 }
 
-fn choices() -> [Choice; 4] {
+fn choices() -> [Settings; 4] {
     [(60.0, 20.0), (82.0, 0.0), (45.0, -70.0), (70.0, 90.0)].map(
-        |(incidence, azimuth): (f64, f64)| Choice {
+        |(incidence, azimuth): (f64, f64)| Settings {
             incidence: incidence.to_radians(),
             azimuth: azimuth.to_radians(),
             standoff: 9e-3,
@@ -148,14 +148,14 @@ fn choices() -> [Choice; 4] {
 /// What 4096 shots do from each pose, in one place and in another: as many hits, and terms that
 /// agree to within `slack`, relative to the larger of each term and a thousandth.
 fn agree(one: &Keyway, other: &Keyway, slack: f64) {
-    let (one, other) = (one.setup(), other.setup());
+    let (one, other) = (one.scenario(), other.scenario());
     let (here, there) = (one.target.frame, other.target.frame);
     assert!((here.normal - there.normal).norm() < slack, "{there:?}");
     assert!((one.target.area / other.target.area - 1.0).abs() < slack);
-    for choice in choices() {
-        let tally = |setup: &Setup| {
-            let samples = Samples::new(&setup.problem, Stream::Search, 4096);
-            Tally::trace(setup, &choice, choice.speed, &samples.deviates)
+    for settings in choices() {
+        let tally = |scenario: &Scenario| {
+            let samples = Samples::new(&scenario.problem, Stream::Search, 4096);
+            Tally::trace(scenario, &settings, settings.speed, &samples.shots)
         };
         let (first, second) = (tally(&one), tally(&other));
         assert_eq!(first.hits.len(), second.hits.len());
@@ -241,17 +241,17 @@ fn micrometres_and_metres_say_the_same_as_millimetres() {
 /// The search decides on differences that are far larger than rounding: it takes the same way.
 #[test]
 fn a_search_far_away_finds_the_same_settings() {
-    let home = search(&HOME.setup());
+    let home = search(&HOME.scenario());
     let shift = PLACES[2];
-    let away = search(&Keyway { shift, ..HOME }.setup());
+    let away = search(&Keyway { shift, ..HOME }.scenario());
     let (home, away) = (&home.answers[0], &away.answers[0]);
-    let off = |of: fn(&Choice) -> f64| (of(&home.choice) - of(&away.choice)).abs();
-    assert!(off(|choice| choice.incidence) < 0.5_f64.to_radians());
-    assert!(off(|choice| choice.standoff) < 0.5e-3);
-    assert!(off(|choice| choice.speed) < 0.1);
+    let off = |of: fn(&Settings) -> f64| (of(&home.settings) - of(&away.settings)).abs();
+    assert!(off(|settings| settings.incidence) < 0.5_f64.to_radians());
+    assert!(off(|settings| settings.standoff) < 0.5e-3);
+    assert!(off(|settings| settings.speed) < 0.1);
     let total =
         |answer: &peenpose::solve::Answer| answer.evaluation.as_ref().unwrap().terms.total();
     assert!((total(home) / total(away) - 1.0).abs() < 5e-3);
-    let exit = peenpose::jet::Pose::new(&HOME.setup().target.frame, &home.choice).exit;
+    let exit = peenpose::jet::Pose::new(&HOME.scenario().target.frame, &home.settings).exit;
     assert!((exit - Point3::origin()).norm() < 0.05);
 }

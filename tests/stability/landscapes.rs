@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Point3, Vector3};
 use peenpose::feasibility::infeasibility;
 use peenpose::jet::Pose;
-use peenpose::problem::setting::Choice;
-use peenpose::setup::Setup;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::solve::Status;
 
-use crate::{PLATE, best_objective, edited, held, search, setup, terms};
+use crate::{PLATE, best_objective, edited, held, scenario, search, terms};
 
 const PLATE_BOX: &str = "plate: { box: { min: [-50, -50, -10], max: [50, 50, 0] } }";
 
@@ -63,7 +63,7 @@ fn plain_nelder_mead(value: impl Fn([f64; 2]) -> f64, start: [f64; 2], size: f64
 
 #[test]
 fn a_flat_objective_is_left_at_once_and_the_verdicts_still_say_what_is_wrong() {
-    let flat = setup(&edited(
+    let flat = scenario(&edited(
         PLATE,
         &[
             ("incidence: 60 deg", "incidence: [30 deg, 80 deg]"),
@@ -82,9 +82,9 @@ fn a_flat_objective_is_left_at_once_and_the_verdicts_still_say_what_is_wrong() {
     // Screening, and a first simplex and a few steps for each candidate; not hundreds of steps.
     assert!(solution.poses < 192 + 8 * 50, "{}", solution.poses);
     let best = &solution.answers[0];
-    let settings = &flat.problem.settings;
-    assert!(settings.incidence.contains(best.choice.incidence));
-    assert!(settings.speed.contains(best.choice.speed));
+    let ranges = &flat.problem.ranges;
+    assert!(ranges.incidence.contains(best.settings.incidence));
+    assert!(ranges.speed.contains(best.settings.speed));
     // 40 uN.s cannot be reached at 2 m/s, whatever the weights say.
     assert!(!best.passes());
 }
@@ -93,7 +93,7 @@ fn a_flat_objective_is_left_at_once_and_the_verdicts_still_say_what_is_wrong() {
 fn an_optimum_on_a_bound_is_found_to_the_last_digit() {
     // More impulse than the plate can get, then less.
     for (wanted, upper) in [("200 uN.s", true), ("0.01 uN.s", false)] {
-        let bounded = setup(&edited(
+        let bounded = scenario(&edited(
             PLATE,
             &[
                 ("incidence: 60 deg", "incidence: [20 deg, 70 deg]"),
@@ -103,19 +103,19 @@ fn an_optimum_on_a_bound_is_found_to_the_last_digit() {
                 ("target: 40 uN.s", &format!("target: {wanted}")),
             ],
         ));
-        let best = search(&bounded).answers[0].choice;
-        let settings = &bounded.problem.settings;
+        let best = search(&bounded).answers[0].settings;
+        let ranges = &bounded.problem.ranges;
         let bound =
             |range: peenpose::problem::setting::Range| if upper { range.max } else { range.min };
-        assert_eq!(best.incidence, bound(settings.incidence));
-        assert_eq!(best.speed, bound(settings.speed));
-        assert!(settings.standoff.contains(best.standoff));
+        assert_eq!(best.incidence, bound(ranges.incidence));
+        assert_eq!(best.speed, bound(ranges.speed));
+        assert!(ranges.standoff.contains(best.standoff));
     }
 }
 
 /// A pit whose only way out for rebounds lies towards -x: azimuth 180 deg.
-fn pit(azimuth: &str, along: &str) -> Setup {
-    setup(&edited(
+fn pit(azimuth: &str, along: &str) -> Scenario {
+    scenario(&edited(
         PLATE,
         &[
             (
@@ -170,7 +170,7 @@ fn an_azimuth_across_the_turn_is_one_direction() {
         ("[90 deg, 270 deg]", "[1, 0, 0]", PI),
     ] {
         let solution = search(&pit(azimuth, along));
-        let found = solution.answers[0].choice.azimuth;
+        let found = solution.answers[0].settings.azimuth;
         assert!(
             apart(found, best) < 0.2,
             "{azimuth}: {}",
@@ -179,15 +179,15 @@ fn an_azimuth_across_the_turn_is_one_direction() {
         let excess = best_objective(&solution) / least - 1.0;
         assert!(excess.abs() < 0.03, "{azimuth}: {excess}");
     }
-    assert!(apart(middle.answers[0].choice.azimuth, PI) < 0.2);
+    assert!(apart(middle.answers[0].settings.azimuth, PI) < 0.2);
     // Both ends of the turn are the same jet.
     let pit = pit("[-180 deg, 180 deg]", "[1, 0, 0]");
     let at = |azimuth: f64| {
-        let choice = Choice {
+        let settings = Settings {
             azimuth,
             ..held(&pit)
         };
-        terms(&pit, &choice, 1024).total()
+        terms(&pit, &settings, 1024).total()
     };
     assert!((at(PI) / at(-PI) - 1.0).abs() < 1e-9);
 }
@@ -218,16 +218,16 @@ fn of_two_equal_basins_one_is_chosen_and_always_the_same() {
     };
     let mut sides = [0, 0];
     for seed in 1..=6 {
-        let channel = setup(&text(seed));
+        let channel = scenario(&text(seed));
         let (first, second) = (search(&channel), search(&channel));
         let (best, again) = (&first.answers[0], &second.answers[0]);
-        assert_eq!(best.choice, again.choice);
+        assert_eq!(best.settings, again.settings);
         assert_eq!(
             best_objective(&first).to_bits(),
             best_objective(&second).to_bits()
         );
         // In one of the basins, not between them where the mean of the two would be.
-        let azimuth = best.choice.azimuth;
+        let azimuth = best.settings.azimuth;
         let side = usize::from(apart(azimuth, PI) < apart(azimuth, 0.0));
         sides[side] += 1;
         assert!(
@@ -235,12 +235,12 @@ fn of_two_equal_basins_one_is_chosen_and_always_the_same() {
             "{}",
             azimuth.to_degrees()
         );
-        let opposite = Choice {
+        let opposite = Settings {
             azimuth: azimuth + PI,
-            ..best.choice
+            ..best.settings
         };
         let (here, there) = (
-            terms(&channel, &best.choice, 8192),
+            terms(&channel, &best.settings, 8192),
             terms(&channel, &opposite, 8192),
         );
         assert!((here.total() / there.total() - 1.0).abs() < 0.05);
@@ -249,8 +249,8 @@ fn of_two_equal_basins_one_is_chosen_and_always_the_same() {
 }
 
 /// A mask with a small hole over the plate, through which only some directions reach the target.
-fn needle(seed: u32) -> Setup {
-    setup(&edited(
+fn needle(seed: u32) -> Scenario {
+    scenario(&edited(
         PLATE,
         &[
             (
@@ -282,23 +282,20 @@ fn needle(seed: u32) -> Setup {
 fn a_needle_is_found_where_a_plain_descent_stays_on_the_plateau() {
     let scene = needle(1);
     let value = |[incidence, azimuth]: [f64; 2]| {
-        let choice = Choice {
+        let settings = Settings {
             incidence,
             azimuth,
             ..held(&scene)
         };
-        terms(&scene, &choice, 64).total()
+        terms(&scene, &settings, 64).total()
     };
     // How much of the range sees the target at all: less than 3 in a hundred. (A screening of two
     // settings judges 96 points: of needles below a hundredth it sees some and misses others.)
     let grid = 60;
-    let settings = &scene.problem.settings;
+    let ranges = &scene.problem.ranges;
     let at = |i: usize, j: usize| {
         let share = |k: usize| (k as f64 + 0.5) / grid as f64;
-        value([
-            settings.incidence.at(share(i)),
-            settings.azimuth.at(share(j)),
-        ])
+        value([ranges.incidence.at(share(i)), ranges.azimuth.at(share(j))])
     };
     let seen = (0..grid * grid)
         .filter(|k| at(k / grid, k % grid) < 0.999)
@@ -307,7 +304,7 @@ fn a_needle_is_found_where_a_plain_descent_stays_on_the_plateau() {
     assert!((0.005..0.03).contains(&share), "{share}");
 
     // From the middle of the ranges: every corner is as bad as every other.
-    let middle = [settings.incidence.at(0.5), settings.azimuth.at(0.5)];
+    let middle = [ranges.incidence.at(0.5), ranges.azimuth.at(0.5)];
     assert_eq!(value(plain_nelder_mead(value, middle, 0.3)), 1.0);
 
     for seed in 1..=5 {
@@ -315,9 +312,9 @@ fn a_needle_is_found_where_a_plain_descent_stays_on_the_plateau() {
         let best = best_objective(&solution);
         assert!(best < 0.01, "{seed}: {best} on {share} of the range");
         // The way through the hole: 7 mm along, 3 mm across and 11 mm up, within half of its width.
-        let Choice {
+        let Settings {
             incidence, azimuth, ..
-        } = solution.answers[0].choice;
+        } = solution.answers[0].settings;
         let heading = Vector3::new(-azimuth.cos(), azimuth.sin().abs(), 0.0);
         let through = heading * (11.0 / incidence.tan());
         assert!(
@@ -331,7 +328,7 @@ fn a_needle_is_found_where_a_plain_descent_stays_on_the_plateau() {
 /// screening does. How far it is from fitting leads there.
 #[test]
 fn a_feasible_region_that_no_screening_meets_is_found_by_how_far_the_nozzle_is_from_it() {
-    let tight = setup(&edited(
+    let tight = scenario(&edited(
         PLATE,
         &[
             (
@@ -353,27 +350,27 @@ fn a_feasible_region_that_no_screening_meets_is_found_by_how_far_the_nozzle_is_f
         ],
     ));
     // Of a regular grid hardly any point fits.
-    let settings = &tight.problem.settings;
+    let ranges = &tight.problem.ranges;
     let steps: u32 = 12;
     let mut fitting = 0;
     for k in 0..steps * steps * steps * steps {
         let share = |place: u32| f64::from(k / steps.pow(place) % steps) / f64::from(steps - 1);
-        let choice = Choice {
-            incidence: settings.incidence.at(share(0) * 0.999),
-            standoff: settings.standoff.at(share(1)),
-            aim_along: settings.aim_along.at(share(2)),
-            aim_across: settings.aim_across.at(share(3)),
-            aim_above: settings.aim_above.min,
+        let settings = Settings {
+            incidence: ranges.incidence.at(share(0) * 0.999),
+            standoff: ranges.standoff.at(share(1)),
+            aim_along: ranges.aim_along.at(share(2)),
+            aim_across: ranges.aim_across.at(share(3)),
+            aim_above: ranges.aim_above.min,
             ..held(&tight)
         };
-        fitting += u32::from(infeasibility(&tight, &choice).is_none());
+        fitting += u32::from(infeasibility(&tight, &settings).is_none());
     }
     let share = f64::from(fitting) / f64::from(steps.pow(4));
     assert!(share < 1e-3, "{share}");
     let solution = search(&tight);
     assert_ne!(solution.status, Status::NoFeasiblePose);
     let best = &solution.answers[0];
-    assert_eq!(infeasibility(&tight, &best.choice), None);
+    assert_eq!(infeasibility(&tight, &best.settings), None);
     assert!(best_objective(&solution) < 1e-3);
 }
 
@@ -381,7 +378,7 @@ fn a_feasible_region_that_no_screening_meets_is_found_by_how_far_the_nozzle_is_f
 #[test]
 fn infeasible_by_a_hair_is_infeasible_and_says_by_how_much() {
     let above = |standoff: &str| {
-        setup(&edited(
+        scenario(&edited(
             PLATE,
             &[
                 (
@@ -409,8 +406,8 @@ fn infeasible_by_a_hair_is_infeasible_and_says_by_how_much() {
         );
         // The pose that is nearest to fitting: the upper end.
         assert_eq!(
-            best.choice.standoff,
-            above(standoff).problem.settings.standoff.max
+            best.settings.standoff,
+            above(standoff).problem.ranges.standoff.max
         );
     }
     for standoff in ["5.000001 mm", "[4 mm, 5.000001 mm]"] {

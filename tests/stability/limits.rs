@@ -7,15 +7,15 @@ use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::impact::{Contact, Oblique, Regime, Sphere};
 use peenpose::jet::{Replicates, Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::problem::setting::Choice;
-use peenpose::setup::Setup;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::trace::End;
 
-use crate::{PLATE, Random, edited, held, path, setup};
+use crate::{PLATE, Random, edited, held, path, scenario};
 
 /// A room of 20 mm, seen from inside, in which every wall has one contact.
-fn room(contact: &str, impacts: usize) -> Setup {
-    setup(&edited(
+fn room(contact: &str, impacts: usize) -> Scenario {
+    scenario(&edited(
         PLATE,
         &[
             (
@@ -32,8 +32,12 @@ fn room(contact: &str, impacts: usize) -> Setup {
     ))
 }
 
-fn evaluated(setup: &Setup, choice: &Choice) -> Evaluation {
-    evaluate(setup, choice, &Replicates::new(&setup.problem, 5, 1024))
+fn evaluated(scenario: &Scenario, settings: &Settings) -> Evaluation {
+    evaluate(
+        scenario,
+        settings,
+        &Replicates::new(&scenario.problem, 5, 1024),
+    )
 }
 
 #[test]
@@ -42,7 +46,7 @@ fn perpendicular_shots_come_straight_back_whatever_the_azimuth() {
     let naive = Vector3::new(0.0, 0.0, 0.0) / Vector3::<f64>::zeros().norm();
     assert!(naive.x.is_nan());
 
-    let plate = setup(PLATE);
+    let plate = scenario(PLATE);
     let mass = plate.problem.shot.mass();
     // Zeros of either sign: 1/-0 is the other infinity.
     for (x, y) in [(0.0, 0.0), (-0.0, 0.0), (0.0, -0.0), (-0.0, -0.0)] {
@@ -55,12 +59,12 @@ fn perpendicular_shots_come_straight_back_whatever_the_azimuth() {
     }
 
     for azimuth in (-12..=12).map(|k| f64::from(k) * PI / 12.0) {
-        let choice = Choice {
+        let settings = Settings {
             incidence: FRAC_PI_2,
             azimuth,
             ..held(&plate)
         };
-        let target = evaluated(&plate, &choice).target;
+        let target = evaluated(&plate, &settings).target;
         assert_eq!(target.off_target, target.hits);
         assert!((target.normal_impulse.mean / (mass * 12.5) - 1.0).abs() < 1e-13);
         assert!(target.tangential_impulse.largest <= 1e-15 * target.normal_impulse.mean);
@@ -70,7 +74,7 @@ fn perpendicular_shots_come_straight_back_whatever_the_azimuth() {
 #[test]
 fn half_of_a_cone_along_the_plate_misses_it_and_the_rest_grazes() {
     // So large that every shot below the horizon lands on it, seen from 4 mm above.
-    let plate = setup(&edited(
+    let plate = scenario(&edited(
         PLATE,
         &[
             (
@@ -82,13 +86,13 @@ fn half_of_a_cone_along_the_plate_misses_it_and_the_rest_grazes() {
             ("standoff: 10 mm", "standoff: 45 mm"),
         ],
     ));
-    let choice = held(&plate);
+    let settings = held(&plate);
     let samples = Samples::new(&plate.problem, Stream::Search, 4096);
-    let tally = Tally::trace(&plate, &choice, choice.speed, &samples.deviates);
+    let tally = Tally::trace(&plate, &settings, settings.speed, &samples.shots);
     // Components towards the plate, from the definition of the jet.
-    let (sin, cos) = choice.incidence.sin_cos();
-    let sinking = samples.deviates.iter().map(|deviate| {
-        let [_, upward, forward] = deviate.cone;
+    let (sin, cos) = settings.incidence.sin_cos();
+    let sinking = samples.shots.iter().map(|sample| {
+        let [_, upward, forward] = sample.cone;
         forward * sin - upward * cos
     });
     let sinking: Vec<f64> = sinking.filter(|&sinking| sinking > 0.0).collect();
@@ -105,7 +109,7 @@ fn half_of_a_cone_along_the_plate_misses_it_and_the_rest_grazes() {
 
 #[test]
 fn shots_in_the_plane_of_a_surface_get_no_negative_impulse() {
-    let plate = setup(PLATE);
+    let plate = scenario(PLATE);
     for height in [0.0, 1e-300, 1e-18, 1e-15, 1e-12, -1e-15, 1e-9] {
         for slope in [0.0, 1e-300, 1e-15, 1e-9, -1e-300, -1e-15, -1e-9] {
             for start in [-0.06, 0.0] {
@@ -124,18 +128,21 @@ fn shots_in_the_plane_of_a_surface_get_no_negative_impulse() {
 
 #[test]
 fn without_restitution_every_path_ends_at_its_first_impact() {
-    let plate = setup(&edited(PLATE, &[("restitution: 0.25", "restitution: 0")]));
+    let plate = scenario(&edited(PLATE, &[("restitution: 0.25", "restitution: 0")]));
     for incidence in [5.0_f64, 60.0, 90.0] {
-        let choice = Choice {
+        let settings = Settings {
             incidence: incidence.to_radians(),
             standoff: 40e-3,
             ..held(&plate)
         };
-        let evaluation = evaluated(&plate, &choice);
+        let evaluation = evaluated(&plate, &settings);
         assert_eq!(evaluation.ends.len(), 1);
         assert!((evaluation.ends[&End::Stays] - 1.0).abs() < 1e-12);
-        assert_eq!(evaluation.rays, evaluation.shots + evaluation.rim_shots);
-        let expected = plate.problem.shot.mass() * 10.0 * choice.incidence.sin();
+        assert_eq!(
+            evaluation.rays,
+            evaluation.shots + evaluation.boundary_shots
+        );
+        let expected = plate.problem.shot.mass() * 10.0 * settings.incidence.sin();
         let mean = evaluation.target.normal_impulse.mean;
         assert!((mean / expected - 1.0).abs() < 1e-12);
     }
@@ -230,7 +237,7 @@ fn enough_backspin_brings_a_shot_back() {
 /// ultraelastic rough ball", American Journal of Physics 37, 1969).
 #[test]
 fn a_superball_thrown_under_a_table_returns() {
-    let table = setup(&edited(
+    let table = scenario(&edited(
         PLATE,
         &[
             (

@@ -26,12 +26,12 @@ mod threshold;
 use std::path::Path;
 
 use nalgebra::{Point3, Vector3};
-use peenpose::jet::{Deviate, Samples, Stream};
+use peenpose::jet::{Samples, ShotSample, Stream};
 use peenpose::objective::{Tally, Terms};
 use peenpose::problem;
-use peenpose::problem::setting::Choice;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Control, Solution, solve};
 use peenpose::trace::{End, PathImpact, Tracer};
 
@@ -67,12 +67,12 @@ fn edited(text: &str, edits: &[(&str, &str)]) -> String {
 }
 
 /// The setup of a problem text. Every text of this suite goes through here.
-fn setup(text: &str) -> Setup {
+fn scenario(text: &str) -> Scenario {
     setup_beside(Path::new("."), text, Walls::Exact)
 }
 
 /// The same with mesh files in a folder, or with facets.
-fn setup_beside(folder: &Path, text: &str, walls: Walls) -> Setup {
+fn setup_beside(folder: &Path, text: &str, walls: Walls) -> Scenario {
     let reading = problem::read_text(text, &folder.join("text.yaml")).unwrap();
     let Some(problem) = reading.problem else {
         panic!(
@@ -80,37 +80,41 @@ fn setup_beside(folder: &Path, text: &str, walls: Walls) -> Setup {
             problem::render(&reading.source, &reading.faults, false)
         );
     };
-    Setup::new(problem, walls).unwrap_or_else(|faults| panic!("{faults:?}"))
+    Scenario::new(problem, walls).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
 /// The terms of a choice at its own speed, on the first shots of the search.
-fn terms(setup: &Setup, choice: &Choice, shots: usize) -> Terms {
-    let samples = Samples::new(&setup.problem, Stream::Search, shots);
-    let tally = Tally::trace(setup, choice, choice.speed, &samples.deviates);
-    tally.terms(&setup.problem.goals, choice.speed)
+fn terms(scenario: &Scenario, settings: &Settings, shots: usize) -> Terms {
+    let samples = Samples::new(&scenario.problem, Stream::Search, shots);
+    let tally = Tally::trace(scenario, settings, settings.speed, &samples.shots);
+    tally.terms(&scenario.problem.goals, settings.speed)
 }
 
 /// The path of a shot that starts anywhere, and how it ends.
-fn path(setup: &Setup, origin: Point3<f64>, direction: Vector3<f64>) -> (Vec<PathImpact>, End) {
-    let choice = held(setup);
+fn path(
+    scenario: &Scenario,
+    origin: Point3<f64>,
+    direction: Vector3<f64>,
+) -> (Vec<PathImpact>, End) {
+    let settings = held(scenario);
     let ray = peenpose::scene::ray::Ray {
         origin,
         direction: direction.normalize(),
     };
     let mut impacts = Vec::new();
-    let tracer = Tracer::new(setup, &choice, choice.speed);
-    let (end, _) = tracer.follow_from(ray, &Deviate::NONE, |impact| impacts.push(*impact));
+    let tracer = Tracer::new(scenario, &settings, settings.speed);
+    let (end, _) = tracer.follow_from(ray, &ShotSample::NONE, |impact| impacts.push(*impact));
     (impacts, end)
 }
 
 /// A search small enough for a test.
-fn search(setup: &Setup) -> Solution {
+fn search(scenario: &Scenario) -> Solution {
     let control = Control {
         most_shots: 1024,
-        fresh_shots: 4096,
+        validation_shots: 4096,
         ..Control::default()
     };
-    solve(setup, &control)
+    solve(scenario, &control)
 }
 
 /// J of the best answer on fresh shots.

@@ -4,27 +4,27 @@ use nalgebra::{Point3, Vector3};
 use peenpose::evaluate::evaluate;
 use peenpose::jet::{Replicates, Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, Status, solve};
 use peenpose::trace::Tracer;
 use peenpose::verdict::{Subject, Verdict};
 
-use crate::{PLATE, best_objective, edited, held, search, setup};
+use crate::{PLATE, best_objective, edited, held, scenario, search};
 
 #[test]
 fn with_nothing_to_choose_the_answer_is_the_question() {
-    let held_plate = setup(PLATE);
+    let held_plate = scenario(PLATE);
     let solution = search(&held_plate);
     assert_eq!(solution.status, Status::Converged);
     assert_eq!(solution.answers.len(), 1);
-    assert_eq!(solution.answers[0].choice, held(&held_plate));
+    assert_eq!(solution.answers[0].settings, held(&held_plate));
     // One pose, judged a few times; not a search.
     assert!(solution.poses < 20, "{}", solution.poses);
 }
 
 #[test]
 fn a_single_free_setting_is_found_whichever_it_is() {
-    let mass = setup(PLATE).problem.shot.mass();
+    let mass = scenario(PLATE).problem.shot.mass();
     // m (1 + E) v sin(incidence).
     let impulse = |speed: f64, incidence: f64| mass * 1.25 * speed * incidence.to_radians().sin();
     let cases = [
@@ -51,7 +51,7 @@ fn a_single_free_setting_is_found_whichever_it_is() {
     ];
     for (line, range, wanted) in cases {
         let target = format!("target: {:?} N.s", wanted);
-        let free = setup(&edited(
+        let free = scenario(&edited(
             PLATE,
             &[(line, range), ("target: 40 uN.s", &target)],
         ));
@@ -63,12 +63,12 @@ fn a_single_free_setting_is_found_whichever_it_is() {
             "{range}: {}",
             best_objective(&solution)
         );
-        let best = solution.answers[0].choice;
+        let best = solution.answers[0].settings;
         let found = impulse(best.speed, best.incidence.to_degrees());
         assert!((found / wanted - 1.0).abs() < 1e-3, "{range}");
     }
     // Friction alone: half of the limit on f* is mu_d N* where it slips.
-    let tuned = setup(&edited(
+    let tuned = scenario(&edited(
         PLATE,
         &[
             (
@@ -82,7 +82,7 @@ fn a_single_free_setting_is_found_whichever_it_is() {
         ],
     ));
     let solution = search(&tuned);
-    let found = solution.answers[0].choice.static_friction;
+    let found = solution.answers[0].settings.static_friction;
     assert!(
         found >= 0.02 && 0.9 * found * 39.6769 < 1.5 * 1.001,
         "{found}"
@@ -122,11 +122,15 @@ fn equal_contacts_are_equal_and_stay_in_their_order() {
                 )
             },
         );
-        let equal = setup(&text);
+        let equal = scenario(&text);
         for _ in 0..2 {
             let solution = search(&equal);
-            let found: Vec<usize> = solution.answers.iter().map(|a| a.choice.contact).collect();
-            assert_eq!(found, equal.problem.settings.contact);
+            let found: Vec<usize> = solution
+                .answers
+                .iter()
+                .map(|a| a.settings.contact)
+                .collect();
+            assert_eq!(found, equal.problem.ranges.contact);
             let total = |k: usize| {
                 solution.answers[k]
                     .evaluation
@@ -148,7 +152,7 @@ fn equal_contacts_are_equal_and_stay_in_their_order() {
 fn a_goal_that_is_reached_to_rounding_is_reached() {
     for wanted in [31, 37, 41, 43, 47, 53] {
         for seed in 1..=3 {
-            let exact = setup(&edited(
+            let exact = scenario(&edited(
                 PLATE,
                 &[
                     ("target: 40 uN.s", &format!("target: {wanted} uN.s")),
@@ -158,7 +162,7 @@ fn a_goal_that_is_reached_to_rounding_is_reached() {
                 ],
             ));
             let control = Control {
-                fresh_shots: 4096,
+                validation_shots: 4096,
                 ..Control::default()
             };
             let solution = solve(&exact, &control);
@@ -173,7 +177,7 @@ fn a_goal_that_is_reached_to_rounding_is_reached() {
 #[test]
 fn one_shot_on_target_is_enough_to_count() {
     const SHOTS: usize = 100_000;
-    let mut wide = setup(&edited(
+    let mut wide = scenario(&edited(
         PLATE,
         &[
             ("divergence: 0 deg", "divergence: 30 deg"),
@@ -183,20 +187,20 @@ fn one_shot_on_target_is_enough_to_count() {
             ("goals:", "goals:\n  rebound: { allow: 1e6 N.s }"),
         ],
     ));
-    let choice = held(&wide);
+    let settings = held(&wide);
     let samples = Samples::new(&wide.problem, Stream::Search, SHOTS);
     // Round the place where one of them lands.
     let mut place = Point3::origin();
-    Tracer::new(&wide, &choice, 1.0)
-        .follow(&samples.deviates[54_321], |impact| place = impact.point);
+    Tracer::new(&wide, &settings, 1.0)
+        .follow(&samples.shots[54_321], |impact| place = impact.point);
     let around = Vector3::repeat(1e-8);
     wide.target.within = Some((place - around, place + around));
-    let tally = Tally::trace(&wide, &choice, 1.0, &samples.deviates);
+    let tally = Tally::trace(&wide, &settings, 1.0, &samples.shots);
     assert_eq!((tally.hits.len(), tally.shots), (1, SHOTS));
     assert_eq!(tally.missed, (SHOTS - 1) as f64);
     // Everything rests on it: the best speed gives it what is wanted.
     let goals = &wide.problem.goals;
-    let speed = tally.best_speed(goals, wide.problem.settings.speed);
+    let speed = tally.best_speed(goals, wide.problem.ranges.speed);
     assert!((tally.hits.normal[0] * speed / 40e-6 - 1.0).abs() < 1e-12);
     let terms = tally.terms(goals, speed);
     assert!(terms.normal_impulse < 1e-20 && terms.tangential_impulse == 0.0);
@@ -212,7 +216,7 @@ fn one_shot_on_target_is_enough_to_count() {
     assert!(verdict.passes() && !verdict.is_certain());
     wide.target.within = Some((place + around * 1e3, place + around * 1e3));
     let fresh = Replicates::new(&wide.problem, 5, 2048);
-    let evaluation = evaluate(&wide, &choice, &fresh);
+    let evaluation = evaluate(&wide, &settings, &fresh);
     assert_eq!(evaluation.target.hits, 0);
     assert!(evaluation.terms.total().is_finite() && evaluation.standard_error.is_finite());
     let verdicts = Verdict::all(&wide, &evaluation);
@@ -223,9 +227,9 @@ fn one_shot_on_target_is_enough_to_count() {
 }
 
 /// The keyway in which limits conflict, with every weight times a factor.
-fn weighted(factor: f64) -> Setup {
+fn weighted(factor: f64) -> Scenario {
     let weight = |share: f64| format!("{:?}", share * factor);
-    setup(&edited(
+    scenario(&edited(
         include_str!("../../problems/keyway.yaml"),
         &[
             (
@@ -254,7 +258,10 @@ fn a_common_factor_on_all_weights_changes_nothing() {
     for power in [-60, -10, 10, 28] {
         let factor = 2.0_f64.powi(power);
         let found = search(&weighted(factor));
-        assert_eq!(found.answers[0].choice, usual.answers[0].choice, "{factor}");
+        assert_eq!(
+            found.answers[0].settings, usual.answers[0].settings,
+            "{factor}"
+        );
         assert_eq!(found.poses, usual.poses, "{factor}");
         assert_eq!(best_objective(&found), factor * best_objective(&usual));
     }
@@ -279,10 +286,10 @@ fn extreme_weights_rule() {
         )
     };
     let incidence = |normal, tangential| {
-        let solution = search(&setup(&text(normal, tangential)));
+        let solution = search(&scenario(&text(normal, tangential)));
         let terms = solution.answers[0].evaluation.as_ref().unwrap().terms;
         assert!(terms.total().is_finite());
-        (solution.answers[0].choice.incidence.to_degrees(), terms)
+        (solution.answers[0].settings.incidence.to_degrees(), terms)
     };
     // Without the other: 45 uN.s needs 45/45.8 of the full speed, 79 deg.
     let (alone, terms) = incidence("1e9", "0");

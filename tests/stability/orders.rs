@@ -1,37 +1,37 @@
 //! Orders of convergence that theory gives.
 
 use nalgebra::{Point3, Vector3};
-use peenpose::jet::{Deviate, Samples, Stream};
+use peenpose::jet::{Samples, ShotSample, Stream};
 use peenpose::objective::Tally;
+use peenpose::scenario::Scenario;
 use peenpose::scene::ray::Ray;
 use peenpose::scene::{Scene, Walls};
-use peenpose::setup::Setup;
 
-use crate::{PLATE, edited, held, setup};
+use crate::{PLATE, edited, held, scenario};
 
 const SCRAMBLINGS: u32 = 64;
 
 /// Root mean square error of J over scramblings, for doubled and doubled numbers of shots.
 fn errors(
-    setup: &Setup,
+    scenario: &Scenario,
     draw: impl Fn(Stream, usize) -> Samples,
     reference: f64,
 ) -> Vec<(usize, f64)> {
-    let choice = held(setup);
-    let value = |shots: &[Deviate]| {
-        let tally = Tally::trace(setup, &choice, choice.speed, shots);
-        tally.terms(&setup.problem.goals, choice.speed).total()
+    let settings = held(scenario);
+    let value = |shots: &[ShotSample]| {
+        let tally = Tally::trace(scenario, &settings, settings.speed, shots);
+        tally.terms(&scenario.problem.goals, settings.speed).total()
     };
     let most = 4096;
     let sets: Vec<Samples> = (0..SCRAMBLINGS)
-        .map(|number| draw(Stream::Fresh(1000 + number), most))
+        .map(|number| draw(Stream::ValidationSample(1000 + number), most))
         .collect();
     (6..=12)
         .map(|power| {
             let shots = 1 << power;
             let squares: f64 = sets
                 .iter()
-                .map(|set| (value(&set.deviates[..shots]) - reference).powi(2))
+                .map(|set| (value(&set.shots[..shots]) - reference).powi(2))
                 .sum();
             (shots, (squares / f64::from(SCRAMBLINGS)).sqrt())
         })
@@ -54,16 +54,16 @@ fn rate(errors: &[(usize, f64)]) -> f64 {
 }
 
 /// J on very many shots.
-fn converged(setup: &Setup) -> f64 {
-    let choice = held(setup);
-    let samples = Samples::new(&setup.problem, Stream::Fresh(999), 1 << 17);
-    let tally = Tally::trace(setup, &choice, choice.speed, &samples.deviates);
-    tally.terms(&setup.problem.goals, choice.speed).total()
+fn converged(scenario: &Scenario) -> f64 {
+    let settings = held(scenario);
+    let samples = Samples::new(&scenario.problem, Stream::ValidationSample(999), 1 << 17);
+    let tally = Tally::trace(scenario, &settings, settings.speed, &samples.shots);
+    tally.terms(&scenario.problem.goals, settings.speed).total()
 }
 
 /// A wide jet on the plate. Near the threshold of sticking at 56.7 deg a part of the cone sticks.
-fn plate(incidence: &str) -> Setup {
-    setup(&edited(
+fn plate(incidence: &str) -> Scenario {
+    scenario(&edited(
         PLATE,
         &[
             ("divergence: 0 deg", "divergence: 8 deg, speed_spread: 5 %"),
@@ -94,7 +94,7 @@ fn away_from_cliffs_scrambled_points_beat_random_ones_by_their_order() {
     );
     let rim = errors(
         &smooth,
-        |stream, count| Samples::with_rim(problem, stream, count),
+        |stream, count| Samples::with_boundary(problem, stream, count),
         reference,
     );
     let rates = [rate(&random), rate(&sobol), rate(&rim)];
@@ -133,12 +133,12 @@ fn facets_approach_their_arc_by_the_sagitta() {
             ),
         ],
     );
-    let parts = setup(&bore).problem.parts;
+    let parts = scenario(&bore).problem.parts;
     let (radius, turns) = (12e-3, 7919);
     let mut found = Vec::new();
     for chords in [12, 24, 48, 96, 192] {
         let chord_angle = std::f64::consts::TAU / f64::from(chords);
-        let scene = Scene::build(&parts, Walls::Facets { chord_angle }).unwrap();
+        let scene = Scene::build(&parts, Walls::TriangleMesh { chord_angle }).unwrap();
         let (mut depth, mut turned): (f64, f64) = (0.0, 0.0);
         let mut mean = 0.0;
         for k in 0..turns {

@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 use peenpose::evaluate::evaluate;
 use peenpose::impact::{Contact, Law, Rebound, Regime, rebound};
 use peenpose::jet::Replicates;
-use peenpose::problem::setting::Choice;
-use peenpose::setup::Setup;
+use peenpose::problem::setting::Settings;
+use peenpose::scenario::Scenario;
 
-use crate::{PLATE, best_objective, edited, held, search, setup, terms};
+use crate::{PLATE, best_objective, edited, held, scenario, search, terms};
 
 /// A flat impact without spin.
 fn flat(contact: &Contact, slip: f64, approach: f64) -> Rebound {
@@ -111,8 +111,8 @@ fn finite_differences_diverge_at_the_jump_and_not_under_the_kinetic_law() {
 }
 
 /// The plate with a limit on tangential impulse that is always exceeded.
-fn plate(law: &str, divergence: &str) -> Setup {
-    setup(&edited(
+fn plate(law: &str, divergence: &str) -> Scenario {
+    scenario(&edited(
         PLATE,
         &[
             (
@@ -129,18 +129,21 @@ fn plate(law: &str, divergence: &str) -> Setup {
 }
 
 /// The settings at an angle from that at which the axis of the jet begins to stick.
-fn beside_threshold(setup: &Setup, angle: f64) -> Choice {
-    let threshold = setup.problem.contacts[0].contact.stick_tangent(1.0).atan();
-    Choice {
+fn beside_threshold(scenario: &Scenario, angle: f64) -> Settings {
+    let threshold = scenario.problem.contacts[0]
+        .contact
+        .stick_tangent(1.0)
+        .atan();
+    Settings {
         incidence: threshold + angle,
-        ..held(setup)
+        ..held(scenario)
     }
 }
 
 #[test]
 fn a_narrow_jet_jumps_under_the_paper_s_law_and_not_under_the_kinetic_one() {
-    let change = |setup: &Setup, angle: f64| {
-        let at = |angle| terms(setup, &beside_threshold(setup, angle), 64).tangential_impulse;
+    let change = |scenario: &Scenario, angle: f64| {
+        let at = |angle| terms(scenario, &beside_threshold(scenario, angle), 64).tangential_impulse;
         (at(angle) / at(-angle) - 1.0).abs()
     };
     let (jumping, continuous) = (plate("stick_slip", "0 deg"), plate("kinetic", "0 deg"));
@@ -157,7 +160,7 @@ fn a_wide_jet_crosses_the_threshold_shot_by_shot() {
     const SHOTS: usize = 2048;
     let wide = plate("stick_slip", "4 deg");
     let half_angle = wide.problem.jet.divergence;
-    let fresh = Replicates::without_rim(&wide.problem, 5, SHOTS);
+    let fresh = Replicates::without_boundary(&wide.problem, 5, SHOTS);
     let sticking = |angle: f64| {
         let target = evaluate(&wide, &beside_threshold(&wide, angle), &fresh).target;
         assert_eq!(target.hits, SHOTS);
@@ -195,7 +198,7 @@ fn a_wide_jet_crosses_the_threshold_shot_by_shot() {
 #[test]
 fn a_search_ends_at_the_foot_of_the_cliff() {
     for divergence in ["0 deg", "0.01 deg"] {
-        let cliff = setup(&edited(
+        let cliff = scenario(&edited(
             PLATE,
             &[
                 ("divergence: 0 deg", &format!("divergence: {divergence}")),
@@ -215,7 +218,7 @@ fn a_search_ends_at_the_foot_of_the_cliff() {
         assert!(below < 0.0 && across > -100.0 * below, "{below} {across}");
 
         let solution = search(&cliff);
-        let found = solution.answers[0].choice.incidence;
+        let found = solution.answers[0].settings.incidence;
         let short = threshold - found;
         assert!(
             (0.0..0.3_f64.to_radians()).contains(&short),

@@ -8,7 +8,7 @@ use peenpose::record::LARGEST_FILE;
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 
 use crate::args::ChartArgs;
 use crate::folder::Staged;
@@ -23,8 +23,8 @@ const CHART: &str = "chart.json";
 /// Measures a problem file and writes figures, tables and a text.
 pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
     let beside = beside(&args.beside)?;
-    let (setup, source) = start::load(&args.start, &args.file, Some(&args.out))?;
-    let setup = setup.as_asked();
+    let (scenario, source) = start::load(&args.start, &args.file, Some(&args.out))?;
+    let scenario = scenario.as_asked();
     let watcher = Watcher::new(args.start.quiet);
     let control = Control {
         most_shots: args.most_shots as usize,
@@ -33,8 +33,8 @@ pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
         watch: &|step| watcher.show_step(step),
         ..Control::default()
     };
-    let command = command(args, &setup);
-    let chart = measure(&setup, &source, command, beside, &control);
+    let command = command(args, &scenario);
+    let chart = measure(&scenario, &source, command, beside, &control);
     watcher.finish();
     let chart = chart.map_err(|refusal| refusal.to_string())?;
     let json = chart
@@ -108,7 +108,7 @@ fn beside_table(path: &Path) -> Result<Vec<BesidePoint>, String> {
 }
 
 /// The command that makes the chart again.
-fn command(args: &ChartArgs, setup: &Setup) -> String {
+fn command(args: &ChartArgs, scenario: &Scenario) -> String {
     let file = |path: &Path| quoted(&path.display().to_string());
     let mut command = format!(
         "peenpose chart {} --out {}",
@@ -121,6 +121,6 @@ fn command(args: &ChartArgs, setup: &Setup) -> String {
     command
         + &format!(
             " --most-shots {} --seeds {} --seed {}",
-            args.most_shots, args.seeds, setup.problem.seed
+            args.most_shots, args.seeds, scenario.problem.seed
         )
 }

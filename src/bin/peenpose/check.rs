@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 
 use crate::args::CheckArgs;
 use crate::output::{BAD_INPUT, Failure, text, warnings};
@@ -14,23 +14,23 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let mut failed = ExitCode::SUCCESS;
     let mut good = String::new();
     for path in &args.files {
-        match Setup::load(path) {
-            Ok((setup, source)) => {
-                let found = warnings(&setup, &source);
+        match Scenario::load(path) {
+            Ok((scenario, source)) => {
+                let found = warnings(&scenario, &source);
                 if args.deny_warnings && found > 0 {
                     failed = ExitCode::from(BAD_INPUT);
                     continue;
                 }
-                let problem = &setup.problem;
+                let problem = &scenario.problem;
                 good += &format!(
                     "{}: ok, {}: {} surfaces, {} triangles, {} contacts\n",
                     path.display(),
                     problem.title,
-                    setup.scene.surfaces().len(),
-                    setup.scene.triangles(),
-                    problem.settings.contact.len(),
+                    scenario.scene.surfaces().len(),
+                    scenario.scene.triangles(),
+                    problem.ranges.contact.len(),
                 );
-                for warning in setup.scene.warnings() {
+                for warning in scenario.scene.warnings() {
                     good += &format!("  warning: {warning}\n");
                 }
             }

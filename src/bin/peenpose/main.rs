@@ -6,12 +6,12 @@
 mod args;
 mod chart;
 mod check;
+mod checkpoint;
 mod evaluate;
 mod export;
 mod folder;
 mod impact;
 mod init;
-mod kept;
 mod map;
 mod media;
 mod output;

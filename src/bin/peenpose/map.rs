@@ -4,18 +4,18 @@ use std::process::ExitCode;
 
 use peenpose::checkpoint::Checkpoint;
 use peenpose::map::{self, Axis, Map};
-use peenpose::problem::setting::{Choice, Range, Setting};
+use peenpose::problem::setting::{Range, Setting, Settings};
 use peenpose::problem::{Problem, given};
 use peenpose::record::{AnswerRecord, MapRecord, MapTerm, QuestionRecord};
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
 use peenpose::report::{self, MapView};
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Answer, Control, solve};
 
 use crate::args::MapArgs;
+use crate::checkpoint;
 use crate::folder::Staged;
-use crate::kept;
 use crate::output::{self, Failure, both};
 use crate::progress::{ENDED, Watcher};
 use crate::settings::{self, Earlier, contact_named, setting_named};
@@ -30,31 +30,31 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         let name = x.setting.name();
         return Err(format!("--y {name}: both axes are the same setting").into());
     }
-    let (mut setup, source) = start::load(&args.start, &args.file, Some(&args.out))?;
+    let (mut scenario, source) = start::load(&args.start, &args.file, Some(&args.out))?;
     let from = args
         .from
         .as_deref()
-        .map(|path| Earlier::read(path, &setup, &source, args.start.quiet))
+        .map(|path| Earlier::read(path, &scenario, &source, args.start.quiet))
         .transpose()?;
     if let Some(name) = &args.contact {
-        let contact = contact_named(name, &setup.problem)
+        let contact = contact_named(name, &scenario.problem)
             .map_err(|message| format!("--contact: {message}"))?;
-        setup.problem.settings.contact = vec![contact];
+        scenario.problem.ranges.contact = vec![contact];
     }
-    x.check(&setup.problem)?;
-    y.check(&setup.problem)?;
+    x.check(&scenario.problem)?;
+    y.check(&scenario.problem)?;
     let varied = [x.setting, y.setting];
-    let kept = kept::open(args.checkpoint.as_deref(), &setup)?;
+    let kept = checkpoint::open(args.checkpoint.as_deref(), &scenario)?;
     let kept = kept.as_ref();
-    let given = given(args, from.as_ref(), &setup, varied)?;
+    let given = given(args, from.as_ref(), &scenario, varied)?;
     let watcher = Watcher::new(args.start.quiet);
-    let (choice, is_known) = match given {
+    let (settings, is_known) = match given {
         Some(given) => given,
-        None => (searched(args, &setup, kept, &watcher)?, true),
+        None => (searched(args, &scenario, kept, &watcher)?, true),
     };
-    let setup = setup.as_asked();
+    let scenario = scenario.as_asked();
     let axis = |asked: &Asked| -> Result<Axis, String> {
-        let range = asked.range(&setup.problem, &choice)?;
+        let range = asked.range(&scenario.problem, &settings)?;
         Ok(Axis::over(asked.setting, range, args.steps.into()))
     };
     let (x, y) = (axis(&x)?, axis(&y)?);
@@ -63,14 +63,14 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         stop: &watcher.stop,
         checkpoint: kept,
     };
-    let map = Map::of(&setup, &choice, x, y, args.shots as usize, &control);
+    let map = Map::of(&scenario, &settings, x, y, args.shots as usize, &control);
     watcher.finish();
-    kept::close(kept, args.start.quiet);
-    let answer = Answer::judged(&setup, &choice, None);
+    checkpoint::close(kept, args.start.quiet);
+    let answer = Answer::evaluated(&scenario, &settings, None);
     let view = MapView {
-        map: &MapRecord::new(&setup, &map),
-        problem: &QuestionRecord::new(&setup.problem, &source),
-        answer: &AnswerRecord::new(&setup, &answer),
+        map: &MapRecord::new(&scenario, &map),
+        problem: &QuestionRecord::new(&scenario.problem, &source),
+        answer: &AnswerRecord::new(&scenario, &answer),
         marks_settings: is_known,
     };
     write(args, &view, varied)
@@ -116,24 +116,24 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
 fn given(
     args: &MapArgs,
     from: Option<&Earlier>,
-    setup: &Setup,
+    scenario: &Scenario,
     varied: [Setting; 2],
-) -> Result<Option<(Choice, bool)>, String> {
+) -> Result<Option<(Settings, bool)>, String> {
     if args.set.is_empty() && from.is_none() {
         return Ok(None);
     }
     let mut set = args.set.clone();
     set.extend(args.contact.iter().map(|name| format!("contact={name}")));
-    settings::choice_round(varied, &set, from, &setup.problem).map(Some)
+    settings::choice_round(varied, &set, from, &scenario.problem).map(Some)
 }
 
 /// The best settings, or the best so far when the search is told to stop.
 fn searched(
     args: &MapArgs,
-    setup: &Setup,
+    scenario: &Scenario,
     kept: Option<&Checkpoint>,
     watcher: &Watcher,
-) -> Result<Choice, String> {
+) -> Result<Settings, String> {
     if !args.start.quiet {
         output::note("no --from and no --set: searching for the best settings first");
     }
@@ -143,10 +143,10 @@ fn searched(
         checkpoint: kept,
         ..Control::default()
     };
-    let solution = solve(setup, &control);
+    let solution = solve(scenario, &control);
     let best = solution.answers.first();
     let best = best.ok_or("there is no contact to choose")?;
-    Ok(best.choice)
+    Ok(best.settings)
 }
 
 /// An axis as it was asked for.
@@ -181,7 +181,7 @@ impl Asked {
 
     /// What is wrong with it before the contact is known.
     fn check(&self, problem: &Problem) -> Result<(), String> {
-        let own = problem.settings.range(self.setting);
+        let own = problem.ranges.range(self.setting);
         if self.range.is_none() && own.is_some_and(Range::is_held) {
             return Err(format!(
                 "{} {}: the file holds it at one value; say how far to draw, such as `{}`",
@@ -194,9 +194,9 @@ impl Asked {
     }
 
     /// The range that was asked for, or else the file's.
-    fn range(&self, problem: &Problem, choice: &Choice) -> Result<Range, String> {
+    fn range(&self, problem: &Problem, settings: &Settings) -> Result<Range, String> {
         let wrong = |message: &str| format!("{} {}: {message}", self.option, self.setting.name());
-        let contact = &problem.contacts[choice.contact];
+        let contact = &problem.contacts[settings.contact];
         let friction = contact.static_friction;
         if self.setting == Setting::StaticFriction && friction.is_held() {
             let message = format!(
@@ -205,9 +205,9 @@ impl Asked {
             );
             return Err(wrong(&message));
         }
-        let own = problem.settings.range(self.setting).unwrap_or(friction);
+        let own = problem.ranges.range(self.setting).unwrap_or(friction);
         let range = self.range.unwrap_or(own);
-        if self.setting == Setting::Incidence && range.min <= 0.0 && choice.aim_above <= 0.0 {
+        if self.setting == Setting::Incidence && range.min <= 0.0 && settings.aim_above <= 0.0 {
             let message = "must be above 0 deg where aim_above is not above 0 mm";
             return Err(wrong(message));
         }

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use peenpose::printable;
 use peenpose::problem::{Source, render_warnings};
-use peenpose::setup::{Rejection, Setup};
+use peenpose::scenario::{Rejection, Scenario};
 
 /// Exit status of bad input or failure.
 pub const BAD_INPUT: u8 = 2;
@@ -67,8 +67,8 @@ pub fn note(message: &str) {
 }
 
 /// Shows on stderr what parses but can hardly be meant; tells how many warnings there are.
-pub fn warnings(setup: &Setup, source: &Source) -> usize {
-    let found = peenpose::warnings::of(setup, source);
+pub fn warnings(scenario: &Scenario, source: &Source) -> usize {
+    let found = peenpose::warnings::of(scenario, source);
     tell(&render_warnings(
         source,
         &found,

@@ -4,16 +4,20 @@ use std::path::Path;
 
 use peenpose::printable;
 use peenpose::problem::fault::nearest_name;
-use peenpose::problem::setting::{Choice, Setting};
+use peenpose::problem::setting::{Setting, Settings};
 use peenpose::problem::{Problem, Source, given};
 use peenpose::record::{Record, mesh_sha256};
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 
 use crate::output::{self, Failure};
 use crate::result;
 
 /// The settings asked for: from a result, from `--set`, or held in the file.
-pub fn choice(set: &[String], from: Option<&Earlier>, problem: &Problem) -> Result<Choice, String> {
+pub fn settings(
+    set: &[String],
+    from: Option<&Earlier>,
+    problem: &Problem,
+) -> Result<Settings, String> {
     Known::of(set, from, problem)?.complete(problem)
 }
 
@@ -23,9 +27,9 @@ pub fn choice_round(
     set: &[String],
     from: Option<&Earlier>,
     problem: &Problem,
-) -> Result<(Choice, bool), String> {
+) -> Result<(Settings, bool), String> {
     let mut known = Known::of(set, from, problem)?;
-    let middle = problem.settings.middle();
+    let middle = problem.ranges.middle();
     let mut all_known = true;
     for (value, setting) in known.values.iter_mut().zip(SETTINGS) {
         if varied.contains(&setting) && value.is_none() {
@@ -67,14 +71,14 @@ impl<'a> Earlier<'a> {
     /// changed: settings that fit there may be nonsense here.
     pub fn read(
         path: &'a Path,
-        setup: &Setup,
+        scenario: &Scenario,
         source: &Source,
         quiet: bool,
     ) -> Result<Self, Failure> {
         let record = result::read(path)?;
         if !quiet {
             let shown = path.display();
-            for difference in differences(&record, setup, source) {
+            for difference in differences(&record, scenario, source) {
                 output::warn(&format!(
                     "{shown} {difference}: its settings are taken all the same"
                 ));
@@ -84,11 +88,11 @@ impl<'a> Earlier<'a> {
     }
 
     /// Its best settings.
-    fn choice(&self, problem: &Problem) -> Result<Choice, String> {
+    fn settings(&self, problem: &Problem) -> Result<Settings, String> {
         let best = &self.record.best;
         let contact = contact_named(&best.contact, problem)
             .map_err(|fault| format!("--from {}: {fault}", self.path.display()))?;
-        Ok(Choice {
+        Ok(Settings {
             incidence: best.settings.incidence_deg.to_radians(),
             azimuth: best.settings.azimuth_deg.to_radians(),
             standoff: best.settings.standoff_m,
@@ -103,9 +107,9 @@ impl<'a> Earlier<'a> {
 }
 
 /// What a result was made from that is not what is here.
-fn differences(record: &Record, setup: &Setup, source: &Source) -> Vec<String> {
+fn differences(record: &Record, scenario: &Scenario, source: &Source) -> Vec<String> {
     let answered = &record.problem.title;
-    if *printable::line(&setup.problem.title) != **answered {
+    if *printable::line(&scenario.problem.title) != **answered {
         return vec![format!("answers another problem, `{answered}`")];
     }
     let mut changed = Vec::new();
@@ -115,7 +119,7 @@ fn differences(record: &Record, setup: &Setup, source: &Source) -> Vec<String> {
             "was made before the problem file {file} was changed"
         ));
     }
-    for (file, sha256) in mesh_sha256(setup, source) {
+    for (file, sha256) in mesh_sha256(scenario, source) {
         match record.mesh_sha256.get(&file) {
             Some(earlier) if *earlier != sha256 => {
                 changed.push(format!("was made before the mesh {file} was changed"));
@@ -169,7 +173,7 @@ impl Known {
     fn of(set: &[String], from: Option<&Earlier>, problem: &Problem) -> Result<Self, String> {
         let mut known = Self::held(problem);
         if let Some(earlier) = from {
-            known.take(&earlier.choice(problem)?);
+            known.take(&earlier.settings(problem)?);
         }
         for text in set {
             known.set(text, problem)?;
@@ -180,10 +184,10 @@ impl Known {
     /// What the file holds at one value.
     fn held(problem: &Problem) -> Self {
         let held = |setting| {
-            let range = problem.settings.range(setting)?;
+            let range = problem.ranges.range(setting)?;
             range.is_held().then_some(range.min)
         };
-        let contact = match problem.settings.contact[..] {
+        let contact = match problem.ranges.contact[..] {
             [only] => Some(only),
             _ => None,
         };
@@ -194,9 +198,9 @@ impl Known {
         }
     }
 
-    fn take(&mut self, choice: &Choice) {
-        self.values = SETTINGS.map(|setting| Some(setting.of(choice)));
-        self.contact = Some(choice.contact);
+    fn take(&mut self, settings: &Settings) {
+        self.values = SETTINGS.map(|setting| Some(setting.of(settings)));
+        self.contact = Some(settings.contact);
     }
 
     /// Takes `name=value` from the command line.
@@ -223,7 +227,7 @@ impl Known {
         Ok(())
     }
 
-    fn complete(&self, problem: &Problem) -> Result<Choice, String> {
+    fn complete(&self, problem: &Problem) -> Result<Settings, String> {
         let mut missing: Vec<&str> = Vec::new();
         let mut value = |index: usize| {
             self.values[index].unwrap_or_else(|| {
@@ -231,7 +235,7 @@ impl Known {
                 0.0
             })
         };
-        let mut choice = Choice {
+        let mut settings = Settings {
             incidence: value(0),
             azimuth: value(1),
             standoff: value(2),
@@ -243,10 +247,10 @@ impl Known {
             static_friction: 0.0,
         };
         match self.contact {
-            Some(contact) => choice.contact = contact,
+            Some(contact) => settings.contact = contact,
             None => missing.push("contact"),
         }
-        let contact = &problem.contacts[choice.contact];
+        let contact = &problem.contacts[settings.contact];
         let friction = contact.static_friction;
         if self.friction_asked && self.contact.is_some() && friction.is_held() {
             return Err(format!(
@@ -254,16 +258,16 @@ impl Known {
                 contact.name
             ));
         }
-        choice.static_friction = self.values[7].unwrap_or(friction.min);
+        settings.static_friction = self.values[7].unwrap_or(friction.min);
         if self.values[7].is_none() && !friction.is_held() {
             missing.push("mu_s");
         }
-        if self.values[0] == Some(0.0) && choice.aim_above <= 0.0 {
+        if self.values[0] == Some(0.0) && settings.aim_above <= 0.0 {
             let message = "the incidence must be above 0 deg where aim_above is not above 0 mm";
             return Err(message.into());
         }
         if missing.is_empty() {
-            return given::check(&choice).map(|()| choice);
+            return given::check(&settings).map(|()| settings);
         }
         Err(format!(
             "the file leaves {} open; say what to evaluate with --set {}=... or --from result.json",

@@ -6,7 +6,7 @@ use std::thread::{available_parallelism, sleep};
 use std::time::Duration;
 
 use peenpose::problem::Source;
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 
 use crate::folder;
 use crate::output::{self, Failure};
@@ -26,20 +26,24 @@ pub struct StartArgs {
 }
 
 /// Reads a problem file and shows its warnings, after it is known that results can be written.
-pub fn load(args: &StartArgs, file: &Path, out: Option<&Path>) -> Result<(Setup, Source), Failure> {
+pub fn load(
+    args: &StartArgs,
+    file: &Path,
+    out: Option<&Path>,
+) -> Result<(Scenario, Source), Failure> {
     use_threads(args.threads)?;
     folder::prepare(out)?;
-    let (mut setup, source) = Setup::load(file)?;
+    let (mut scenario, source) = Scenario::load(file)?;
     if !args.quiet {
-        output::warnings(&setup, &source);
-        for warning in setup.scene.warnings() {
+        output::warnings(&scenario, &source);
+        for warning in scenario.scene.warnings() {
             output::warn(warning);
         }
     }
     if let Some(seed) = args.seed {
-        setup.problem.seed = seed;
+        scenario.problem.seed = seed;
     }
-    Ok((setup, source))
+    Ok((scenario, source))
 }
 
 /// Starts the threads that compute, one for each core unless told otherwise. Where none are to be had it

@@ -12,8 +12,8 @@ use nalgebra::{Point3, Vector3};
 use super::{Place, TargetHit, length};
 use crate::elementary::{atan2, hypot};
 use crate::jet::Pose;
+use crate::scenario::Scenario;
 use crate::scene::ray::Ray;
-use crate::setup::Setup;
 use crate::trace::PathImpact;
 
 const SECTORS: usize = 36;
@@ -33,8 +33,13 @@ struct Edge<'a> {
 
 /// The edge that is nearest to the middle of the hits; none where they reach the target's borders
 /// everywhere. `radius` is that of the discs in which hits are counted.
-pub(super) fn find(setup: &Setup, pose: &Pose, hits: &[TargetHit], radius: f64) -> Option<Place> {
-    let frame = &setup.target.frame;
+pub(super) fn find(
+    scenario: &Scenario,
+    pose: &Pose,
+    hits: &[TargetHit],
+    radius: f64,
+) -> Option<Place> {
+    let frame = &scenario.target.frame;
     let sum: Vector3<f64> = hits.iter().map(|hit| hit.impact.point.coords).sum();
     let middle = Point3::from(sum / hits.len().max(1) as f64);
     let mut sectors: Vec<Vec<(f64, &PathImpact)>> = vec![Vec::new(); SECTORS];
@@ -57,12 +62,12 @@ pub(super) fn find(setup: &Setup, pose: &Pose, hits: &[TargetHit], radius: f64) 
         if nearest.as_ref().is_some_and(|edge| edge.reach <= reach) {
             continue;
         }
-        if let Some(beyond) = beyond(setup, &middle, hit, 2.0 * radius) {
+        if let Some(beyond) = beyond(scenario, &middle, hit, 2.0 * radius) {
             nearest = Some(Edge { reach, hit, beyond });
         }
     }
     let edge = nearest?;
-    let why = match in_the_way(setup, pose, &edge.beyond) {
+    let why = match in_the_way(scenario, pose, &edge.beyond) {
         Some(name) => format!("beyond, {name} hides the target from the exit"),
         None => "the jet ends here, nothing is in its way".into(),
     };
@@ -80,28 +85,35 @@ pub(super) fn find(setup: &Setup, pose: &Pose, hits: &[TargetHit], radius: f64) 
 }
 
 /// The place on the target a step outwards from a hit, if it goes on there.
-fn beyond(setup: &Setup, middle: &Point3<f64>, hit: &PathImpact, step: f64) -> Option<Point3<f64>> {
+fn beyond(
+    scenario: &Scenario,
+    middle: &Point3<f64>,
+    hit: &PathImpact,
+    step: f64,
+) -> Option<Point3<f64>> {
     let outwards = hit.point - middle;
     let in_surface = outwards - hit.normal * outwards.dot(&hit.normal);
     let wanted = hit.point + in_surface.try_normalize(0.0)? * step;
-    let (foot, _) = setup
+    let (foot, _) = scenario
         .scene
-        .nearest_on_surface(&wanted, setup.target.surface)?;
+        .nearest_on_surface(&wanted, scenario.target.surface)?;
     let goes_on = (foot - wanted).norm() < 0.5 * step;
-    (goes_on && setup.target.covers(&foot)).then_some(foot)
+    (goes_on && scenario.target.covers(&foot)).then_some(foot)
 }
 
 /// The surface that hides a place of the target from the middle of the exit. A deflector hides
 /// nothing: the jet goes round that corner.
-fn in_the_way(setup: &Setup, pose: &Pose, place: &Point3<f64>) -> Option<String> {
+fn in_the_way(scenario: &Scenario, pose: &Pose, place: &Point3<f64>) -> Option<String> {
     let way = place - pose.exit;
     let ray = Ray {
         origin: pose.exit,
         direction: way.normalize(),
     };
-    let stand = pose.stand();
-    let first = setup.scene.first_contact(&ray, 0.0, None, Some(&stand))?;
+    let nozzle_frame = pose.nozzle_frame();
+    let first = scenario
+        .scene
+        .first_contact(&ray, 0.0, None, Some(&nozzle_frame))?;
     let is_hidden = first.distance < way.norm() * (1.0 - 1e-3)
-        && !setup.surfaces[first.surface as usize].deflector;
-    is_hidden.then(|| setup.scene.surfaces()[first.surface as usize].clone())
+        && !scenario.surfaces[first.surface as usize].deflector;
+    is_hidden.then(|| scenario.scene.surfaces()[first.surface as usize].clone())
 }

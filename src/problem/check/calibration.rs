@@ -3,9 +3,9 @@
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::equipment::Calibration;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::equipment::CalibrationEntry;
-use crate::problem::rule::Rule;
 
 const EXPECTED_ROW: &str = "`{ pressure: .., speed: .. }`";
 
@@ -22,7 +22,7 @@ pub(super) fn check(
     };
     let mut sound = entries.len() >= 2;
     if !sound {
-        let fault = scope.own_fault(Rule::WrongLength, "has fewer than two rows");
+        let fault = scope.own_fault(FaultCode::WrongLength, "has fewer than two rows");
         scope.report(fault.expecting("at least two rows `{ pressure: .., speed: .. }`"));
     }
     let read: Vec<Option<(f64, f64)>> = entries
@@ -43,7 +43,7 @@ fn row(scope: &Scope<'_>, field: &Field<CalibrationEntry>) -> Option<(f64, f64)>
     if !field.is_given() {
         scope.report(
             scope
-                .own_fault(Rule::Missing, "is missing")
+                .own_fault(FaultCode::Missing, "is missing")
                 .expecting(EXPECTED_ROW),
         );
     }
@@ -60,7 +60,11 @@ fn rises_from(scope: &Scope<'_>, before: &(f64, f64), after: &(f64, f64)) -> boo
         ("speed", before.1, after.1),
     ] {
         if high <= low {
-            let fault = scope.fault(Rule::NotRising, name, "is not above that of the row before");
+            let fault = scope.fault(
+                FaultCode::NotRising,
+                name,
+                "is not above that of the row before",
+            );
             scope.report(fault.expecting("rows in which pressure and speed rise"));
             sound = false;
         }

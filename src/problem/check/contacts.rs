@@ -5,12 +5,12 @@ use super::limit::Limit;
 use super::scope::Scope;
 use crate::impact::{Contact, Law, Restitution};
 use crate::problem::equipment::ContactChoice;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
 use crate::problem::file::contact::{ContactEntry, ContactsItem, LawEntry, RestitutionEntry};
-use crate::problem::home::homes_of;
+use crate::problem::key_index::homes_of;
 use crate::problem::media::LibraryContact;
-use crate::problem::rule::Rule;
 use crate::problem::setting::Range;
 use crate::units::shortened;
 
@@ -24,7 +24,7 @@ pub(super) struct Contacts {
 impl Contacts {
     /// All contacts, if all of them are sound.
     pub fn sound(&self) -> Option<Vec<ContactChoice>> {
-        let choices = self.choices.iter().map(|(_, choice)| choice.clone());
+        let choices = self.choices.iter().map(|(_, settings)| settings.clone());
         choices
             .collect::<Option<Vec<_>>>()
             .filter(|_| self.complete)
@@ -53,7 +53,7 @@ pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Co
     };
     if entries.is_empty() {
         root.report(
-            root.fault(Rule::NothingListed, "contacts", "has no contacts")
+            root.fault(FaultCode::NothingListed, "contacts", "has no contacts")
                 .expecting(expected),
         );
     }
@@ -76,18 +76,18 @@ pub(super) fn check(root: &Scope<'_>, field: &Needed<Named<ContactsItem>>) -> Co
                     .filter(|known| !given.contains(&known.name))
                     .map(|known| {
                         let entry = library::merged(&ContactEntry::default(), known);
-                        let choice = choice_of(&list, known.name, &entry, Some(known));
-                        (known.name.to_owned(), choice)
+                        let settings = choice_of(&list, known.name, &entry, Some(known));
+                        (known.name.to_owned(), settings)
                     }),
             );
             continue;
         }
         let valid = scope.valid_name(name);
-        let choice = item
+        let settings = item
             .and_then(|item| own(&scope, name, item))
-            .and_then(|entry| choice(&scope.of(name), name, entry))
+            .and_then(|entry| settings(&scope.of(name), name, entry))
             .filter(|_| valid);
-        choices.push((name.clone(), choice));
+        choices.push((name.clone(), settings));
     }
     Contacts {
         complete: complete && !choices.is_empty(),
@@ -100,7 +100,7 @@ fn own<'f>(scope: &Scope<'_>, name: &str, item: &'f ContactsItem) -> Option<&'f 
     let found = match item {
         ContactsItem::Own(entry) => return Some(entry),
         ContactsItem::Name(_) if homes_of(name).iter().any(|home| home == OWN) => {
-            let fault = scope.fault(Rule::MisplacedKey, name, format!("belongs to {OWN}"));
+            let fault = scope.fault(FaultCode::MisplacedKey, name, format!("belongs to {OWN}"));
             let expected =
                 "a name first, such as `dry: { mu_s: 0.30, mu_d: 0.27, restitution: 0.25 }`";
             scope.report_name(fault.expecting(expected));
@@ -111,13 +111,13 @@ fn own<'f>(scope: &Scope<'_>, name: &str, item: &'f ContactsItem) -> Option<&'f 
     };
     scope.report(
         scope
-            .fault(Rule::WrongKind, name, found)
+            .fault(FaultCode::WrongKind, name, found)
             .expecting("a group of keys"),
     );
     None
 }
 
-fn choice(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<ContactChoice> {
+fn settings(scope: &Scope<'_>, name: &str, entry: &ContactEntry) -> Option<ContactChoice> {
     match &entry.library {
         Field::Missing => choice_of(scope, name, entry, None),
         Field::Faulty => None,
@@ -172,12 +172,12 @@ fn choice_of(
 
 /// The contact of a single surface, which cannot be tuned.
 pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<ContactChoice> {
-    let choice = choice(scope, "", entry)?;
-    if !choice.static_friction.is_held() {
+    let settings = settings(scope, "", entry)?;
+    if !settings.static_friction.is_held() {
         scope.report(
             scope
                 .fault(
-                    Rule::SearchedOnASurface,
+                    FaultCode::SearchedOnASurface,
                     "mu_s",
                     "the contact of a surface is not searched",
                 )
@@ -185,7 +185,7 @@ pub(super) fn fixed(scope: &Scope<'_>, entry: &ContactEntry) -> Option<ContactCh
         );
         return None;
     }
-    Some(choice)
+    Some(settings)
 }
 
 /// How dynamic friction is given.
@@ -214,7 +214,7 @@ fn dynamic_friction(
         if entry.mu_d.is_given() {
             scope.report_name(
                 scope
-                    .fault(Rule::EitherOr, "mu_d_ratio", "mu_d is given as well")
+                    .fault(FaultCode::EitherOr, "mu_d_ratio", "mu_d is given as well")
                     .expecting("either mu_d or mu_d_ratio"),
             );
             return None;
@@ -230,7 +230,7 @@ fn dynamic_friction(
             scope.report_name(
                 scope
                     .fault(
-                        Rule::HeldWhileSearched,
+                        FaultCode::HeldWhileSearched,
                         "mu_d",
                         "cannot be held while mu_s is searched",
                     )
@@ -249,7 +249,7 @@ fn dynamic_friction(
         scope.report(
             scope
                 .fault(
-                    Rule::DynamicAboveStatic,
+                    FaultCode::DynamicAboveStatic,
                     "mu_d",
                     format!(
                         "dynamic friction {value} exceeds static friction {}",

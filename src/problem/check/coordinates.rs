@@ -7,10 +7,10 @@ use nalgebra::{Point2, Point3, Vector3};
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::LengthUnit;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::BoxEntry;
 use crate::problem::file::{Pair, Triple};
-use crate::problem::rule::Rule;
 
 /// How bare coordinates become metres.
 pub(super) struct Coordinates<'a> {
@@ -89,7 +89,7 @@ impl<'a> Coordinates<'a> {
         }
         let flat = flat.join(" and ");
         let message = format!("the box has no extent along {flat}");
-        let fault = scope.fault(Rule::FlatBox, "max", message);
+        let fault = scope.fault(FaultCode::FlatBox, "max", message);
         scope.report(fault.expecting(format!("a larger {flat} than in `min`")));
         None
     }
@@ -105,7 +105,7 @@ pub(super) fn direction(scope: &Scope<'_>, triple: &Triple) -> Option<Vector3<f6
     if unit.is_none() {
         scope.report(
             scope
-                .own_fault(Rule::NotADirection, "is not a direction")
+                .own_fault(FaultCode::NotADirection, "is not a direction")
                 .expecting("a list such as `[0, 0, 1]`"),
         );
     }
@@ -123,7 +123,7 @@ fn numbers<const N: usize>(scope: &Scope<'_>, list: &[Field<f64>; N]) -> Option<
             Field::Missing => {
                 let item = scope.item(index);
                 item.report(
-                    item.own_fault(Rule::Missing, "is missing")
+                    item.own_fault(FaultCode::Missing, "is missing")
                         .expecting("a number"),
                 );
                 sound = false;

@@ -1,11 +1,11 @@
 //! Contacts out of the library.
 
 use super::scope::Scope;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::contact::{ContactEntry, ContactsItem, FallingEntry, RestitutionEntry};
 use crate::problem::file::settings::OneOrRange;
 use crate::problem::media::{self, LibraryContact};
-use crate::problem::rule::Rule;
 use crate::units::shortened;
 
 /// What a name out of the library is expected to be.
@@ -30,7 +30,7 @@ pub(super) fn named(
 ) -> Option<Vec<&'static LibraryContact>> {
     if names.is_empty() {
         list.report(
-            list.own_fault(Rule::NothingListed, "names no contact")
+            list.own_fault(FaultCode::NothingListed, "names no contact")
                 .expecting(LISTED),
         );
         return None;
@@ -41,8 +41,10 @@ pub(super) fn named(
         let item = index.map_or_else(|| list.clone(), |index| list.item(index));
         match known_under(&item, name) {
             Some(known) if found.contains(&known) => {
-                let fault =
-                    item.own_fault(Rule::NamedTwice, format!("`{}` is named twice", known.name));
+                let fault = item.own_fault(
+                    FaultCode::NamedTwice,
+                    format!("`{}` is named twice", known.name),
+                );
                 item.report(fault.expecting("every contact once"));
                 sound = false;
             }
@@ -56,7 +58,7 @@ pub(super) fn named(
 fn known_under(item: &Scope<'_>, name: &Field<String>) -> Option<&'static LibraryContact> {
     if !name.is_given() {
         item.report(
-            item.own_fault(Rule::Missing, "is missing")
+            item.own_fault(FaultCode::Missing, "is missing")
                 .expecting(LISTED),
         );
     }
@@ -70,7 +72,7 @@ pub(super) fn looked_up(scope: &Scope<'_>, name: &str) -> Option<&'static Librar
         let message = format!("the library has no contact `{}`", shortened(name));
         let names = media::contacts().iter().map(|known| known.name);
         let fault = scope
-            .own_fault(Rule::NotInLibrary, message)
+            .own_fault(FaultCode::NotInLibrary, message)
             .expecting(LISTED);
         scope.report(fault.nearest(name, names));
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 
-use crate::problem::rule::Rule;
+use crate::problem::fault_code::FaultCode;
 
 /// An interval of allowed values in SI.
 ///
@@ -81,17 +81,17 @@ impl Limit {
     pub const SIGNED_FRACTION: Self = to(-1.0, 1.0, "a number from -1 to 1");
 
     /// What is wrong with `value`, if anything.
-    pub fn complaint(&self, value: f64) -> Option<(Rule, &'static str)> {
+    pub fn complaint(&self, value: f64) -> Option<(FaultCode, &'static str)> {
         if value >= self.min && (value < self.max || (value == self.max && !self.below)) {
             None
         } else if self.min > 0.0 && value <= 0.0 {
-            Some((Rule::NotPositive, "must be more than 0"))
+            Some((FaultCode::NotPositive, "must be more than 0"))
         } else if self.min == 0.0 && value < 0.0 {
-            Some((Rule::Negative, "must not be negative"))
+            Some((FaultCode::Negative, "must not be negative"))
         } else if value < self.min {
-            Some((Rule::TooSmall, "is too small"))
+            Some((FaultCode::TooSmall, "is too small"))
         } else {
-            Some((Rule::TooLarge, "is too large"))
+            Some((FaultCode::TooLarge, "is too large"))
         }
     }
 }
@@ -125,7 +125,7 @@ mod tests {
         let upright = 90_f64.to_radians();
         assert_eq!(Limit::INCIDENCE.complaint(upright.next_up()), None);
         let beyond = Limit::INCIDENCE.complaint(upright + 1e-9);
-        assert_eq!(beyond, Some((Rule::TooLarge, "is too large")));
+        assert_eq!(beyond, Some((FaultCode::TooLarge, "is too large")));
         let turned_back = (-360_f64).to_radians().next_down();
         assert_eq!(Limit::TURN.complaint(turned_back), None);
     }
@@ -133,14 +133,14 @@ mod tests {
     #[test]
     fn what_is_wrong_with_a_number_depends_on_its_side() {
         for (limit, value, rule) in [
-            (Limit::LENGTH, 0.0, Rule::NotPositive),
-            (Limit::LENGTH, -1.0, Rule::NotPositive),
-            (Limit::LENGTH, 0.9e-9, Rule::TooSmall),
-            (Limit::LENGTH, 1000.1, Rule::TooLarge),
-            (Limit::LENGTH_OR_ZERO, -1e-9, Rule::Negative),
-            (Limit::SHIFT, -1000.1, Rule::TooSmall),
-            (Limit::SIGNED_FRACTION, -1.1, Rule::TooSmall),
-            (Limit::BELOW_ALL, 1.0, Rule::TooLarge),
+            (Limit::LENGTH, 0.0, FaultCode::NotPositive),
+            (Limit::LENGTH, -1.0, FaultCode::NotPositive),
+            (Limit::LENGTH, 0.9e-9, FaultCode::TooSmall),
+            (Limit::LENGTH, 1000.1, FaultCode::TooLarge),
+            (Limit::LENGTH_OR_ZERO, -1e-9, FaultCode::Negative),
+            (Limit::SHIFT, -1000.1, FaultCode::TooSmall),
+            (Limit::SIGNED_FRACTION, -1.1, FaultCode::TooSmall),
+            (Limit::BELOW_ALL, 1.0, FaultCode::TooLarge),
         ] {
             let found = limit.complaint(value).map(|(rule, _)| rule);
             assert_eq!(found, Some(rule), "{value}: {}", limit.expected);

@@ -4,11 +4,11 @@ use std::path::{Component, Path, PathBuf};
 
 use super::coordinates::Coordinates;
 use super::scope::Scope;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
 use crate::problem::file::scene::PartEntry;
 use crate::problem::part::{Region, Shape};
-use crate::problem::rule::Rule;
 
 /// The mesh `file` of a part, with its unit and regions.
 pub(super) fn check(
@@ -55,9 +55,9 @@ pub(super) fn check(
 /// The mesh file within the folder of the problem file. Whether it exists shows when it is read.
 fn mesh_path(scope: &Scope<'_>, file: &str, folder: &Path) -> Option<PathBuf> {
     let complaint = if file.trim().is_empty() {
-        Some((Rule::EmptyText, "has no value"))
+        Some((FaultCode::EmptyText, "has no value"))
     } else if file.contains('\\') || file.contains('\0') {
-        Some((Rule::PathNotPortable, "is not a portable path"))
+        Some((FaultCode::PathNotPortable, "is not a portable path"))
     } else {
         let mut depth = 0_i32;
         Path::new(file)
@@ -72,7 +72,7 @@ fn mesh_path(scope: &Scope<'_>, file: &str, folder: &Path) -> Option<PathBuf> {
                 depth < 0
             })
             .then_some((
-                Rule::PathLeavesFolder,
+                FaultCode::PathLeavesFolder,
                 "leaves the folder of the problem file",
             ))
     };

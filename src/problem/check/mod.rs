@@ -26,13 +26,13 @@ use std::path::Path;
 
 use super::Problem;
 use super::equipment::{CoverageWish, Jet, PathLimits, Spread};
+use super::fault_code::FaultCode;
 use super::faults::Faults;
 use super::field::Field;
 use super::file::equipment::{CoverageEntry, JetEntry, PathsEntry, SpreadEntry};
 use super::file::settings::SolveEntry;
 use super::file::{FORMAT, ProblemFile};
 use super::part::{Part, Target};
-use super::rule::Rule;
 use crate::printable;
 use coordinates::Coordinates;
 use limit::Limit;
@@ -58,7 +58,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
             if !known {
                 root.report(
                     root.fault(
-                        Rule::UnknownFormat,
+                        FaultCode::UnknownFormat,
                         "format",
                         format!("format {format} is not known"),
                     )
@@ -133,7 +133,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
             calibration: calibration?,
             nozzle: nozzle?,
             contacts: contacts.sound()?,
-            settings: settings?,
+            ranges: settings?,
             goals: goals?,
             surfaces: surfaces?,
             paths: paths?,

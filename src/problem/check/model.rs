@@ -2,10 +2,10 @@
 
 use super::scope::Scope;
 use crate::problem::fault::one_of;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::settings::OneOrMany;
 use crate::problem::model::{Effect, Model};
-use crate::problem::rule::Rule;
 
 pub(super) fn check(root: &Scope<'_>, field: &Field<OneOrMany>) -> Option<Model> {
     let scope = root.of("model");
@@ -27,7 +27,7 @@ pub(super) fn check(root: &Scope<'_>, field: &Field<OneOrMany>) -> Option<Model>
                 continue;
             }
             Field::Missing => {
-                let fault = item.own_fault(Rule::Missing, "is missing");
+                let fault = item.own_fault(FaultCode::Missing, "is missing");
                 item.report(fault.expecting(one_of(&known)));
                 sound = false;
                 continue;
@@ -35,15 +35,18 @@ pub(super) fn check(root: &Scope<'_>, field: &Field<OneOrMany>) -> Option<Model>
         };
         match Effect::named(name) {
             Some(effect) if effects.contains(&effect) => {
-                let fault = item.own_fault(Rule::NamedTwice, format!("`{name}` is named twice"));
+                let fault =
+                    item.own_fault(FaultCode::NamedTwice, format!("`{name}` is named twice"));
                 item.report(fault.expecting("every effect once"));
                 sound = false;
             }
             Some(effect) => effects.push(effect),
             None => {
                 let shown = crate::units::shortened(name);
-                let fault =
-                    item.own_fault(Rule::UnknownWord, format!("there is no effect `{shown}`"));
+                let fault = item.own_fault(
+                    FaultCode::UnknownWord,
+                    format!("there is no effect `{shown}`"),
+                );
                 let fault = fault.expecting(one_of(&known));
                 item.report(fault.nearest(name, known.iter().copied()));
                 sound = false;
@@ -59,7 +62,10 @@ fn one(scope: &Scope<'_>, name: &str) -> Option<Model> {
         "full" => Some(Model::Full),
         _ => {
             let shown = crate::units::shortened(name);
-            let fault = scope.own_fault(Rule::UnknownWord, format!("there is no model `{shown}`"));
+            let fault = scope.own_fault(
+                FaultCode::UnknownWord,
+                format!("there is no model `{shown}`"),
+            );
             let fault = fault.expecting("`auto`, `full`, or a list of effects");
             scope.report(fault.nearest(name, ["auto", "full"]));
             None

@@ -5,9 +5,9 @@ use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::one_of;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::equipment::{BallEntry, BodyEntry, CapsuleEntry, NozzleEntry};
-use crate::problem::rule::Rule;
 
 pub(super) fn check(scope: &Scope<'_>, entry: &NozzleEntry) -> Option<Nozzle> {
     let clearance = scope.optional("clearance", &entry.clearance, Limit::LENGTH_OR_ZERO, 0.0);
@@ -34,7 +34,7 @@ fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
         Field::Missing => {
             scope.report(
                 scope
-                    .own_fault(Rule::Missing, "is missing")
+                    .own_fault(FaultCode::Missing, "is missing")
                     .expecting(expected()),
             );
             return None;
@@ -46,7 +46,7 @@ fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
         (true, true) => {
             scope.report_name(
                 scope
-                    .fault(Rule::EitherOr, "capsule", "is a second shape")
+                    .fault(FaultCode::EitherOr, "capsule", "is a second shape")
                     .expecting(expected()),
             );
             None
@@ -55,7 +55,7 @@ fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
             if !scope.is_misspelt("ball") && !scope.is_misspelt("capsule") {
                 scope.report(
                     scope
-                        .own_fault(Rule::NoneOfSeveral, "has no shape")
+                        .own_fault(FaultCode::NoneOfSeveral, "has no shape")
                         .expecting(expected()),
                 );
             }

@@ -7,12 +7,12 @@ use nalgebra::Point2;
 use super::coordinates::Coordinates;
 use super::scope::Scope;
 use crate::problem::curve::Curve;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::Pair;
 use crate::problem::file::scene::SegmentEntry;
 use crate::problem::name::{NAME_EXPECTED, is_name};
 use crate::problem::part::{Ends, Segment};
-use crate::problem::rule::Rule;
 use crossing::cross;
 
 /// Two ends nearer than this are one, m.
@@ -30,7 +30,7 @@ pub(super) fn check(
     if entries.is_empty() {
         scope.report(
             scope
-                .own_fault(Rule::NothingListed, "is empty")
+                .own_fault(FaultCode::NothingListed, "is empty")
                 .expecting("at least one line or arc"),
         );
         return None;
@@ -50,7 +50,7 @@ pub(super) fn check(
             Field::Missing => {
                 scope.report(
                     scope
-                        .own_fault(Rule::Missing, "is missing")
+                        .own_fault(FaultCode::Missing, "is missing")
                         .expecting("a line or an arc"),
                 );
                 previous = None;
@@ -84,7 +84,11 @@ fn surface(scope: &Scope<'_>, entry: &SegmentEntry, caps: &[&str]) -> Option<Str
     if !is_name(name) {
         scope.report(
             scope
-                .fault(Rule::UnusableName, "surface", "cannot be used as a name")
+                .fault(
+                    FaultCode::UnusableName,
+                    "surface",
+                    "cannot be used as a name",
+                )
                 .expecting(NAME_EXPECTED),
         );
         return None;
@@ -93,7 +97,7 @@ fn surface(scope: &Scope<'_>, entry: &SegmentEntry, caps: &[&str]) -> Option<Str
         scope.report(
             scope
                 .fault(
-                    Rule::NameOfAnEnd,
+                    FaultCode::NameOfAnEnd,
                     "surface",
                     format!("`{name}` is the name of a closed end"),
                 )
@@ -118,7 +122,7 @@ fn path(
             if entry.via.is_given() {
                 scope.report_name(
                     scope
-                        .fault(Rule::NoEffect, "via", "has no effect on a line")
+                        .fault(FaultCode::NoEffect, "via", "has no effect on a line")
                         .expecting("it beside `arc_to` only"),
                 );
             }
@@ -132,7 +136,11 @@ fn path(
         (true, true) => {
             scope.report_name(
                 scope
-                    .fault(Rule::EitherOr, "arc_to", "a segment is a line or an arc")
+                    .fault(
+                        FaultCode::EitherOr,
+                        "arc_to",
+                        "a segment is a line or an arc",
+                    )
                     .expecting("either line_to or arc_to"),
             );
             (None, None)
@@ -141,7 +149,7 @@ fn path(
             if !scope.is_misspelt("line_to") && !scope.is_misspelt("arc_to") {
                 scope.report(
                     scope
-                        .own_fault(Rule::NoneOfSeveral, "leads nowhere")
+                        .own_fault(FaultCode::NoneOfSeveral, "leads nowhere")
                         .expecting("either line_to or arc_to"),
                 );
             }
@@ -165,15 +173,15 @@ fn segment(
     };
     let complaint = match via {
         None if (to - from).norm() <= SAME_POINT => {
-            Some((Rule::NoExtent, "line_to", "the line has no length"))
+            Some((FaultCode::NoExtent, "line_to", "the line has no length"))
         }
         Some(_) if (to - from).norm() <= SAME_POINT => Some((
-            Rule::NoExtent,
+            FaultCode::NoExtent,
             "arc_to",
             "the arc ends where it starts; a full circle takes two arcs",
         )),
         Some(via) if is_straight(from, via, to) => Some((
-            Rule::StraightArc,
+            FaultCode::StraightArc,
             "via",
             "the three points of the arc lie on one line",
         )),
@@ -216,7 +224,7 @@ fn no_outline_crosses_itself(scope: &Scope<'_>, profile: &[Segment]) -> bool {
                 Curve::Arc { .. } => "arc",
             };
             let message = format!("crosses the {kind} of profile[{crossed}]");
-            let fault = item.own_fault(Rule::CrossingOutline, message);
+            let fault = item.own_fault(FaultCode::CrossingOutline, message);
             item.report(fault.expecting("an outline that does not cross itself"));
             plain = false;
         }
@@ -243,7 +251,7 @@ fn outlines_close(scope: &Scope<'_>, profile: &[Segment]) -> bool {
                 scope
                     .item(index)
                     .own_fault(
-                        Rule::OpenOutline,
+                        FaultCode::OpenOutline,
                         "the outline is not closed, so an end cannot be",
                     )
                     .expecting("a last point equal to the first, or `ends: open`"),

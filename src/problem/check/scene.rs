@@ -9,11 +9,11 @@ use super::limit::Limit;
 use super::scope::Scope;
 use super::{mesh, shape};
 use crate::problem::fault::{Fault, one_of};
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
 use crate::problem::file::scene::{BaseEntry, MoveEntry, PartEntry, PlaceEntry};
 use crate::problem::part::{Part, Place, Shape};
-use crate::problem::rule::Rule;
 
 /// The parts of the file by name; `None` for a faulty one.
 pub(super) struct Scene {
@@ -58,7 +58,7 @@ impl Scene {
             return None;
         }
         if name.trim().is_empty() {
-            let fault = Fault::at_key(Rule::EmptyText, key, "has no value");
+            let fault = Fault::at_key(FaultCode::EmptyText, key, "has no value");
             return Some(fault.expecting("the name of a surface, `part.surface`"));
         }
         let shown = crate::units::shortened(name);
@@ -66,10 +66,13 @@ impl Scene {
         let Some((_, part)) = self.parts.iter().find(|(known, _)| known == part_name) else {
             let names: Vec<&str> = self.parts.iter().map(|(name, _)| name.as_str()).collect();
             let (rule, message) = if surface.is_empty() {
-                (Rule::NotASurface, format!("`{shown}` is not a surface"))
+                (
+                    FaultCode::NotASurface,
+                    format!("`{shown}` is not a surface"),
+                )
             } else {
                 let part = crate::units::shortened(part_name);
-                (Rule::UnknownPart, format!("there is no part `{part}`"))
+                (FaultCode::UnknownPart, format!("there is no part `{part}`"))
             };
             let fault = Fault::at_key(rule, key, message).expecting(format!(
                 "`part.surface` with a part out of {}",
@@ -86,10 +89,10 @@ impl Scene {
         }
         let (rule, message) = if surface.is_empty() {
             let message = format!("`{shown}` is a part, not a surface");
-            (Rule::NotASurface, message)
+            (FaultCode::NotASurface, message)
         } else {
             let message = format!("there is no surface `{shown}`");
-            (Rule::UnknownSurface, message)
+            (FaultCode::UnknownSurface, message)
         };
         let expected = match (is_mesh, full.is_empty()) {
             (true, true) => format!("{part_name}.all, or a group of its mesh file"),
@@ -126,7 +129,7 @@ pub(super) fn check(
     };
     if entries.is_empty() {
         root.report(
-            root.fault(Rule::NothingListed, "scene", "has no parts")
+            root.fault(FaultCode::NothingListed, "scene", "has no parts")
                 .expecting(expected),
         );
     }
@@ -188,7 +191,7 @@ fn part(
             {
                 scope.report_name(
                     scope
-                        .own_fault(Rule::NoneOfSeveral, missing)
+                        .own_fault(FaultCode::NoneOfSeveral, missing)
                         .expecting(expected()),
                 );
             }
@@ -196,7 +199,7 @@ fn part(
         [_, second, ..] => {
             scope.report_name(
                 scope
-                    .fault(Rule::EitherOr, second, "is a second shape")
+                    .fault(FaultCode::EitherOr, second, "is a second shape")
                     .expecting(expected()),
             );
         }
@@ -209,7 +212,7 @@ fn part(
             if stray {
                 scope.report_name(
                     scope
-                        .fault(Rule::NoEffect, key, "has no effect on this shape")
+                        .fault(FaultCode::NoEffect, key, "has no effect on this shape")
                         .expecting("it beside `mesh` only"),
                 );
             }
@@ -263,7 +266,7 @@ fn place(scope: &Scope<'_>, entry: &MoveEntry, coordinates: &Coordinates<'_>) ->
                 let item = list.item(index);
                 if !angles[index].is_given() {
                     item.report(
-                        item.own_fault(Rule::Missing, "is missing")
+                        item.own_fault(FaultCode::Missing, "is missing")
                             .expecting(Limit::TURN.expected),
                     );
                 }

@@ -1,11 +1,11 @@
 //! One group of keys under check: its key path, and the record of faults.
 
 use crate::problem::fault::Fault;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::faults::Faults;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Quantity;
 use crate::problem::file::settings::OneOrRange;
-use crate::problem::rule::Rule;
 use crate::problem::setting::Range;
 use crate::problem::source::{child_key, item_key};
 
@@ -45,12 +45,12 @@ impl<'a> Scope<'a> {
     }
 
     /// A fault of the key `name`, not yet on record.
-    pub fn fault(&self, rule: Rule, name: &str, message: impl Into<String>) -> Fault {
+    pub fn fault(&self, rule: FaultCode, name: &str, message: impl Into<String>) -> Fault {
         Fault::at_key(rule, child_key(&self.key, name), message)
     }
 
     /// A fault of the group itself, not yet on record.
-    pub fn own_fault(&self, rule: Rule, message: impl Into<String>) -> Fault {
+    pub fn own_fault(&self, rule: FaultCode, message: impl Into<String>) -> Fault {
         Fault::at_key(rule, &self.key, message)
     }
 
@@ -83,9 +83,13 @@ impl<'a> Scope<'a> {
     ) -> Option<&'f T> {
         // A misspelt key has been reported already, with the name that it should have.
         if !field.is_given() && !self.faults.misspelt(&self.key, name) {
-            let stands = self.faults.source.has(&child_key(&self.key, name));
-            let message = if stands { "has no value" } else { "is missing" };
-            let fault = self.fault(Rule::Missing, name, message);
+            let nozzle_frames = self.faults.source.has(&child_key(&self.key, name));
+            let message = if nozzle_frames {
+                "has no value"
+            } else {
+                "is missing"
+            };
+            let fault = self.fault(FaultCode::Missing, name, message);
             self.report(fault.expecting(expected));
         }
         field.value()
@@ -160,7 +164,7 @@ impl<'a> Scope<'a> {
             let item = ends.item(index);
             if !field.is_given() {
                 item.report(
-                    item.own_fault(Rule::Missing, "is missing")
+                    item.own_fault(FaultCode::Missing, "is missing")
                         .expecting(limit.expected),
                 );
             }
@@ -170,7 +174,7 @@ impl<'a> Scope<'a> {
         let (min, max) = (min?, max?);
         if min > max {
             self.report(
-                self.fault(Rule::UpsideDown, name, "the range is upside down")
+                self.fault(FaultCode::UpsideDown, name, "the range is upside down")
                     .expecting("the smaller value first"),
             );
             return None;
@@ -201,7 +205,7 @@ impl<'a> Scope<'a> {
         let sound = is_name(name);
         if !sound {
             self.report_name(
-                self.fault(Rule::UnusableName, name, "cannot be used as a name")
+                self.fault(FaultCode::UnusableName, name, "cannot be used as a name")
                     .expecting(NAME_EXPECTED),
             );
         }

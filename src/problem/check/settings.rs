@@ -6,18 +6,18 @@ use super::contacts::Contacts;
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::fault::one_of;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Length;
 use crate::problem::file::Quantity;
 use crate::problem::file::settings::{OneOrMany, OneOrRange, SettingsEntry};
-use crate::problem::rule::Rule;
-use crate::problem::setting::{Range, Settings};
+use crate::problem::setting::{Range, SettingRanges};
 
 pub(super) fn check(
     scope: &Scope<'_>,
     entry: &SettingsEntry,
     contacts: &Contacts,
-) -> Option<Settings> {
+) -> Option<SettingRanges> {
     let aim_above = shift(scope, "aim_above", &entry.aim_above);
     let limit = if aim_above.is_some_and(|range| range.min > 0.0) {
         Limit::INCIDENCE_OR_ZERO
@@ -37,7 +37,7 @@ pub(super) fn check(
             scope.report(
                 scope
                     .fault(
-                        Rule::MoreThanATurn,
+                        FaultCode::MoreThanATurn,
                         "azimuth",
                         "the range is wider than a full turn",
                     )
@@ -51,7 +51,7 @@ pub(super) fn check(
     let aim_along = shift(scope, "aim_along", &entry.aim_along);
     let aim_across = shift(scope, "aim_across", &entry.aim_across);
     let contact = chosen(scope, &entry.contact, contacts);
-    Some(Settings {
+    Some(SettingRanges {
         incidence: incidence?,
         azimuth: azimuth?,
         standoff: standoff?,
@@ -99,7 +99,7 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
                     Field::Present(name) => given.push((item, name.as_str())),
                     Field::Faulty => sound = false,
                     Field::Missing => {
-                        let fault = item.own_fault(Rule::Missing, "is missing");
+                        let fault = item.own_fault(FaultCode::Missing, "is missing");
                         item.report(fault.expecting("a contact"));
                         sound = false;
                     }
@@ -107,7 +107,7 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
             }
             if names.is_empty() {
                 list.report(
-                    list.own_fault(Rule::NothingListed, "names no contact")
+                    list.own_fault(FaultCode::NothingListed, "names no contact")
                         .expecting(one_of(&known)),
                 );
                 return None;
@@ -120,7 +120,7 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
         match known.iter().position(|known| *known == name) {
             Some(index) if indices.contains(&index) => {
                 item.report(
-                    item.own_fault(Rule::NamedTwice, format!("`{name}` is named twice"))
+                    item.own_fault(FaultCode::NamedTwice, format!("`{name}` is named twice"))
                         .expecting("every contact once"),
                 );
                 sound = false;
@@ -130,7 +130,7 @@ fn chosen(scope: &Scope<'_>, field: &Field<OneOrMany>, contacts: &Contacts) -> O
             None if contacts.complete => {
                 item.report(
                     item.own_fault(
-                        Rule::UnknownContact,
+                        FaultCode::UnknownContact,
                         format!("there is no contact `{}`", crate::units::shortened(name)),
                     )
                     .expecting(one_of(&known))

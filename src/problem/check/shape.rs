@@ -4,10 +4,10 @@ use super::coordinates::Coordinates;
 use super::limit::Limit;
 use super::profile;
 use super::scope::Scope;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::scene::{BoreEntry, End, EndsEntry, ExtrudeEntry, KeywayEntry};
 use crate::problem::part::{Ends, Keyway, Shape};
-use crate::problem::rule::Rule;
 
 /// A bore with a groove.
 pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
@@ -26,7 +26,7 @@ pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
         scope.report(
             scope
                 .fault(
-                    Rule::GrooveTooWide,
+                    FaultCode::GrooveTooWide,
                     "width",
                     "the groove is as wide as the bore, or wider",
                 )
@@ -49,7 +49,7 @@ pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
         scope.report(
             scope
                 .fault(
-                    Rule::RootTooLarge,
+                    FaultCode::RootTooLarge,
                     "root_radius",
                     "the root does not fit into the groove",
                 )

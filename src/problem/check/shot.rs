@@ -3,11 +3,11 @@
 use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::equipment::Shot;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::equipment::ShotEntry;
 use crate::problem::file::{Density, Length};
 use crate::problem::media::{self, Medium};
-use crate::problem::rule::Rule;
 use crate::units::shortened;
 
 pub(super) fn check(scope: &Scope<'_>, entry: &ShotEntry) -> Option<Shot> {
@@ -47,7 +47,7 @@ fn looked_up(scope: &Scope<'_>, name: &str) -> Option<&'static Medium> {
     let known = media::medium(name);
     if known.is_none() {
         let message = format!("the library has no shot `{}`", shortened(name));
-        let fault = scope.fault(Rule::NotInLibrary, "use", message);
+        let fault = scope.fault(FaultCode::NotInLibrary, "use", message);
         let fault = fault.expecting("a medium that `peenpose media` lists");
         scope.report(fault.nearest(name, media::media().iter().map(|medium| medium.name)));
     }

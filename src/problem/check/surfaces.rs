@@ -5,10 +5,10 @@ use super::limit::Limit;
 use super::scene::Scene;
 use super::scope::Scope;
 use crate::problem::equipment::{Role, SurfaceRule};
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
 use crate::problem::file::equipment::{RoleEntry, SurfaceEntry};
-use crate::problem::rule::Rule;
 use crate::problem::source::child_key;
 
 pub(super) fn check(
@@ -70,7 +70,7 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
                 scope.report_name(
                     scope
                         .fault(
-                            Rule::NoEffect,
+                            FaultCode::NoEffect,
                             key,
                             "has no effect on a deflector, whose hits do not count",
                         )
@@ -84,8 +84,8 @@ fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRu
         allow: allow?,
         share: share?,
         weight: weight?,
-        contact: contact.as_ref()?.as_ref().map(|choice| choice.contact),
-        library: contact?.and_then(|choice| choice.library),
+        contact: contact.as_ref()?.as_ref().map(|settings| settings.contact),
+        library: contact?.and_then(|settings| settings.library),
         roughness: roughness?,
         role: role?,
     })

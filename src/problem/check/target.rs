@@ -4,10 +4,10 @@ use super::coordinates::{self, Coordinates};
 use super::scene::Scene;
 use super::scope::Scope;
 use crate::problem::fault::Fault;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::scene::TargetEntry;
 use crate::problem::part::Target;
-use crate::problem::rule::Rule;
 
 pub(super) fn check(
     root: &Scope<'_>,
@@ -55,7 +55,7 @@ fn surface_fault(key: &str, name: &str, scene: &Scene) -> Option<Fault> {
         return scene.surface_fault(key, name);
     }
     let message = format!("`{}` moves with the nozzle", crate::units::shortened(name));
-    let fault = Fault::at_key(Rule::TargetOnNozzle, key, message);
+    let fault = Fault::at_key(FaultCode::TargetOnNozzle, key, message);
     Some(fault.expecting("a surface of a part that stands in the scene"))
 }
 

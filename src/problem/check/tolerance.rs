@@ -2,15 +2,15 @@
 
 use super::limit::Limit;
 use super::scope::Scope;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::file::settings::ToleranceEntry;
-use crate::problem::rule::Rule;
-use crate::problem::setting::{Range, Settings, Tolerance};
+use crate::problem::setting::{Range, SettingRanges, Tolerance};
 
 /// Checks the half-widths; against the settings where those are sound.
 pub(super) fn check(
     scope: &Scope<'_>,
     entry: &ToleranceEntry,
-    settings: Option<&Settings>,
+    settings: Option<&SettingRanges>,
 ) -> Option<Tolerance> {
     let incidence = scope.optional("incidence", &entry.incidence, Limit::ANGLE_OR_ZERO, 0.0);
     let azimuth = scope.optional("azimuth", &entry.azimuth, Limit::ANGLE_OR_ZERO, 0.0);
@@ -48,7 +48,7 @@ pub(super) fn check(
 }
 
 /// Whether the tolerance leaves something to search, and never reaches beyond what can be set.
-fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
+fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &SettingRanges) -> bool {
     let absolute = [
         ("incidence", tolerance.incidence, settings.incidence),
         ("azimuth", tolerance.azimuth, settings.azimuth),
@@ -68,7 +68,7 @@ fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
             scope.report(
                 scope
                     .fault(
-                        Rule::ToleranceTooWide,
+                        FaultCode::ToleranceTooWide,
                         name,
                         "is wider than the range that is searched",
                     )
@@ -91,7 +91,7 @@ fn fits(scope: &Scope<'_>, tolerance: &Tolerance, settings: &Settings) -> bool {
             scope.report(
                 scope
                     .fault(
-                        Rule::ToleranceReachesZero,
+                        FaultCode::ToleranceReachesZero,
                         name,
                         format!("lets the {name} fall to {reached}"),
                     )

@@ -18,12 +18,12 @@ use serde::Deserializer;
 use serde::de::{IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 
-use access::{Entries, Form, Items};
+use access::{Entries, Items, Primitive};
 use error::ReadError;
 
 use super::fault::{Fault, one_of};
+use super::fault_code::FaultCode;
 use super::faults::Faults;
-use super::rule::Rule;
 use super::yaml::{Entry, Node, Value};
 use crate::units::{Dimension, shortened};
 
@@ -165,7 +165,11 @@ impl<'a> Deserializer<'a> for Reader<'a> {
         let items = self.items(expected)?;
         let found = items.rest.len();
         if found != length {
-            return Err(self.refuse(Rule::WrongLength, format!("is a list of {found}"), expected));
+            return Err(self.refuse(
+                FaultCode::WrongLength,
+                format!("is a list of {found}"),
+                expected,
+            ));
         }
         self.record(visitor.visit_seq(items))
     }
@@ -204,7 +208,7 @@ impl<'a> Deserializer<'a> for Reader<'a> {
         if by_form {
             let form = self.form();
             return if variants.contains(&form) {
-                visitor.visit_enum(Form { form, reader: self })
+                visitor.visit_enum(Primitive { form, reader: self })
             } else {
                 Err(self.unexpected(name))
             };
@@ -219,7 +223,7 @@ impl<'a> Deserializer<'a> for Reader<'a> {
             None => {
                 let message = format!("`{}` is not known", shortened(text));
                 Err(self.push(
-                    Fault::at_key(Rule::UnknownWord, &self.key, message)
+                    Fault::at_key(FaultCode::UnknownWord, &self.key, message)
                         .expecting(one_of(variants))
                         .nearest(text, variants.iter().copied()),
                 ))

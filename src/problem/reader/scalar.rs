@@ -3,7 +3,7 @@
 use super::Reader;
 use super::error::ReadError;
 use crate::problem::fault::Fault;
-use crate::problem::rule::Rule;
+use crate::problem::fault_code::FaultCode;
 use crate::problem::yaml::Value;
 use crate::units::{self, Dimension, UnitFault, shortened};
 
@@ -11,7 +11,7 @@ impl<'a> Reader<'a> {
     /// Records a fault of this very node.
     pub(super) fn refuse(
         &self,
-        rule: Rule,
+        rule: FaultCode,
         message: impl Into<String>,
         expected: impl Into<String>,
     ) -> ReadError {
@@ -20,7 +20,7 @@ impl<'a> Reader<'a> {
 
     /// Refuses a text without a letter.
     pub(super) fn no_value(&self, expected: &str) -> ReadError {
-        self.refuse(Rule::EmptyText, "has no value", expected)
+        self.refuse(FaultCode::EmptyText, "has no value", expected)
     }
 
     pub(super) fn push(&self, mut fault: Fault) -> ReadError {
@@ -35,8 +35,8 @@ impl<'a> Reader<'a> {
     pub(super) fn record<T>(&self, result: Result<T, ReadError>) -> Result<T, ReadError> {
         result.map_err(|error| match error {
             ReadError::Recorded => ReadError::Recorded,
-            ReadError::Fresh { message, expected } => {
-                let mut fault = Fault::at_key(Rule::WrongKind, &self.key, message);
+            ReadError::ValidationSample { message, expected } => {
+                let mut fault = Fault::at_key(FaultCode::WrongKind, &self.key, message);
                 fault.expected = expected;
                 self.push(fault)
             }
@@ -53,14 +53,14 @@ impl<'a> Reader<'a> {
             Value::List(_) => "is a list".to_owned(),
             Value::Map(_) => "is a group of keys".to_owned(),
         };
-        self.refuse(Rule::WrongKind, found, expected)
+        self.refuse(FaultCode::WrongKind, found, expected)
     }
 
     /// Refuses a number that is text.
     pub(super) fn in_quotes(&self, text: &str, expected: &str) -> ReadError {
         let message = format!("`{}` is text", shortened(text));
         let expected = format!("{expected}, without quotes");
-        self.refuse(Rule::WrongKind, message, expected)
+        self.refuse(FaultCode::WrongKind, message, expected)
     }
 
     /// A bare number.
@@ -76,12 +76,12 @@ impl<'a> Reader<'a> {
         match units::parse_number(text) {
             Some(value) if value.is_finite() => Ok(value),
             Some(_) => Err(self.refuse(
-                Rule::Overflow,
+                FaultCode::Overflow,
                 format!("`{text}` is too large a number"),
                 EXPECTED,
             )),
             None => Err(self.refuse(
-                Rule::NotAPlainNumber,
+                FaultCode::NotAPlainNumber,
                 format!("`{text}` is not a plain number"),
                 EXPECTED,
             )),
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         };
         text.parse().map_err(|_| {
             self.refuse(
-                Rule::NotAWholeNumber,
+                FaultCode::NotAWholeNumber,
                 format!("`{text}` is not a whole number"),
                 EXPECTED,
             )
@@ -127,13 +127,13 @@ impl<'a> Reader<'a> {
 }
 
 /// Why a text is not a quantity.
-fn rule_of(fault: &UnitFault) -> Rule {
+fn rule_of(fault: &UnitFault) -> FaultCode {
     match fault {
-        UnitFault::NotANumber { text, .. } if text.is_empty() => Rule::EmptyText,
-        UnitFault::NotANumber { .. } => Rule::NotAQuantity,
-        UnitFault::MissingUnit { .. } => Rule::NoUnit,
-        UnitFault::UnknownUnit { .. } => Rule::UnknownUnit,
-        UnitFault::WrongDimension { .. } => Rule::WrongDimension,
-        UnitFault::TooLarge { .. } => Rule::Overflow,
+        UnitFault::NotANumber { text, .. } if text.is_empty() => FaultCode::EmptyText,
+        UnitFault::NotANumber { .. } => FaultCode::NotAQuantity,
+        UnitFault::MissingUnit { .. } => FaultCode::NoUnit,
+        UnitFault::UnknownUnit { .. } => FaultCode::UnknownUnit,
+        UnitFault::WrongDimension { .. } => FaultCode::WrongDimension,
+        UnitFault::TooLarge { .. } => FaultCode::Overflow,
     }
 }

@@ -1,6 +1,6 @@
 use super::*;
 
-const CHOICE: Choice = Choice {
+const CHOICE: Settings = Settings {
     incidence: 1.0,
     azimuth: 2.0,
     standoff: 3.0,
@@ -54,7 +54,7 @@ fn every_setting_has_a_range_of_its_own() {
         min,
         max: 2.0 * min,
     };
-    let mut settings = Settings {
+    let mut settings = SettingRanges {
         incidence: from(1.0),
         azimuth: from(2.0),
         standoff: from(3.0),

@@ -20,7 +20,7 @@ fn any_weight_is_enough() {
         }
     }
     let none = weights(&weighing(9, 9)).expect("nothing weighs");
-    assert_eq!(none.doubt, Doubt::NothingWeighs);
+    assert_eq!(none.doubt, WarningCode::NothingWeighs);
 }
 
 #[test]
@@ -59,8 +59,14 @@ fn the_target_may_have_a_contact_of_its_own() {
         reachable_impulse(&problem).map(|warning| warning.doubt)
     };
     assert_eq!(doubt("hub.floor", 370e-6), None);
-    assert_eq!(doubt("hub.floor", 372e-6), Some(Doubt::ImpulseTooLarge));
-    assert_eq!(doubt("hub.bore", 232e-6), Some(Doubt::ImpulseTooLarge));
+    assert_eq!(
+        doubt("hub.floor", 372e-6),
+        Some(WarningCode::ImpulseTooLarge)
+    );
+    assert_eq!(
+        doubt("hub.bore", 232e-6),
+        Some(WarningCode::ImpulseTooLarge)
+    );
 }
 
 #[test]
@@ -72,10 +78,10 @@ fn a_target_is_compared_with_what_the_fastest_and_the_slowest_shot_give() {
     };
     // 3.6652e-6 kg at 40 m/s 1.1 give 201.6e-6 N.s with restitution, and 15 % more are allowed.
     assert_eq!(doubt(231.7e-6), None);
-    assert_eq!(doubt(231.9e-6), Some(Doubt::ImpulseTooLarge));
+    assert_eq!(doubt(231.9e-6), Some(WarningCode::ImpulseTooLarge));
     // At 5 m/s and 30 deg they give 11.45e-6 N.s; a quarter of it is still believed.
     assert_eq!(doubt(2.87e-6), None);
-    assert_eq!(doubt(2.86e-6), Some(Doubt::ImpulseTooSmall));
+    assert_eq!(doubt(2.86e-6), Some(WarningCode::ImpulseTooSmall));
 }
 
 #[test]
@@ -89,7 +95,7 @@ fn friction_may_be_as_high_as_its_tolerance_says() {
     };
     // 0.30 1.1 times 40e-6 N.s 1.15
     assert_eq!(doubt(15.17e-6), None);
-    assert_eq!(doubt(15.19e-6), Some(Doubt::LimitBeyondFriction));
+    assert_eq!(doubt(15.19e-6), Some(WarningCode::LimitBeyondFriction));
 }
 
 #[test]
@@ -100,7 +106,7 @@ fn a_shot_may_be_as_wide_as_the_exit() {
         exit(&problem).map(|warning| warning.doubt)
     };
     assert_eq!(doubt(1e-3), None);
-    assert_eq!(doubt(0.99e-3), Some(Doubt::ExitTooSmall));
+    assert_eq!(doubt(0.99e-3), Some(WarningCode::ExitTooSmall));
     // A point, which stands for no nozzle at all.
     assert_eq!(doubt(0.0), None);
 }

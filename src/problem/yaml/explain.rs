@@ -5,27 +5,27 @@ use serde_saphyr::{Error, MessageFormatter, UserMessageFormatter};
 
 use super::span;
 use crate::problem::fault::{Fault, Span};
-use crate::problem::rule::Rule;
+use crate::problem::fault_code::FaultCode;
 use crate::units::{Dimension, parse, parse_number, shortened};
 
 /// The YAML crate's complaint in the words of this program.
 pub(super) fn explain(text: &str, error: &Error) -> Fault {
-    let file = |rule: Rule, message: &str| Fault::at_key(rule, "", message);
+    let file = |rule: FaultCode, message: &str| Fault::at_key(rule, "", message);
     let mut cause = error.without_snippet();
     while let Error::AliasError { error, .. } = cause {
         cause = error;
     }
     let mut fault = match cause {
-        Error::MergeKeyNotAllowed { .. } => file(Rule::MergeKey, "`<<` is not supported")
+        Error::MergeKeyNotAllowed { .. } => file(FaultCode::MergeKey, "`<<` is not supported")
             .expecting("the keys themselves, or an alias as a value"),
         Error::MultipleDocuments { .. } => {
-            file(Rule::SecondDocument, "a second document starts here")
+            file(FaultCode::SecondDocument, "a second document starts here")
                 .expecting("one problem in a file")
         }
         Error::Budget {
             breach: BudgetBreach::Documents { .. },
             ..
-        } => file(Rule::SecondDocument, "a second document starts here")
+        } => file(FaultCode::SecondDocument, "a second document starts here")
             .expecting("one problem in a file"),
         Error::Budget {
             breach: BudgetBreach::Depth { .. },
@@ -36,26 +36,26 @@ pub(super) fn explain(text: &str, error: &Error) -> Fault {
         | Error::AliasReplayLimitExceeded { .. }
         | Error::AliasExpansionLimitExceeded { .. }
         | Error::AliasReplayStackDepthExceeded { .. } => file(
-            Rule::TooManyValues,
+            FaultCode::TooManyValues,
             "the file, with its aliases written out, is too large for a problem file",
         ),
         Error::RecursiveReferencesRequireWeakTypes { .. } => {
-            file(Rule::AliasOfItself, "an alias contains itself")
+            file(FaultCode::AliasOfItself, "an alias contains itself")
         }
-        Error::UnknownAnchor { .. } => {
-            file(Rule::UnknownAlias, "this alias has no anchor before it").expecting(
-                "`&name` at the value that `*name` repeats, or quotes round a text with `*`",
-            )
-        }
+        Error::UnknownAnchor { .. } => file(
+            FaultCode::UnknownAlias,
+            "this alias has no anchor before it",
+        )
+        .expecting("`&name` at the value that `*name` repeats, or quotes round a text with `*`"),
         Error::UnsupportedTag { tag, .. } => {
             let message = format!("the tag `{}` means nothing here", shortened(tag));
-            file(Rule::UnknownTag, &message).expecting("the value alone")
+            file(FaultCode::UnknownTag, &message).expecting("the value alone")
         }
         Error::NullIntoString { .. } => key_not_a_name(),
         other => explain_syntax(&UserMessageFormatter.format_message(other)),
     };
     fault.at = error.location().map(|location| span(text, location));
-    let unit = (fault.rule == Rule::NotYaml).then(|| unit_behind_list(text, fault.at?));
+    let unit = (fault.rule == FaultCode::NotYaml).then(|| unit_behind_list(text, fault.at?));
     unit.flatten().unwrap_or(fault)
 }
 
@@ -81,7 +81,7 @@ fn unit_behind_list(text: &str, at: Span) -> Option<Fault> {
                 .map(|item| format!("{} {unit}", item.trim()))
                 .collect();
             let message = format!("units belong to each number: [{}]", items.join(", "));
-            let mut fault = Fault::at_key(Rule::NotYaml, "", message);
+            let mut fault = Fault::at_key(FaultCode::NotYaml, "", message);
             let from = line.len() - rest.trim_start().len();
             let before = text.split_inclusive('\n').take(number - 1);
             let line_start: usize = before.map(str::len).sum();
@@ -98,7 +98,11 @@ fn unit_behind_list(text: &str, at: Span) -> Option<Fault> {
 /// A complaint about the syntax alone, for people who write YAML twice a year.
 fn explain_syntax(message: &str) -> Fault {
     if message.starts_with("tabs disallowed") {
-        let fault = Fault::at_key(Rule::Tab, "", "not valid YAML: a tab is used to indent");
+        let fault = Fault::at_key(
+            FaultCode::Tab,
+            "",
+            "not valid YAML: a tab is used to indent",
+        );
         return fault.expecting("spaces");
     }
     if message.starts_with("recursion limit") {
@@ -115,7 +119,7 @@ fn explain_syntax(message: &str) -> Fault {
             1 => "quotes round a text with it",
             _ => "a text without control characters",
         };
-        return Fault::at_key(Rule::NotYaml, "", message).expecting(expected);
+        return Fault::at_key(FaultCode::NotYaml, "", message).expecting(expected);
     }
     let known = [
         (
@@ -141,16 +145,17 @@ fn explain_syntax(message: &str) -> Fault {
     ];
     let found = known.iter().find(|(start, ..)| message.starts_with(start));
     let plain = found.map_or(message, |(_, plain, _)| plain);
-    let mut fault = Fault::at_key(Rule::NotYaml, "", format!("not valid YAML: {plain}"));
+    let mut fault = Fault::at_key(FaultCode::NotYaml, "", format!("not valid YAML: {plain}"));
     fault.expected = found.map(|(.., remedy)| (*remedy).to_owned());
     fault
 }
 
 fn key_not_a_name() -> Fault {
     let message = "not valid YAML here: a key must be a plain name";
-    Fault::at_key(Rule::KeyNotAName, "", message)
+    Fault::at_key(FaultCode::KeyNotAName, "", message)
 }
 
 fn too_deep() -> Fault {
-    Fault::at_key(Rule::NestedTooDeeply, "", "nested too deeply").expecting("at most 24 levels")
+    Fault::at_key(FaultCode::NestedTooDeeply, "", "nested too deeply")
+        .expecting("at most 24 levels")
 }

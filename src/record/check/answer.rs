@@ -8,7 +8,7 @@ use super::place::{Outcome, Place, is_close};
 use super::verdict;
 use crate::problem::equipment::Calibration;
 use crate::problem::given;
-use crate::problem::setting::Choice;
+use crate::problem::setting::Settings;
 
 /// Rounding errors of unit vectors and of places.
 const VECTOR_ROUNDING: f64 = 1e-6;
@@ -58,7 +58,7 @@ fn contact(at: &Place, it: &ContactRecord) -> Outcome {
 
 /// Settings that a problem file could hold.
 pub(super) fn settings(at: &Place, it: &SettingsRecord) -> Outcome {
-    let choice = Choice {
+    let settings = Settings {
         incidence: it.incidence_deg.to_radians(),
         azimuth: it.azimuth_deg.to_radians(),
         standoff: it.standoff_m,
@@ -69,7 +69,7 @@ pub(super) fn settings(at: &Place, it: &SettingsRecord) -> Outcome {
         contact: 0,
         static_friction: 0.0,
     };
-    given::check(&choice).or_else(|fault| at.holds(false, &format!("cannot be: {fault}")))
+    given::check(&settings).or_else(|fault| at.holds(false, &format!("cannot be: {fault}")))
 }
 
 fn pose(at: &Place, it: &PoseRecord) -> Outcome {

@@ -47,8 +47,8 @@ fn answers(root: &Place, record: &Record) -> Outcome {
     let is_best = first.is_some_and(|first| *first == record.best);
     answer::check(&root.of("best"), &record.best, record)?;
     choices.item(0).holds(is_best, "is not what `best` says")?;
-    for (index, choice) in record.choices.iter().enumerate().skip(1) {
-        answer::check(&choices.item(index), choice, record)?;
+    for (index, answer) in record.choices.iter().enumerate().skip(1) {
+        answer::check(&choices.item(index), answer, record)?;
     }
     Ok(())
 }

@@ -11,8 +11,8 @@ use crate::evidence::{Evidence, Flight, Place, Shape, Shown, broken_by};
 use crate::impact::Regime;
 use crate::jet::Pose;
 use crate::problem::equipment::Body;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::trace::End;
 
 /// Most impacts on secondary surfaces that are kept, those of the first shots.
@@ -20,27 +20,27 @@ const MOST_REBOUNDS: usize = 8_192;
 
 impl EvidenceRecord {
     /// The record of what settings look like; without maps.
-    pub fn new(setup: &Setup, choice: &Choice, evidence: &Evidence) -> Self {
-        let short = Short::of(setup);
+    pub fn new(scenario: &Scenario, settings: &Settings, evidence: &Evidence) -> Self {
+        let short = Short::of(scenario);
         Self {
-            frame: FrameRecord::new(setup),
+            frame: FrameRecord::new(scenario),
             surfaces: evidence
                 .shapes
                 .iter()
-                .map(|shape| short.shape(setup, shape))
+                .map(|shape| short.shape(scenario, shape))
                 .collect(),
-            nozzle: bodies(setup, choice),
+            nozzle: bodies(scenario, settings),
             paths: evidence
                 .shown
                 .iter()
-                .map(|shown| short.path(setup, &evidence.flights[shown.flight], shown))
+                .map(|shown| short.path(scenario, &evidence.flights[shown.flight], shown))
                 .collect(),
-            hits: short.hits(setup, &evidence.flights),
+            hits: short.hits(scenario, &evidence.flights),
             rebounds: short.rebounds(evidence),
             places: evidence
                 .places
                 .iter()
-                .map(|place| PlaceRecord::new(setup, place))
+                .map(|place| PlaceRecord::new(scenario, place))
                 .collect(),
             maps: Vec::new(),
         }
@@ -48,8 +48,8 @@ impl EvidenceRecord {
 }
 
 impl FrameRecord {
-    fn new(setup: &Setup) -> Self {
-        let frame = &setup.target.frame;
+    fn new(scenario: &Scenario) -> Self {
+        let frame = &scenario.target.frame;
         Self {
             aim_m: frame.aim.coords.into(),
             normal: frame.normal.into(),
@@ -60,10 +60,10 @@ impl FrameRecord {
 }
 
 impl PlaceRecord {
-    fn new(setup: &Setup, place: &Place) -> Self {
+    fn new(scenario: &Scenario, place: &Place) -> Self {
         Self {
             name: place.name.into(),
-            surface: setup.scene.surfaces()[place.surface as usize].clone(),
+            surface: scenario.scene.surfaces()[place.surface as usize].clone(),
             point_m: place.point.coords.into(),
             normal: place.normal.into(),
             value: place.value,
@@ -72,8 +72,8 @@ impl PlaceRecord {
     }
 }
 
-fn bodies(setup: &Setup, choice: &Choice) -> Vec<BodyRecord> {
-    let pose = Pose::new(&setup.target.frame, choice);
+fn bodies(scenario: &Scenario, settings: &Settings) -> Vec<BodyRecord> {
+    let pose = Pose::new(&scenario.target.frame, settings);
     let record = |body: &Body| match *body {
         Body::Ball { radius } => BodyRecord::Ball { radius_m: radius },
         Body::Capsule {
@@ -86,7 +86,7 @@ fn bodies(setup: &Setup, choice: &Choice) -> Vec<BodyRecord> {
             direction: direction.unwrap_or(-pose.direction).into(),
         },
     };
-    setup.problem.nozzle.body.iter().map(record).collect()
+    scenario.problem.nozzle.body.iter().map(record).collect()
 }
 
 /// Writes numbers with no more digits than pictures need.
@@ -101,8 +101,8 @@ const IMPULSE_DIGITS: i32 = 5;
 const ANGLE_STEPS: f64 = 1e3;
 
 impl Short {
-    fn of(setup: &Setup) -> Self {
-        let magnitude = log10(setup.scene.size()).ceil() as i32;
+    fn of(scenario: &Scenario) -> Self {
+        let magnitude = log10(scenario.scene.size()).ceil() as i32;
         Self {
             steps_per_metre: whole_power(10.0, 6 - magnitude),
         }
@@ -116,13 +116,13 @@ impl Short {
         [point.x, point.y, point.z].map(|x| self.length(x))
     }
 
-    fn shape(&self, setup: &Setup, shape: &Shape) -> SurfaceShapeRecord {
+    fn shape(&self, scenario: &Scenario, shape: &Shape) -> SurfaceShapeRecord {
         let surface = shape.surface as usize;
         SurfaceShapeRecord {
-            name: setup.scene.surfaces()[surface].clone(),
+            name: scenario.scene.surfaces()[surface].clone(),
             role: if shape.is_target {
                 RoleRecord::Target
-            } else if setup.surfaces[surface].deflector {
+            } else if scenario.surfaces[surface].deflector {
                 RoleRecord::Deflector
             } else {
                 RoleRecord::Secondary
@@ -133,12 +133,12 @@ impl Short {
         }
     }
 
-    fn path(&self, setup: &Setup, flight: &Flight, shown: &Shown) -> PathRecord {
+    fn path(&self, scenario: &Scenario, flight: &Flight, shown: &Shown) -> PathRecord {
         let impacts = flight.impacts.iter().map(|impact| PathImpactRecord {
-            surface: setup.scene.surfaces()[impact.surface as usize].clone(),
+            surface: scenario.scene.surfaces()[impact.surface as usize].clone(),
             normal_impulse: impulse(impact.normal_impulse),
             tangential_impulse: impulse(impact.tangential_impulse),
-            breaks: !broken_by(impact, setup).is_empty(),
+            breaks: !broken_by(impact, scenario).is_empty(),
         });
         PathRecord {
             points_m: flight.corners().map(|corner| self.point(&corner)).collect(),
@@ -150,13 +150,13 @@ impl Short {
                 End::Limit => "limit",
             }
             .into(),
-            breaks: !flight.broken(setup).is_empty(),
+            breaks: !flight.broken(scenario).is_empty(),
             picked: shown.picked,
         }
     }
 
-    fn hits(&self, setup: &Setup, flights: &[Flight]) -> HitsRecord {
-        let frame = &setup.target.frame;
+    fn hits(&self, scenario: &Scenario, flights: &[Flight]) -> HitsRecord {
+        let frame = &scenario.target.frame;
         let mut hits = HitsRecord {
             shots: flights.len(),
             ..HitsRecord::default()

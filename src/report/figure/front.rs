@@ -63,7 +63,10 @@ pub fn svg(record: &Record) -> Option<Result<String, Fault>> {
         return None;
     }
     let axes = [0, 1, 2].map(|risk| {
-        let values: Vec<f64> = front.iter().map(|point| point.risks()[risk].0).collect();
+        let values: Vec<f64> = front
+            .iter()
+            .map(|point| point.objectives()[risk].0)
+            .collect();
         Axis::over(&values)
     });
     Some(drawn(SIZE, |area| {
@@ -150,9 +153,9 @@ fn draw_answer(
     name_at: i32,
 ) -> Drawn {
     let look = look(point);
-    let risks = point.risks();
+    let objectives = point.objectives();
     let places = [0, 1, 2].map(|risk| {
-        let y = height(axes[risk].as_ref(), risks[risk].0);
+        let y = height(axes[risk].as_ref(), objectives[risk].0);
         (AXES[risk], y)
     });
     let width = if point.recommended { 7 } else { 3 };
@@ -182,7 +185,7 @@ fn spread(front: &[FrontRecord], axis: Option<&Axis>) -> Vec<i32> {
     const LINE: i32 = 32;
     let mut order: Vec<(usize, i32)> = front
         .iter()
-        .map(|point| height(axis, point.risks()[0].0))
+        .map(|point| height(axis, point.objectives()[0].0))
         .enumerate()
         .collect();
     order.sort_by_key(|(_, y)| *y);

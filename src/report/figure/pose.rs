@@ -213,7 +213,7 @@ pub fn curve_name(curve: &PoseCurve) -> String {
             Precision::F32 => "exact walls, f32".into(),
         },
         Walls::Mesh => format!("the mesh as it is, {triangles} triangles"),
-        Walls::Facets { chord_angle_deg } => {
+        Walls::TriangleMesh { chord_angle_deg } => {
             format!("mesh, chords turn {chord_angle_deg}°, {triangles} triangles")
         }
     }

@@ -229,7 +229,7 @@ impl ChoiceBar {
     pub fn of(record: &Record) -> Vec<Self> {
         let fitting = || {
             let choices = record.choices.iter();
-            choices.filter_map(|choice| Some((&choice.contact, choice.objective.as_ref()?)))
+            choices.filter_map(|answer| Some((&answer.contact, answer.objective.as_ref()?)))
         };
         let totals = fitting().map(|(_, objective)| objective.total);
         let most = totals.fold(0.0, f64::max);

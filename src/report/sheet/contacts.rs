@@ -27,13 +27,13 @@ pub fn block(record: &Record) -> Option<Block> {
     let mut table = Table::new(&columns);
     let (total, error) = total(&choices[0]).unwrap_or_default();
     let scale = Scale::for_error(total, error);
-    for choice in choices {
-        let mut cells = vec![choice.contact.clone(), verdict(choice)];
-        cells.extend(SETTINGS[..4].iter().map(|s| s.text(&choice.settings)));
-        let hit = choice.target.as_ref();
+    for answer in choices {
+        let mut cells = vec![answer.contact.clone(), verdict(answer)];
+        cells.extend(SETTINGS[..4].iter().map(|s| s.text(&answer.settings)));
+        let hit = answer.target.as_ref();
         let hit = hit.filter(|target| target.share_on_target > 0.0);
         cells.push(hit.map_or_else(|| "-".into(), |target| share(target.share_sticking)));
-        cells.push(choice.objective.map_or_else(
+        cells.push(answer.objective.map_or_else(
             || "-".into(),
             |objective| {
                 let (total, error) = (objective.total, objective.standard_error);
@@ -51,9 +51,9 @@ pub fn block(record: &Record) -> Option<Block> {
     Some(block)
 }
 
-fn verdict(choice: &AnswerRecord) -> String {
-    let failing = subject::failing(choice);
-    if !choice.feasible {
+fn verdict(answer: &AnswerRecord) -> String {
+    let failing = subject::failing(answer);
+    if !answer.feasible {
         "NO ROOM".into()
     } else if failing.is_empty() {
         "PASS".into()
@@ -68,18 +68,18 @@ fn equal((a, a_error): (f64, f64), (b, b_error): (f64, f64)) -> bool {
 }
 
 /// J with its standard error.
-fn total(choice: &AnswerRecord) -> Option<(f64, f64)> {
-    let objective = choice.objective?;
+fn total(answer: &AnswerRecord) -> Option<(f64, f64)> {
+    let objective = answer.objective?;
     Some((objective.total, objective.standard_error))
 }
 
-fn rebound(choice: &AnswerRecord) -> Option<(f64, f64)> {
-    let objective = choice.objective?;
+fn rebound(answer: &AnswerRecord) -> Option<(f64, f64)> {
+    let objective = answer.objective?;
     Some((objective.rebound, objective.term_standard_errors[2]))
 }
 
-fn sticks(choice: &AnswerRecord) -> bool {
-    let target = choice.target.as_ref();
+fn sticks(answer: &AnswerRecord) -> bool {
+    let target = answer.target.as_ref();
     target.is_some_and(|target| target.share_on_target > 0.0 && target.share_sticking >= 1.0)
 }
 
@@ -97,7 +97,7 @@ fn sentences(record: &Record) -> Vec<String> {
     let feasible: Vec<&AnswerRecord> = record
         .choices
         .iter()
-        .filter(|choice| choice.feasible)
+        .filter(|answer| answer.feasible)
         .collect();
     let Some((best, best_total)) = feasible
         .first()
@@ -105,13 +105,13 @@ fn sentences(record: &Record) -> Vec<String> {
     else {
         return sentences;
     };
-    let totals = feasible.iter().filter_map(|choice| total(choice));
+    let totals = feasible.iter().filter_map(|answer| total(answer));
     let least = totals.fold(best_total, |a, b| if b.0 < a.0 { b } else { a });
     let accuracy = record.problem.accuracy;
     let ties =
-        |choice: &AnswerRecord| total(choice).is_some_and(|other| is_tie(least, other, accuracy));
+        |answer: &AnswerRecord| total(answer).is_some_and(|other| is_tie(least, other, accuracy));
     let (tied, behind): (Vec<&AnswerRecord>, Vec<&AnswerRecord>) =
-        feasible.into_iter().partition(|choice| ties(choice));
+        feasible.into_iter().partition(|answer| ties(answer));
     if tied.len() > 1 {
         let first = if best_total.0 > least.0 {
             format!(" {} stands first as the file names it first.", best.contact)
@@ -125,11 +125,11 @@ fn sentences(record: &Record) -> Vec<String> {
         ));
         sentences.extend(sticking(&tied));
     }
-    for choice in behind {
-        if let (Some((other, _)), true) = (total(choice), best_total.0 > 0.0) {
+    for answer in behind {
+        if let (Some((other, _)), true) = (total(answer), best_total.0 > 0.0) {
             sentences.push(format!(
                 "{} costs {} times the J of {}.",
-                choice.contact,
+                answer.contact,
                 significant(other / best_total.0, 3),
                 best.contact
             ));
@@ -141,7 +141,7 @@ fn sentences(record: &Record) -> Vec<String> {
 /// What sticking says about contacts that tie.
 fn sticking(tied: &[&AnswerRecord]) -> Vec<String> {
     let (sticking, sliding): (Vec<&AnswerRecord>, Vec<&AnswerRecord>) =
-        tied.iter().partition(|choice| sticks(choice));
+        tied.iter().partition(|answer| sticks(answer));
     let mut sentences = Vec::new();
     if let [first, others @ ..] = &sticking[..]
         && !others.is_empty()
@@ -167,14 +167,14 @@ fn sticking(tied: &[&AnswerRecord]) -> Vec<String> {
             "{with}: friction makes no difference to the target; {rebounds}."
         ));
     }
-    for choice in &sliding {
-        let Some(target) = &choice.target else {
+    for answer in &sliding {
+        let Some(target) = &answer.target else {
             continue;
         };
         if target.share_on_target > 0.0 {
             sentences.push(format!(
                 "With {} {}; mean f* is {} uN.s{}.",
-                choice.contact,
+                answer.contact,
                 match target.share_sticking {
                     0.0 => "every first impact slides".into(),
                     sticking => format!("{} of the first impacts stick", share(sticking)),
@@ -191,11 +191,11 @@ fn sticking(tied: &[&AnswerRecord]) -> Vec<String> {
 fn compared(sticking: &[&AnswerRecord]) -> String {
     sticking
         .first()
-        .and_then(|choice| {
-            let target = choice.target.as_ref()?;
+        .and_then(|answer| {
+            let target = answer.target.as_ref()?;
             Some(format!(
                 ", with {} {}",
-                choice.contact,
+                answer.contact,
                 impulse(target.tangential_impulse.mean)
             ))
         })

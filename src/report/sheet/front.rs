@@ -33,7 +33,7 @@ pub fn block(record: &Record) -> Option<Block> {
             },
         ];
         cells.extend(SETTINGS[..4].iter().map(|it| it.text(&point.settings)));
-        cells.extend(point.risks().map(with_error));
+        cells.extend(point.objectives().map(with_error));
         table.row(cells);
     }
     let mut block = Block::default();

@@ -63,7 +63,7 @@ pub fn verdict(record: &Record) -> Vec<String> {
     }
     if lines.is_empty() {
         lines.push(pass(best));
-    } else if let Some(other) = record.choices.iter().find(|choice| choice.passes) {
+    } else if let Some(other) = record.choices.iter().find(|answer| answer.passes) {
         lines.push(format!(
             "but {} passes every verdict, with a larger J: see CONTACTS",
             other.contact

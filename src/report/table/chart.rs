@@ -36,7 +36,7 @@ fn poses(chart: &Chart) -> io::Result<Table> {
         let (walls, chord_angle) = match curve.walls {
             Walls::Exact => ("exact", String::new()),
             Walls::Mesh => ("mesh", String::new()),
-            Walls::Facets { chord_angle_deg } => ("facets", plain(chord_angle_deg)),
+            Walls::TriangleMesh { chord_angle_deg } => ("facets", plain(chord_angle_deg)),
         };
         let precision = match curve.precision {
             Precision::F64 => "f64",

@@ -32,7 +32,7 @@ pub(super) fn table(front: &[FrontRecord]) -> io::Result<Table> {
     )?;
     for point in front {
         let at = &point.settings;
-        let [target, tangential, rebound] = point.risks();
+        let [target, tangential, rebound] = point.objectives();
         table.row(&[
             &point.recommended,
             &point.contact,

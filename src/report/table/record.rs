@@ -158,28 +158,28 @@ fn choices(record: &Record) -> io::Result<Table> {
             "tangential_impulse_mean_N_s",
         ],
     )?;
-    for choice in &record.choices {
-        let (settings, contact) = (&choice.settings, &choice.contact_values);
+    for answer in &record.choices {
+        let (settings, contact) = (&answer.settings, &answer.contact_values);
         let objective = |part: fn(&crate::record::ObjectiveRecord) -> f64| {
-            or_empty(choice.objective.as_ref().map(part))
+            or_empty(answer.objective.as_ref().map(part))
         };
-        let target = |part: fn(&TargetRecord) -> f64| or_empty(choice.target.as_ref().map(part));
+        let target = |part: fn(&TargetRecord) -> f64| or_empty(answer.target.as_ref().map(part));
         table.row(&[
-            &choice.contact,
-            &choice.passes,
-            &choice.feasible,
+            &answer.contact,
+            &answer.passes,
+            &answer.feasible,
             &settings.incidence_deg,
             &settings.azimuth_deg,
             &settings.standoff_m,
             &settings.speed_m_s,
-            &or_empty(choice.pressure),
+            &or_empty(answer.pressure),
             &settings.aim_along_m,
             &settings.aim_across_m,
             &settings.aim_above_m,
             &contact.mu_s,
             &contact.mu_d,
             &contact.restitution,
-            &or_empty(choice.clearance_m),
+            &or_empty(answer.clearance_m),
             &objective(|terms| terms.total),
             &objective(|terms| terms.standard_error),
             &objective(|terms| terms.normal_impulse),
@@ -245,20 +245,20 @@ fn poses(record: &Record) -> io::Result<Table> {
         "m41", "m42", "m43", "m44",
     ];
     let mut table = Rows::headed("pose", &[&FIRST[..], &MATRIX[..]].concat())?;
-    for choice in &record.choices {
+    for answer in &record.choices {
         let PoseRecord {
             exit_m,
             direction,
             quaternion_xyzw,
             matrix_4x4,
-        } = &choice.pose;
+        } = &answer.pose;
         let numbers = exit_m.iter().chain(direction).chain(quaternion_xyzw);
         let mut cells: Vec<String> = numbers.map(picometres).collect();
         let matrix = matrix_4x4.map(|rows| rows.concat());
         cells.extend(
             (0..MATRIX.len()).map(|i| or_empty(matrix.as_ref().map(|m| picometres(&m[i])))),
         );
-        let contact: &dyn Display = &choice.contact;
+        let contact: &dyn Display = &answer.contact;
         let cells = cells.iter().map(|cell| cell as &dyn Display);
         table.row(&std::iter::once(contact).chain(cells).collect::<Vec<_>>())?;
     }

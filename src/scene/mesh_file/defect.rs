@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::Point3;
 
 use super::warning::Coordinates;
-use crate::problem::rule::Rule;
+use crate::problem::fault_code::FaultCode;
 
 /// Bytes of the longest line that is read; a face of four thousand corners fits.
 pub(super) const LONGEST_LINE: usize = 1 << 18;
@@ -164,32 +164,32 @@ impl Defect {
     }
 
     /// The rule that a problem with such a mesh file breaks.
-    pub fn rule(&self) -> Rule {
+    pub fn rule(&self) -> FaultCode {
         match self {
-            Self::Missing => Rule::MeshMissing,
-            Self::Unreadable { .. } => Rule::MeshUnreadable,
-            Self::UnknownFormat { .. } => Rule::MeshFormatUnknown,
-            Self::TooLarge { .. } => Rule::MeshTooLarge,
-            Self::TooManyTriangles => Rule::MeshTooManyTriangles,
-            Self::TooManyCorners { .. } => Rule::MeshTooManyCorners,
-            Self::FacesTooWinding => Rule::MeshFacesTooWinding,
-            Self::TooManySurfaces { .. } => Rule::MeshTooManySurfaces,
-            Self::NameTooLong { .. } => Rule::MeshNameTooLong,
-            Self::LineTooLong => Rule::MeshLineTooLong,
-            Self::Empty => Rule::MeshEmpty,
-            Self::NoTriangles => Rule::MeshNoTriangles,
-            Self::AllDegenerate { .. } => Rule::MeshNoArea,
-            Self::NotFinite { .. } => Rule::MeshNotFinite,
-            Self::TooFarOut { .. } => Rule::MeshTooFarOut,
-            Self::NoSuchVertex { .. } => Rule::MeshNoSuchVertex,
-            Self::WrongCount { .. } => Rule::MeshWrongCount,
-            Self::VendorData => Rule::MeshVendorData,
-            Self::Foreign { .. } => Rule::MeshForeign,
-            Self::Unexpected { .. } => Rule::MeshUnexpected,
-            Self::EndsEarly { .. } => Rule::MeshEndsEarly,
-            Self::NotInHeader { .. } => Rule::MeshNotInHeader,
-            Self::EmptyRegion { .. } => Rule::RegionEmpty,
-            Self::CoveredRegion { .. } => Rule::RegionCovered,
+            Self::Missing => FaultCode::MeshMissing,
+            Self::Unreadable { .. } => FaultCode::MeshUnreadable,
+            Self::UnknownFormat { .. } => FaultCode::MeshFormatUnknown,
+            Self::TooLarge { .. } => FaultCode::MeshTooLarge,
+            Self::TooManyTriangles => FaultCode::MeshTooManyTriangles,
+            Self::TooManyCorners { .. } => FaultCode::MeshTooManyCorners,
+            Self::FacesTooWinding => FaultCode::MeshFacesTooWinding,
+            Self::TooManySurfaces { .. } => FaultCode::MeshTooManySurfaces,
+            Self::NameTooLong { .. } => FaultCode::MeshNameTooLong,
+            Self::LineTooLong => FaultCode::MeshLineTooLong,
+            Self::Empty => FaultCode::MeshEmpty,
+            Self::NoTriangles => FaultCode::MeshNoTriangles,
+            Self::AllDegenerate { .. } => FaultCode::MeshNoArea,
+            Self::NotFinite { .. } => FaultCode::MeshNotFinite,
+            Self::TooFarOut { .. } => FaultCode::MeshTooFarOut,
+            Self::NoSuchVertex { .. } => FaultCode::MeshNoSuchVertex,
+            Self::WrongCount { .. } => FaultCode::MeshWrongCount,
+            Self::VendorData => FaultCode::MeshVendorData,
+            Self::Foreign { .. } => FaultCode::MeshForeign,
+            Self::Unexpected { .. } => FaultCode::MeshUnexpected,
+            Self::EndsEarly { .. } => FaultCode::MeshEndsEarly,
+            Self::NotInHeader { .. } => FaultCode::MeshNotInHeader,
+            Self::EmptyRegion { .. } => FaultCode::RegionEmpty,
+            Self::CoveredRegion { .. } => FaultCode::RegionCovered,
         }
     }
 }

@@ -140,7 +140,7 @@ fn hits_are_on_the_target_in_its_box_and_on_its_surface() {
         point: point.into(),
         normal: Vector3::z(),
         surface,
-        spot: crate::scene::ray::Spot {
+        hit_id: crate::scene::ray::HitId {
             part: 0,
             piece: 0,
             front: true,

@@ -8,11 +8,11 @@ use nalgebra::Vector3;
 
 use super::{Nearest, Prism};
 use crate::precision::{Real, dot};
-use crate::scene::form::{Extent, Flight, Form, Wall};
+use crate::scene::departure::Departure;
 use crate::scene::lanes::{LANES, Lane, any, components, padded, put};
+use crate::scene::primitive::{Extent, Flight, Intersect, Primitive};
 use crate::scene::ray::Ray;
 use crate::scene::rays::{Hits, Rays};
-use crate::scene::start::Start;
 
 /// What the rays have met so far.
 struct Best<R> {
@@ -73,13 +73,13 @@ impl Prism {
             surface: [R::ZERO; LANES],
             normal: [[R::ZERO; LANES]; 3],
         };
-        if let Some(spots) = &rays.leaving {
+        if let Some(hit_ids) = &rays.leaving {
             for i in 0..padded(rays.count) {
-                let here = spots.part[i] == part;
-                let piece = R::of(f64::from(spots.piece[i]));
+                let here = hit_ids.part[i] == part;
+                let piece = R::of(f64::from(hit_ids.piece[i]));
                 flights.piece[i] = if here { piece } else { -R::ONE };
             }
-            flights.on_front = spots.front;
+            flights.on_front = hit_ids.front;
         }
         let leaves = rays.leaving.is_some();
         if rays.are_spheres {
@@ -107,10 +107,10 @@ impl Prism {
         for (index, wall) in self.walls.iter().enumerate() {
             let piece = self.piece(index);
             match wall {
-                Form::Plane(plane) => {
+                Primitive::Plane(plane) => {
                     best.take::<_, LEAVES, false>(flights, piece, &plane.with(), &extent);
                 }
-                Form::Cylinder(cylinder) => {
+                Primitive::Cylinder(cylinder) => {
                     best.take::<_, LEAVES, false>(flights, piece, &cylinder.with(), &extent);
                 }
             }
@@ -123,10 +123,10 @@ impl Prism {
         for (index, wall) in self.walls.iter().enumerate() {
             let piece = self.piece(index);
             match wall {
-                Form::Plane(plane) => {
+                Primitive::Plane(plane) => {
                     best.take::<_, true, true>(flights, piece, &plane.with(), &extent);
                 }
-                Form::Cylinder(cylinder) => {
+                Primitive::Cylinder(cylinder) => {
                     best.take::<_, true, true>(flights, piece, &cylinder.with(), &extent);
                 }
             }
@@ -203,20 +203,20 @@ impl Prism {
     #[inline(always)]
     fn record_spots<R: Real>(&self, part: u32, rays: &Rays<R>, best: &Best<R>, hits: &mut Hits<R>) {
         let count = rays.count;
-        let spots = &mut hits.spots;
+        let hit_ids = &mut hits.hit_ids;
         for i in 0..padded(count) {
             let met = best.code[i] >= R::ZERO;
             let piece = best.code[i].index() / 2;
             let surface = self.first_surface + best.surface[i].index();
-            spots.part[i] = if met { part } else { spots.part[i] };
-            spots.piece[i] = if met { piece } else { spots.piece[i] };
+            hit_ids.part[i] = if met { part } else { hit_ids.part[i] };
+            hit_ids.piece[i] = if met { piece } else { hit_ids.piece[i] };
             hits.surface[i] = if met { surface } else { hits.surface[i] };
         }
         // Apart, and without a choice: what has another size than the rest is worked on one by one.
         for i in 0..padded(count) {
             let met = best.code[i] >= R::ZERO;
             let front = best.code[i].index() % 2 == 1;
-            spots.front[i] = (met & front) | (!met & spots.front[i]);
+            hit_ids.front[i] = (met & front) | (!met & hit_ids.front[i]);
         }
         let first_edge = R::of(f64::from(2 * self.first_edge()));
         let is_edge = |code: R| code >= first_edge;
@@ -225,7 +225,7 @@ impl Prism {
         }
         for i in (0..count).filter(|&i| is_edge(best.code[i])) {
             let normal = [best.normal[0][i].wide(), best.normal[1][i].wide()];
-            hits.surface[i] = self.surface_touched(hits.spots.piece[i], normal);
+            hits.surface[i] = self.surface_touched(hits.hit_ids.piece[i], normal);
         }
     }
 
@@ -265,13 +265,13 @@ fn shifted<R: Real>(points: &[Lane<R>; 3], shift: &Vector3<f64>, count: usize) -
 
 impl<R: Real> Flights<'_, R> {
     /// One of them, in f64, and what is known about its start.
-    fn one(&self, i: usize, leaves: bool) -> (Ray, Start) {
+    fn one(&self, i: usize, leaves: bool) -> (Ray, Departure) {
         let ray = Ray {
             origin: components(self.origin, i).map(Real::wide).into(),
             direction: components(self.direction, i).map(Real::wide).into(),
         };
         let piece = self.piece[i].wide();
-        let start = Start {
+        let start = Departure {
             piece: (piece >= 0.0).then_some(piece as u32),
             front: leaves.then_some(self.on_front[i]),
             fronts_are_free: true,
@@ -302,7 +302,7 @@ impl<R: Real> Best<R> {
 
     /// Takes the meetings with one wall that are nearer.
     #[inline(always)]
-    fn take<W: Wall<R>, const LEAVES: bool, const BALLS: bool>(
+    fn take<W: Intersect<R>, const LEAVES: bool, const BALLS: bool>(
         &mut self,
         flights: &Flights<R>,
         piece: Piece<R>,

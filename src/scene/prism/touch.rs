@@ -4,9 +4,9 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{Nearest, Prism};
-use crate::scene::form::{Flight, Meeting, SLIDES, Wall};
-use crate::scene::ray::{Crossing, Ray, Spot};
-use crate::scene::start::Start;
+use crate::scene::departure::Departure;
+use crate::scene::primitive::{Flight, Intersect, Intersection, SLIDES};
+use crate::scene::ray::{Crossing, HitId, Ray};
 
 /// Steps along a ray towards a rim; each covers the distance that is free for certain.
 const MOST_STEPS: usize = 256;
@@ -18,12 +18,12 @@ impl Prism {
         &self,
         ray: &Ray,
         radius: f64,
-        leaving: Option<Spot>,
+        leaving: Option<HitId>,
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
         let local = self.to_own_frame(ray);
-        let start = Start::of(leaving, on_this_part);
+        let start = Departure::of(leaving, on_this_part);
         let flight = |piece: u32| Flight {
             origin: local.origin.into(),
             direction: local.direction.into(),
@@ -82,7 +82,13 @@ impl Prism {
     }
 
     /// Takes contacts with caps and rims where they are the nearest.
-    pub(super) fn touch_ends(&self, ray: &Ray, radius: f64, start: &Start, nearest: &mut Nearest) {
+    pub(super) fn touch_ends(
+        &self,
+        ray: &Ray,
+        radius: f64,
+        start: &Departure,
+        nearest: &mut Nearest,
+    ) {
         for (piece, cap) in (self.walls.len() as u32..).zip(&self.caps) {
             if start.piece != Some(piece) {
                 self.touch_cap(ray, radius, piece, cap, nearest);
@@ -123,7 +129,7 @@ impl Prism {
         let ahead = closing > least && distance < nearest.best.rank;
         let place = || (ray.origin.xy() + ray.direction.xy() * distance).into();
         if ahead && self.holds(place()) {
-            let meeting = Meeting {
+            let meeting = Intersection {
                 distance,
                 rank: distance,
                 front,
@@ -141,7 +147,7 @@ impl Prism {
         radius: f64,
         (end, z): (u32, f64),
         [mut distance, last]: [f64; 2],
-        start: &Start,
+        start: &Departure,
         nearest: &mut Nearest,
     ) {
         let first = self.first_rim() + end * self.walls.len() as u32;
@@ -181,7 +187,7 @@ impl Prism {
             let heads_for_it = closing > SLIDES && !leaves_here;
             if heads_for_it && (from_contact || gap.abs() <= settled) {
                 let normal = offset / apart;
-                let meeting = Meeting {
+                let meeting = Intersection {
                     distance,
                     rank: distance,
                     front: true,

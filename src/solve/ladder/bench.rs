@@ -6,33 +6,33 @@ use rayon::prelude::*;
 
 use super::{Rung, SHOTS};
 use crate::evaluate::evaluate;
-use crate::jet::{Deviate, Focus, Replicates, Samples, Stream, purpose};
+use crate::jet::{ImportanceDensity, Replicates, Samples, ShotSample, Stream, purpose};
 use crate::objective::Tally;
 use crate::precision::Precision;
 use crate::problem::model::Effect;
-use crate::problem::setting::Choice;
-use crate::setup::Setup;
-use crate::solve::accuracy::{is_in_reach, least_objective, rounding_of_objective};
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
 use crate::solve::control::Control;
-use crate::solve::judge::{Effort, Judge};
+use crate::solve::evaluator::{Effort, Evaluator};
 use crate::solve::polish::{Candidate, polish};
 use crate::solve::search::Search;
 use crate::solve::space::Space;
+use crate::solve::stopping_rule::{is_in_reach, least_objective, rounding_of_objective};
 use crate::verdict::{Subject, Verdict};
 
 /// Shots of a reduced setup with the weights of those of the whole one: what they differ in is the
 /// model alone.
 pub(in crate::solve) fn fewer<'a>(
-    setup: &Setup,
-    reduced: &Setup,
-    whole: &'a [Deviate],
-    focus: Option<&Focus>,
-) -> Cow<'a, [Deviate]> {
-    if draw_alike(setup, reduced) {
+    scenario: &Scenario,
+    reduced: &Scenario,
+    whole: &'a [ShotSample],
+    importance: Option<&ImportanceDensity>,
+) -> Cow<'a, [ShotSample]> {
+    if draw_alike(scenario, reduced) {
         return whole.into();
     }
-    let samples = Samples::focused(&reduced.problem, Stream::Search, whole.len(), focus);
-    let mut shots = samples.deviates;
+    let samples = Samples::focused(&reduced.problem, Stream::Search, whole.len(), importance);
+    let mut shots = samples.shots;
     if shots.len() == whole.len() {
         for (shot, with) in shots.iter_mut().zip(whole) {
             shot.weight = with.weight;
@@ -42,7 +42,7 @@ pub(in crate::solve) fn fewer<'a>(
 }
 
 /// Whether the shots of two setups are the same.
-fn draw_alike(one: &Setup, other: &Setup) -> bool {
+fn draw_alike(one: &Scenario, other: &Scenario) -> bool {
     let (one, other) = (&one.problem, &other.problem);
     one.jet == other.jet
         && one.shot == other.shot
@@ -51,30 +51,34 @@ fn draw_alike(one: &Setup, other: &Setup) -> bool {
 }
 
 /// J at a choice.
-pub(in crate::solve) fn objective(setup: &Setup, choice: &Choice, shots: &[Deviate]) -> f64 {
-    objective_in(Precision::F64, setup, choice, shots)
+pub(in crate::solve) fn objective(
+    scenario: &Scenario,
+    settings: &Settings,
+    shots: &[ShotSample],
+) -> f64 {
+    objective_in(Precision::F64, scenario, settings, shots)
 }
 
 /// The same with paths in one of the precisions.
 pub(in crate::solve) fn objective_in(
     precision: Precision,
-    setup: &Setup,
-    choice: &Choice,
-    shots: &[Deviate],
+    scenario: &Scenario,
+    settings: &Settings,
+    shots: &[ShotSample],
 ) -> f64 {
-    let tally = Tally::trace_as(precision, setup, choice, choice.speed, shots);
-    tally.terms(&setup.problem.goals, choice.speed).total()
+    let tally = Tally::trace_as(precision, scenario, settings, settings.speed, shots);
+    tally.terms(&scenario.problem.goals, settings.speed).total()
 }
 
 /// Where effects are measured.
 pub(in crate::solve) struct Bench<'a> {
-    pub(super) setup: &'a Setup,
+    pub(super) scenario: &'a Scenario,
     /// Where a part of the shots come from.
-    focus: Option<&'a Focus>,
+    importance: Option<&'a ImportanceDensity>,
     /// The best choice of every contact that could win, the best one first.
-    leading: Vec<Choice>,
+    leading: Vec<Settings>,
     /// Shots of the whole model.
-    shots: Vec<Deviate>,
+    shots: Vec<ShotSample>,
     /// J of the whole model there.
     whole: Vec<f64>,
     effort: &'a Effort,
@@ -84,8 +88,8 @@ pub(in crate::solve) struct Bench<'a> {
 impl<'a> Bench<'a> {
     /// `None` where the nozzle has fitted nowhere.
     pub(in crate::solve) fn new(
-        setup: &'a Setup,
-        focus: Option<&'a Focus>,
+        scenario: &'a Scenario,
+        importance: Option<&'a ImportanceDensity>,
         searches: &[Search],
         effort: &'a Effort,
         control: &'a Control,
@@ -95,20 +99,20 @@ impl<'a> Bench<'a> {
             .iter()
             .filter(|search| is_in_reach(search, least))
             .map(Search::best)
-            .filter(|best| best.standing.objective().is_some())
+            .filter(|best| best.fitness.objective().is_some())
             .collect();
-        leading.sort_by(|a, b| a.standing.rank().total_cmp(&b.standing.rank()));
-        let leading: Vec<Choice> = leading.into_iter().map(|best| best.choice).collect();
+        leading.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
+        let leading: Vec<Settings> = leading.into_iter().map(|best| best.settings).collect();
         leading.first()?;
-        let shots = Samples::focused(&setup.problem, Stream::Search, SHOTS, focus).deviates;
+        let shots = Samples::focused(&scenario.problem, Stream::Search, SHOTS, importance).shots;
         let whole = leading
             .par_iter()
-            .map(|choice| objective(setup, choice, &shots))
+            .map(|settings| objective(scenario, settings, &shots))
             .collect();
         Some(Self {
             shots,
-            setup,
-            focus,
+            scenario,
+            importance,
             leading,
             whole,
             effort,
@@ -116,16 +120,16 @@ impl<'a> Bench<'a> {
         })
     }
 
-    fn reduced(&self, left_out: &[Effect]) -> Setup {
-        self.setup.without(left_out, &self.leading[0])
+    fn reduced(&self, left_out: &[Effect]) -> Scenario {
+        self.scenario.without(left_out, &self.leading[0])
     }
 
     /// Changes of J, relative, at every leading choice.
-    fn changes(&self, reduced: &Setup) -> Vec<f64> {
-        let shots = fewer(self.setup, reduced, &self.shots, self.focus);
+    fn changes(&self, reduced: &Scenario) -> Vec<f64> {
+        let shots = fewer(self.scenario, reduced, &self.shots, self.importance);
         let pairs = self.leading.par_iter().zip(&self.whole);
-        let change = |(choice, whole): (&Choice, &f64)| {
-            self.relative(objective(reduced, choice, &shots) - whole, *whole)
+        let change = |(settings, whole): (&Settings, &f64)| {
+            self.relative(objective(reduced, settings, &shots) - whole, *whole)
         };
         pairs.map(change).collect()
     }
@@ -136,8 +140,8 @@ impl<'a> Bench<'a> {
 
     /// The largest change of J, relative, when paths are traced in another precision.
     pub(super) fn largest_change_in(&self, precision: Precision) -> f64 {
-        let change = |(choice, whole): (&Choice, &f64)| {
-            let coarse = objective_in(precision, self.setup, choice, &self.shots);
+        let change = |(settings, whole): (&Settings, &f64)| {
+            let coarse = objective_in(precision, self.scenario, settings, &self.shots);
             self.relative(coarse - whole, *whole)
         };
         let pairs = self.leading.par_iter().zip(&self.whole);
@@ -146,20 +150,20 @@ impl<'a> Bench<'a> {
     }
 
     /// The best settings of a setup near the first leading choice.
-    fn descend(&self, setup: &Setup, shots: &[Deviate]) -> Choice {
-        let choice = &self.leading[0];
-        let judge = Judge::new(setup, Precision::F64, shots, self.effort, self.control);
-        let search_speed = !setup.speed_scales_out(choice.contact);
-        let space = Space::new(&setup.problem, choice.contact, search_speed);
-        let start = Candidate::at(&space, &judge, &space.point(choice));
-        let settled = DESCENT_SETTLED * setup.problem.accuracy;
-        polish(&space, &judge, start, DESCENT_SIZE, settled).choice
+    fn descend(&self, scenario: &Scenario, shots: &[ShotSample]) -> Settings {
+        let settings = &self.leading[0];
+        let evaluator = Evaluator::new(scenario, Precision::F64, shots, self.effort, self.control);
+        let search_speed = !scenario.speed_scales_out(settings.contact);
+        let space = Space::new(&scenario.problem, settings.contact, search_speed);
+        let start = Candidate::at(&space, &evaluator, &space.point(settings));
+        let settled = DESCENT_SETTLED * scenario.problem.accuracy;
+        polish(&space, &evaluator, start, DESCENT_SIZE, settled).settings
     }
 
     /// A difference of J relative to J; none where it is within rounding. Where J is 0 it is beyond
     /// every number, and as JSON has no infinity, the largest there is.
     fn relative(&self, difference: f64, objective: f64) -> f64 {
-        let rounding = rounding_of_objective(&self.setup.problem.goals);
+        let rounding = rounding_of_objective(&self.scenario.problem.goals);
         if difference.abs() <= rounding {
             0.0
         } else {
@@ -168,18 +172,18 @@ impl<'a> Bench<'a> {
     }
 
     /// Shots for descents.
-    fn few_shots(&self) -> &[Deviate] {
+    fn few_shots(&self) -> &[ShotSample] {
         &self.shots[..DESCENT_SHOTS.min(self.shots.len())]
     }
 
     /// The whole model at the first leading choice.
     pub(super) fn start(&self) -> Start {
-        let fresh = draw_fresh(self.setup);
-        let verdicts = passes(self.setup, &self.leading[0], &fresh).into_iter();
+        let validation = draw_validation(self.scenario);
+        let verdicts = passes(self.scenario, &self.leading[0], &validation).into_iter();
         Start {
             passes: verdicts.map(|(_, pass)| pass).collect(),
-            fresh,
-            best: self.descend(self.setup, self.few_shots()),
+            validation,
+            best: self.descend(self.scenario, self.few_shots()),
         }
     }
 
@@ -187,16 +191,16 @@ impl<'a> Bench<'a> {
         let reduced = self.reduced(&[effect]);
         let changes = self.changes(&reduced);
         let whole = self.few_shots();
-        let fewer = fewer(self.setup, &reduced, whole, self.focus);
+        let fewer = fewer(self.scenario, &reduced, whole, self.importance);
         let best_with = start.best;
         // An effect that does nothing here may be the cliff that the best settings keep away from.
         let best_without = self.descend(&reduced, &fewer);
         let [without, with] =
-            [&best_without, &best_with].map(|choice| objective(self.setup, choice, whole));
+            [&best_without, &best_with].map(|settings| objective(self.scenario, settings, whole));
         let before = start.passes.iter();
-        let redrawn = (!draw_alike(self.setup, &reduced)).then(|| draw_fresh(&reduced));
-        let fresh = redrawn.as_ref().unwrap_or(&start.fresh);
-        let turned = passes(&reduced, &self.leading[0], fresh)
+        let redrawn = (!draw_alike(self.scenario, &reduced)).then(|| draw_validation(&reduced));
+        let validation = redrawn.as_ref().unwrap_or(&start.validation);
+        let turned = passes(&reduced, &self.leading[0], validation)
             .into_iter()
             .zip(before)
             .filter(|((_, without), with)| without != *with)
@@ -216,12 +220,12 @@ impl<'a> Bench<'a> {
 
     /// Rays of a pose of a reduced setup over those of the whole one. Unlike times they are the same on every
     /// machine.
-    fn relative_rays(&self, reduced: &Setup, fewer: &[Deviate]) -> f64 {
-        let choice = &self.leading[0];
-        let rays = |setup: &Setup, shots: &[Deviate]| {
-            Tally::trace(setup, choice, choice.speed, shots).rays as f64
+    fn relative_rays(&self, reduced: &Scenario, fewer: &[ShotSample]) -> f64 {
+        let settings = &self.leading[0];
+        let rays = |scenario: &Scenario, shots: &[ShotSample]| {
+            Tally::trace(scenario, settings, settings.speed, shots).rays as f64
         };
-        rays(reduced, fewer) / rays(self.setup, self.few_shots()).max(1.0)
+        rays(reduced, fewer) / rays(self.scenario, self.few_shots()).max(1.0)
     }
 }
 
@@ -236,9 +240,9 @@ pub(super) struct Start {
     /// Whether each verdict passes.
     passes: Vec<bool>,
     /// The shots that tell.
-    fresh: Replicates,
+    validation: Replicates,
     /// The best settings nearby.
-    best: Choice,
+    best: Settings,
 }
 
 const DESCENT_SHOTS: usize = 128;
@@ -248,13 +252,17 @@ const DESCENT_SIZE: f64 = 0.1;
 const DESCENT_SETTLED: f64 = 0.3;
 
 /// Shots that tell whether verdicts pass.
-fn draw_fresh(setup: &Setup) -> Replicates {
-    Replicates::without_rim(&setup.problem, purpose::EFFECTS, SHOTS)
+fn draw_validation(scenario: &Scenario) -> Replicates {
+    Replicates::without_boundary(&scenario.problem, purpose::EFFECTS, SHOTS)
 }
 
 /// Whether each verdict on a choice passes.
-fn passes(setup: &Setup, choice: &Choice, fresh: &Replicates) -> Vec<(Subject, bool)> {
-    let verdicts = Verdict::all(setup, &evaluate(setup, choice, fresh));
+fn passes(
+    scenario: &Scenario,
+    settings: &Settings,
+    validation: &Replicates,
+) -> Vec<(Subject, bool)> {
+    let verdicts = Verdict::all(scenario, &evaluate(scenario, settings, validation));
     let verdict = |verdict: &Verdict| (verdict.subject, verdict.passes());
     verdicts.iter().map(verdict).collect()
 }

@@ -15,14 +15,14 @@ fn mirrored(velocity: Triple<f64>) -> impl Fn(Triple<f64>) -> Triple<f64> {
 
 #[test]
 fn tilts_are_the_roughness_times_normal_numbers_of_the_flight() {
-    let deviate = Deviate {
+    let sample = ShotSample {
         tilts: 0.37,
-        ..Deviate::NONE
+        ..ShotSample::NONE
     };
     for flight in 1..5 {
-        let [a, b] = normal_pair(deviate.tilts, flight);
+        let [a, b] = normal_pair(sample.tilts, flight);
         assert!(a != 0.0 && b != 0.0);
-        assert_eq!(tilt(&deviate, flight, 0.25), [0.25 * a, 0.25 * b]);
+        assert_eq!(tilt(&sample, flight, 0.25), [0.25 * a, 0.25 * b]);
     }
 }
 

@@ -18,14 +18,14 @@ const LONGEST_COMPLAINT: usize = 200;
 /// A chart of the shipped problem that is solved soonest, beside which the points are shown; without
 /// what has nothing to do with them.
 static CHART: LazyLock<Chart> = LazyLock::new(|| {
-    let (setup, source) = sound(include_str!("../../../problems/plate.yaml"));
+    let (scenario, source) = sound(include_str!("../../../problems/plate.yaml"));
     let control = Control {
         most_shots: 64,
         seeds: 1,
         ..Control::default()
     };
     let command = "peenpose chart any.yaml".into();
-    let chart = measure(&setup, &source, command, Vec::new(), &control);
+    let chart = measure(&scenario, &source, command, Vec::new(), &control);
     Chart {
         poses: Vec::new(),
         effects: Vec::new(),

@@ -10,7 +10,7 @@ use peenpose::map::{self, Axis, Map};
 use peenpose::problem::Source;
 use peenpose::problem::setting::Setting;
 use peenpose::record::{MapRecord, Record};
-use peenpose::setup::Setup;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Control, Solution, solve};
 use tempfile::TempDir;
 
@@ -47,7 +47,7 @@ goals:
 
 /// A small search and two small maps that were never interrupted, and the file that they leave.
 struct Uninterrupted {
-    setup: Setup,
+    scenario: Scenario,
     source: Source,
     file: Vec<u8>,
     outcome: Outcome,
@@ -68,15 +68,15 @@ impl Outcome {
 }
 
 static WHOLE: LazyLock<Uninterrupted> = LazyLock::new(|| {
-    let (setup, source) = sound(PROBLEM);
-    let outcome = outcome(&setup, None);
+    let (scenario, source) = sound(PROBLEM);
+    let outcome = outcome(&scenario, None);
     let folder = folder();
-    let kept = Checkpoint::open(folder.path(), &setup).expect("there is no file yet");
-    assert!(outcome.is_that_of(&self::outcome(&setup, Some(&kept))));
+    let kept = Checkpoint::open(folder.path(), &scenario).expect("there is no file yet");
+    assert!(outcome.is_that_of(&self::outcome(&scenario, Some(&kept))));
     kept.finish().expect("there is room");
     let file = fs::read(folder.path().join("checkpoint.txt")).expect("it was written");
     Uninterrupted {
-        setup,
+        scenario,
         source,
         file,
         outcome,
@@ -98,7 +98,7 @@ fn is_refused_or_the_same(file: &[u8]) {
     let path = folder.path().join("checkpoint.txt");
     fs::write(&path, file).expect("there is room for a file");
     let whole = &*WHOLE;
-    let kept = match Checkpoint::open(folder.path(), &whole.setup) {
+    let kept = match Checkpoint::open(folder.path(), &whole.scenario) {
         Ok(kept) => kept,
         Err(trouble) => {
             is_told(&trouble, file);
@@ -107,7 +107,7 @@ fn is_refused_or_the_same(file: &[u8]) {
             return;
         }
     };
-    let outcome = outcome(&whole.setup, Some(&kept));
+    let outcome = outcome(&whole.scenario, Some(&kept));
     assert!(outcome.is_that_of(&whole.outcome), "{}", shown(file));
     kept.finish().expect("there is room");
     drop(kept);
@@ -121,8 +121,8 @@ fn is_refused_or_the_same(file: &[u8]) {
 
 fn nothing_is_left_to_do(folder: &TempDir) {
     let whole = &*WHOLE;
-    let kept = Checkpoint::open(folder.path(), &whole.setup).expect("it is our own");
-    let again = outcome(&whole.setup, Some(&kept));
+    let kept = Checkpoint::open(folder.path(), &whole.scenario).expect("it is our own");
+    let again = outcome(&whole.scenario, Some(&kept));
     assert!(again.is_that_of(&whole.outcome));
     assert_eq!(kept.added(), 0);
 }
@@ -147,22 +147,22 @@ fn ends_legally(file: &[u8]) {
     let path = folder.path().join("checkpoint.txt");
     fs::write(&path, file).expect("there is room for a file");
     let whole = &*WHOLE;
-    let kept = Checkpoint::open(folder.path(), &whole.setup).expect("its checksums are right");
-    let outcome = outcome(&whole.setup, Some(&kept));
-    let setup = whole.setup.as_asked();
+    let kept = Checkpoint::open(folder.path(), &whole.scenario).expect("its checksums are right");
+    let outcome = outcome(&whole.scenario, Some(&kept));
+    let scenario = whole.scenario.as_asked();
     for answer in &outcome.solution.answers {
-        is_legal(&setup, answer, PROBLEM);
+        is_legal(&scenario, answer, PROBLEM);
     }
     for map in &outcome.maps {
-        let shown = serde_json::to_string(&MapRecord::new(&setup, map)).expect("it is finite");
+        let shown = serde_json::to_string(&MapRecord::new(&scenario, map)).expect("it is finite");
         let back: MapRecord = serde_json::from_str(&shown).expect("what was written can be read");
-        assert!(back == MapRecord::new(&setup, map), "{shown}");
+        assert!(back == MapRecord::new(&scenario, map), "{shown}");
     }
     // Records take most of the time: in some cases only.
     if !file.len().is_multiple_of(4) {
         return;
     }
-    let record = recorded(&setup, &whole.source, &outcome.solution);
+    let record = recorded(&scenario, &whole.source, &outcome.solution);
     let written = record
         .to_json()
         .expect("every number of a record is finite");
@@ -171,19 +171,19 @@ fn ends_legally(file: &[u8]) {
 }
 
 /// A search, and a map with each of the ways to share paths between its places.
-fn outcome(setup: &Setup, checkpoint: Option<&Checkpoint>) -> Outcome {
+fn outcome(scenario: &Scenario, checkpoint: Option<&Checkpoint>) -> Outcome {
     let control = Control {
         most_shots: 64,
-        fresh_shots: 128,
+        validation_shots: 128,
         checkpoint,
         ..Control::default()
     };
-    let solution = solve(setup, &control);
-    let setup = setup.as_asked();
+    let solution = solve(scenario, &control);
+    let scenario = scenario.as_asked();
     let axis = |setting: Setting| {
-        let range = setup
+        let range = scenario
             .problem
-            .settings
+            .ranges
             .range(setting)
             .expect("it is of the nozzle");
         Axis::over(setting, range, 3)
@@ -194,8 +194,8 @@ fn outcome(setup: &Setup, checkpoint: Option<&Checkpoint>) -> Outcome {
     };
     let map = |x, y| {
         Map::of(
-            &setup,
-            &solution.answers[0].choice,
+            &scenario,
+            &solution.answers[0].settings,
             axis(x),
             axis(y),
             64,

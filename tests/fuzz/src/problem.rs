@@ -5,8 +5,8 @@ use std::path::Path;
 use peenpose::problem::fault::{Fault, Span};
 use peenpose::problem::part::Shape;
 use peenpose::problem::{self, Problem, Reading, Source};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::warnings;
 
 pub fn run(data: &[u8]) {
@@ -28,9 +28,9 @@ pub fn run(data: &[u8]) {
     if problem.parts.iter().any(|part| is_mesh(&part.shape)) {
         return;
     }
-    match Setup::new(problem, Walls::Exact) {
-        Ok(setup) => {
-            let found = warnings::of(&setup, &source);
+    match Scenario::new(problem, Walls::Exact) {
+        Ok(scenario) => {
+            let found = warnings::of(&scenario, &source);
             for warning in &found {
                 fits(&source, warning.at);
             }
@@ -73,29 +73,29 @@ fn fits(source: &Source, place: Option<Span>) {
 }
 
 fn is_in_order(problem: &Problem) {
-    let settings = &problem.settings;
+    let ranges = &problem.ranges;
     for range in [
-        settings.incidence,
-        settings.azimuth,
-        settings.standoff,
-        settings.speed,
-        settings.aim_along,
-        settings.aim_across,
-        settings.aim_above,
+        ranges.incidence,
+        ranges.azimuth,
+        ranges.standoff,
+        ranges.speed,
+        ranges.aim_along,
+        ranges.aim_across,
+        ranges.aim_above,
     ] {
         assert!(range.min <= range.max && range.width().is_finite());
     }
-    assert!(!settings.contact.is_empty());
+    assert!(!ranges.contact.is_empty());
     assert!(
-        settings
+        ranges
             .contact
             .iter()
             .all(|&index| index < problem.contacts.len())
     );
-    for choice in &problem.contacts {
-        let friction = choice.static_friction;
+    for settings in &problem.contacts {
+        let friction = settings.static_friction;
         for value in [friction.min, friction.max] {
-            assert_eq!(choice.at(value).validate(), Ok(()));
+            assert_eq!(settings.at(value).validate(), Ok(()));
         }
     }
     let mass = problem.shot.mass();

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use nalgebra::Point3;
 use peenpose::problem::part::{Part, Place, Shape};
-use peenpose::scene::ray::{Hit, Ray, Spot};
+use peenpose::scene::ray::{Hit, HitId, Ray};
 use peenpose::scene::rays::{Hits, Rays};
 use peenpose::scene::{Scene, Walls};
 
@@ -90,7 +90,7 @@ fn follow(scene: &Scene, triangles: &[Triangle], bytes: &mut Bytes<'_>) {
             return;
         };
         is_sound(scene, &hit, &ray);
-        leaving = Some(hit.spot);
+        leaving = Some(hit.hit_id);
         let turned = ray.direction - hit.normal * (2.0 * ray.direction.dot(&hit.normal));
         ray = Ray {
             origin: hit.point + hit.normal * radius,
@@ -115,7 +115,7 @@ fn side_by_side(
     scene: &Scene,
     ray: &Ray,
     radius: f64,
-    leaving: Option<Spot>,
+    leaving: Option<HitId>,
     expected: Option<Hit>,
 ) {
     let mut rays = Rays::<f64>::none();
@@ -127,16 +127,16 @@ fn side_by_side(
     rays.are_spheres = radius > 0.0;
     rays.radius[0] = radius;
     let mut hits = Hits::none();
-    rays.leaving = leaving.map(|spot| {
-        let mut spots = hits.spots.clone();
-        spots.set(0, spot);
-        spots
+    rays.leaving = leaving.map(|hit_id| {
+        let mut hit_ids = hits.hit_ids.clone();
+        hit_ids.set(0, hit_id);
+        hit_ids
     });
     scene.first_hits(&rays, &mut hits);
     let found = hits.distance[0].is_finite().then(|| hits.distance[0]);
     assert_eq!(found, expected.map(|hit| hit.distance), "{ray:?}");
     if let Some(expected) = expected {
-        assert_eq!(hits.spots.at(0), expected.spot, "{ray:?}");
+        assert_eq!(hits.hit_ids.at(0), expected.hit_id, "{ray:?}");
     }
 }
 
@@ -154,7 +154,7 @@ fn ray_is_right(triangles: &[Triangle], ray: &Ray, hit: Option<&Hit>) {
         }
     }
     if let Some(hit) = hit {
-        let [a, b, c] = triangles[hit.spot.piece as usize];
+        let [a, b, c] = triangles[hit.hit_id.piece as usize];
         let off = distance(&hit.point, &[a, b, c]);
         // Where a ray runs within a plane but for rounding, where it crosses is as uncertain.
         let height = ROUNDING + height_rounding(&[a, b, c]);
@@ -190,7 +190,7 @@ fn sphere_is_right(triangles: &[Triangle], ray: &Ray, radius: f64, hit: Option<&
     }
     if let Some(hit) = hit.filter(|hit| hit.distance > 0.0) {
         let centre = ray.origin + ray.direction * hit.distance;
-        let apart = distance(&centre, &triangles[hit.spot.piece as usize]);
+        let apart = distance(&centre, &triangles[hit.hit_id.piece as usize]);
         assert!(
             (apart - radius).abs() < OFF,
             "{hit:?} at {apart}, not {radius}"

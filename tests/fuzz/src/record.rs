@@ -19,16 +19,16 @@ const FIGURES: usize = 16;
 
 /// A record of a small search that the edits start from; made anew, so that it is never out of date.
 static WHOLE: LazyLock<Value> = LazyLock::new(|| {
-    let (setup, source) = sound(include_str!("../../../problems/keyway.yaml"));
+    let (scenario, source) = sound(include_str!("../../../problems/keyway.yaml"));
     let control = Control {
         most_shots: 64,
-        fresh_shots: 128,
+        validation_shots: 128,
         ..Control::default()
     };
-    let solution = solve(&setup, &control);
-    let setup = setup.as_asked();
-    let record = recorded(&setup, &source, &solution);
-    let record = record.with_evidence(&setup, &solution.answers[0]);
+    let solution = solve(&scenario, &control);
+    let scenario = scenario.as_asked();
+    let record = recorded(&scenario, &source, &solution);
+    let record = record.with_evidence(&scenario, &solution.answers[0]);
     let mut whole = serde_json::to_value(record).expect("every number is finite");
     for list in ["/evidence/hits", "/evidence/rebounds"] {
         if let Some(columns) = whole.pointer_mut(list).and_then(Value::as_object_mut) {

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use peenpose::problem::{self, Source};
-use peenpose::record::{Circumstances, FrontRecord, Record, WorkRecord};
+use peenpose::record::{FrontRecord, Record, RunInfo, WorkRecord};
+use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::setup::Setup;
 use peenpose::solve::{Answer, Control, Solution, front, passing_windows, solve};
 use peenpose::unknowns::Unknowns;
 use peenpose::{report, validity, warnings};
@@ -21,36 +21,36 @@ pub fn run(data: &[u8]) {
     let file = folder.path().join("any.yaml");
     std::fs::write(&file, &problem).expect("there is room for a problem");
     std::fs::write(folder.path().join("part.obj"), mesh).expect("there is room for a mesh");
-    let (setup, source) = match Setup::load(&file) {
+    let (scenario, source) = match Scenario::load(&file) {
         Ok(loaded) => loaded,
         Err(rejection) => {
             assert!(!rejection.faults.is_empty());
             return;
         }
     };
-    let _ = problem::render_warnings(&source, &warnings::of(&setup, &source), false);
+    let _ = problem::render_warnings(&source, &warnings::of(&scenario, &source), false);
     let control = Control {
         most_shots,
-        fresh_shots: 128,
+        validation_shots: 128,
         ..Control::default()
     };
-    let solution = solve(&setup, &control);
-    let setup = setup.as_asked();
+    let solution = solve(&scenario, &control);
+    let scenario = scenario.as_asked();
     assert_eq!(
         solution.answers.len(),
-        setup.problem.settings.contact.len(),
+        scenario.problem.ranges.contact.len(),
         "{problem}"
     );
     for answer in &solution.answers {
-        is_legal(&setup, answer, &problem);
+        is_legal(&scenario, answer, &problem);
     }
-    let mut record = recorded(&setup, &source, &solution);
+    let mut record = recorded(&scenario, &source, &solution);
     match wanted {
         0..20 => {
-            let front = front(&setup, &solution.answers, &control);
-            record.front = FrontRecord::all(&setup, &front);
+            let front = front(&scenario, &solution.answers, &control);
+            record.front = FrontRecord::all(&scenario, &front);
         }
-        20..40 => record = record.with_evidence(&setup, &solution.answers[0]),
+        20..40 => record = record.with_evidence(&scenario, &solution.answers[0]),
         _ => {}
     }
     let text = record
@@ -69,16 +69,16 @@ pub fn run(data: &[u8]) {
 }
 
 /// Settings are within their ranges, and figures are shares.
-pub fn is_legal(setup: &Setup, answer: &Answer, problem: &str) {
-    let (settings, choice) = (&setup.problem.settings, &answer.choice);
+pub fn is_legal(scenario: &Scenario, answer: &Answer, problem: &str) {
+    let (ranges, settings) = (&scenario.problem.ranges, &answer.settings);
     for (range, value) in [
-        (settings.incidence, choice.incidence),
-        (settings.azimuth, choice.azimuth),
-        (settings.standoff, choice.standoff),
-        (settings.speed, choice.speed),
-        (settings.aim_along, choice.aim_along),
-        (settings.aim_across, choice.aim_across),
-        (settings.aim_above, choice.aim_above),
+        (ranges.incidence, settings.incidence),
+        (ranges.azimuth, settings.azimuth),
+        (ranges.standoff, settings.standoff),
+        (ranges.speed, settings.speed),
+        (ranges.aim_along, settings.aim_along),
+        (ranges.aim_across, settings.aim_across),
+        (ranges.aim_above, settings.aim_above),
     ] {
         let off = 1e-9 * range.max.abs().max(range.min.abs());
         assert!(
@@ -98,20 +98,22 @@ pub fn is_legal(setup: &Setup, answer: &Answer, problem: &str) {
 }
 
 /// What a sound problem file of exact walls says.
-pub fn sound(text: &str) -> (Setup, Source) {
+pub fn sound(text: &str) -> (Scenario, Source) {
     let reading = problem::read_text(text, Path::new("any.yaml")).expect("short enough");
     let problem = reading.problem.expect("the problem is sound");
-    let setup = Setup::new(problem, Walls::Exact).expect("the problem is sound");
-    (setup, reading.source)
+    let scenario = Scenario::new(problem, Walls::Exact).expect("the problem is sound");
+    (scenario, reading.source)
 }
 
 /// As `peenpose solve` makes it.
-pub fn recorded(setup: &Setup, source: &Source, solution: &Solution) -> Record {
+pub fn recorded(scenario: &Scenario, source: &Source, solution: &Solution) -> Record {
     let best = &solution.answers[0];
-    let notes = validity::notes(setup, &best.choice, best.evaluation.as_ref());
+    let notes = validity::notes(scenario, &best.settings, best.evaluation.as_ref());
     let fits = best.evaluation.is_some();
-    let unknowns = fits.then(|| Unknowns::of(setup, &best.choice)).flatten();
-    let circumstances = Circumstances {
+    let unknowns = fits
+        .then(|| Unknowns::of(scenario, &best.settings))
+        .flatten();
+    let run = RunInfo {
         ladder: &solution.ladder,
         source,
         status: solution.status.into(),
@@ -123,14 +125,7 @@ pub fn recorded(setup: &Setup, source: &Source, solution: &Solution) -> Record {
             seconds: 0.0,
         },
     };
-    let windows = passing_windows(setup, solution);
-    Record::new(
-        setup,
-        &solution.answers,
-        &windows,
-        notes,
-        unknowns,
-        circumstances,
-    )
-    .expect("there is an answer")
+    let windows = passing_windows(scenario, solution);
+    Record::new(scenario, &solution.answers, &windows, notes, unknowns, run)
+        .expect("there is an answer")
 }

@@ -2,8 +2,8 @@
 
 use super::{Best, Flights};
 use crate::precision::Real;
-use crate::scene::form::Form;
 use crate::scene::lanes::{LANES, components, padded};
+use crate::scene::primitive::Primitive;
 use crate::scene::prism::Prism;
 
 /// Shots that are looked at together: none of them near an end is common.
@@ -51,14 +51,14 @@ impl Prism {
         let mut least = [R::INFINITY; GROUP];
         for wall in &self.walls {
             match wall {
-                Form::Plane(plane) => {
+                Primitive::Plane(plane) => {
                     let plane = plane.with();
                     for (i, least) in least.iter_mut().enumerate() {
                         let square = plane.squared_distance([exits.x[i], exits.y[i]]);
                         *least = if square < *least { square } else { *least };
                     }
                 }
-                Form::Cylinder(cylinder) => {
+                Primitive::Cylinder(cylinder) => {
                     let cylinder = cylinder.with();
                     for (i, least) in least.iter_mut().enumerate() {
                         let apart = cylinder.distance_to_whole([exits.x[i], exits.y[i]]);

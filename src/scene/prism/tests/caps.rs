@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::rays::Spots;
+use crate::scene::rays::HitIds;
 
 #[test]
 fn caps_are_as_wide_as_the_cross_section() {
@@ -66,12 +66,12 @@ fn slanted_rays_cross_a_cap_where_they_come_to_its_plane() {
 #[test]
 fn rays_that_start_on_a_cap_meet_it_at_once_or_never() {
     let pot = pipe(true, true);
-    let wall = Spot {
+    let wall = HitId {
         part: 0,
         piece: 0,
         front: true,
     };
-    let meet = |z: f64, direction: [f64; 3], leaving: Spot| {
+    let meet = |z: f64, direction: [f64; 3], leaving: HitId| {
         let ray = Ray::of([5.0, 0.0, z], direction);
         let found = pot.first_crossing(&ray, Some(leaving), true, f64::INFINITY);
         let found = found.map(|(crossing, _)| (crossing.distance, crossing.surface));
@@ -80,9 +80,9 @@ fn rays_that_start_on_a_cap_meet_it_at_once_or_never() {
         rays.count = 1;
         put(&mut rays.origin, 0, ray.origin.into());
         put(&mut rays.direction, 0, ray.direction.into());
-        let mut spots = Spots::none();
-        spots.set(0, leaving);
-        rays.leaving = Some(spots);
+        let mut hit_ids = HitIds::none();
+        hit_ids.set(0, leaving);
+        rays.leaving = Some(hit_ids);
         let mut hits = Hits::none();
         pot.cross(leaving.part, &rays, &mut hits);
         let is_met = hits.distance[0].is_finite();
@@ -104,7 +104,7 @@ fn rays_that_start_on_a_cap_meet_it_at_once_or_never() {
         assert_eq!(meet(10.0 + beside, up, wall), Some((0.0, 9)));
         assert!(is_near(meet(10.0 + beside, down, wall), (12.5, 8)));
         // The cap itself is left, whichever way.
-        let cap = Spot { piece: 1, ..wall };
+        let cap = HitId { piece: 1, ..wall };
         assert!(is_near(meet(beside, up, cap), (12.5, 9)));
         assert_eq!(meet(beside, down, cap), None);
     }

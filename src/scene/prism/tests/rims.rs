@@ -13,7 +13,7 @@ fn a_rim_is_another_piece_than_its_wall() {
     };
     let sides = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
     for prism in [pipe(false, false), shaft(false), shaft(true)] {
-        let touch = |flight: &Ray, leaving: Option<Spot>| {
+        let touch = |flight: &Ray, leaving: Option<HitId>| {
             prism.first_touch(flight, 0.5, leaving, leaving.is_some(), f64::INFINITY)
         };
         // Shots that come down on the far rims, and up on the near ones of an open end.
@@ -37,12 +37,12 @@ fn a_rim_is_another_piece_than_its_wall() {
             assert_ne!(rim.piece, wall.piece);
             pieces.extend([wall.piece, rim.piece]);
             // As if it had got from the rim to the axis.
-            let spot = Spot {
+            let hit_id = HitId {
                 part: 0,
                 piece: rim.piece,
                 front: true,
             };
-            assert_eq!(touch(&inside, Some(spot)), touch(&inside, None));
+            assert_eq!(touch(&inside, Some(hit_id)), touch(&inside, None));
             // Out over the rim, by rounding a little into it: one that has left it does not touch it.
             let sinking = normal * -1e-9 + outwards * 0.8 - Vector3::z() * 0.6 * towards[2];
             let grazing = Ray {
@@ -51,7 +51,7 @@ fn a_rim_is_another_piece_than_its_wall() {
             };
             let at_once = touch(&grazing, None).map(|(it, _)| (it.piece, it.distance));
             assert_eq!(at_once, Some((rim.piece, 0.0)));
-            assert_eq!(touch(&grazing, Some(spot)), None);
+            assert_eq!(touch(&grazing, Some(hit_id)), None);
         }
         pieces.sort_unstable();
         pieces.dedup();
@@ -87,7 +87,7 @@ fn a_rim_belongs_to_the_surface_of_its_wall() {
 #[test]
 fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
     let open = pipe(false, false);
-    let touch = |flight: &Ray, leaving: Option<Spot>, limit: f64| {
+    let touch = |flight: &Ray, leaving: Option<HitId>, limit: f64| {
         open.first_touch(flight, 0.5, leaving, leaving.is_some(), limit)
     };
     // A shot of radius 0.5 whose centre flies 0.3 beside the wall is 0.4 before the end when it
@@ -108,18 +108,18 @@ fn shots_touch_the_rims_of_a_pipe_from_all_sides() {
             assert!(at_once.is_some_and(|(crossing, _)| crossing.distance < 1e-9));
             let at_once = touch(&from(9.65), None, f64::INFINITY);
             assert_eq!(at_once.expect("the rim").0.distance, 0.0);
-            let spot = Spot {
+            let hit_id = HitId {
                 part: 0,
                 piece: crossing.piece,
                 front: true,
             };
             let mut away = from(9.6);
             away.direction = -away.direction;
-            assert!(touch(&away, Some(spot), f64::INFINITY).is_none());
+            assert!(touch(&away, Some(hit_id), f64::INFINITY).is_none());
             // Across the pipe it comes to the same rim again.
             if across < 0.0 {
                 away.direction = -Vector3::y();
-                let again = touch(&away, Some(spot), f64::INFINITY).expect("the other side");
+                let again = touch(&away, Some(hit_id), f64::INFINITY).expect("the other side");
                 assert!((again.0.distance - 9.4).abs() < 1e-9);
                 assert_eq!(again.0.piece, crossing.piece);
             }
@@ -245,7 +245,7 @@ fn a_lip_belongs_to_the_wall_whose_normal_is_nearer() {
                     (crossing.surface, crossing.distance)
                 );
                 // What has left it goes away from both walls.
-                let spot = Spot {
+                let hit_id = HitId {
                     part: 0,
                     piece: crossing.piece,
                     front: true,
@@ -255,7 +255,7 @@ fn a_lip_belongs_to_the_wall_whose_normal_is_nearer() {
                     direction: (normal + Vector3::new(-0.4, 0.3, 0.0)).normalize(),
                 };
                 assert_eq!(
-                    bar.first_touch(&away, RADIUS, Some(spot), true, f64::INFINITY),
+                    bar.first_touch(&away, RADIUS, Some(hit_id), true, f64::INFINITY),
                     None
                 );
             }

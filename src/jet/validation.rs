@@ -1,0 +1,189 @@
+//! Fresh shots, which no search has seen, some of which are drawn where settings are found to do harm.
+
+use std::mem::take;
+
+use rayon::prelude::*;
+
+use super::importance::ImportanceDensity;
+use super::mixture::{Mixture, Origin, Parts};
+use super::qmc_point::{Proposal, Stream};
+use super::replicates::{Replicate, Replicates};
+use super::samples::Samples;
+use super::shot_sample::ShotSample;
+use crate::problem::Problem;
+
+/// Fresh shots in independent scramblings, but for those that a focus decides about.
+#[derive(Clone, Debug)]
+pub struct ValidationSample {
+    /// One for each scrambling.
+    pub sets: Vec<PendingReplicate>,
+}
+
+/// The shots of one scrambling, but for those that a focus decides about.
+#[derive(Clone, Debug)]
+pub struct PendingReplicate {
+    jet: Vec<ShotSample>,
+    boundary: Vec<ShotSample>,
+    /// Of all of them, in this order.
+    origins: Vec<Origin>,
+    stream: Stream,
+    parts: Parts,
+}
+
+impl ValidationSample {
+    /// Those of [`Replicates::new`].
+    pub fn new(problem: &Problem, purpose: u32, shots: usize) -> Self {
+        let draw = Draw::new(problem, purpose, shots);
+        let numbers = (0..draw.sets()).into_par_iter();
+        Self {
+            sets: numbers.map(|number| draw.unfocused(number)).collect(),
+        }
+    }
+
+    /// Number of shots of the jet in all sets together.
+    pub fn shots(&self) -> usize {
+        self.sets.iter().map(|set| set.jet.len()).sum()
+    }
+}
+
+impl PendingReplicate {
+    fn new(problem: &Problem, stream: Stream, parts: Parts) -> Self {
+        let mixture = Mixture::new(parts, &ImportanceDensity::NONE);
+        let draw = |count: usize, by| {
+            let shots = (0..count as u32).map(|index| mixture.shot(problem, stream, index, by));
+            shots.unzip::<_, _, Vec<_>, Vec<_>>()
+        };
+        let (jet, mut origins) = draw(parts.jet, Proposal::Jet);
+        let (boundary, of_rim) = draw(parts.boundary, Proposal::Boundary);
+        origins.extend(of_rim);
+        Self {
+            jet,
+            boundary,
+            origins,
+            stream,
+            parts,
+        }
+    }
+
+    /// These shots and those that a focus draws, each with what it stands for among all of them.
+    pub fn focused(&self, problem: &Problem, importance: &ImportanceDensity) -> Replicate {
+        let mut replicate = self.open();
+        self.importance(&mut replicate, problem, importance);
+        replicate
+    }
+
+    /// The same without a copy of them.
+    fn into_focused(mut self, problem: &Problem, importance: &ImportanceDensity) -> Replicate {
+        let [jet, boundary] =
+            [&mut self.jet, &mut self.boundary].map(|shots| Samples { shots: take(shots) });
+        let mut replicate = Replicate { jet, boundary };
+        self.importance(&mut replicate, problem, importance);
+        replicate
+    }
+
+    /// These shots, and space for those that a focus will draw.
+    pub(crate) fn open(&self) -> Replicate {
+        let mut boundary = Vec::with_capacity(self.parts.boundary + self.parts.focused);
+        boundary.extend_from_slice(&self.boundary);
+        Replicate {
+            jet: Samples {
+                shots: self.jet.clone(),
+            },
+            boundary: Samples { shots: boundary },
+        }
+    }
+
+    /// Makes [open](Self::open) shots, or those of another focus, what [`Self::focused`] gives.
+    pub(crate) fn importance(
+        &self,
+        replicate: &mut Replicate,
+        problem: &Problem,
+        importance: &ImportanceDensity,
+    ) {
+        let mixture = Mixture::new(self.parts, importance);
+        let jet = &mut replicate.jet.shots;
+        let boundary = &mut replicate.boundary.shots;
+        boundary.truncate(self.parts.boundary);
+        for (shot, origin) in jet.iter_mut().chain(&mut *boundary).zip(&self.origins) {
+            shot.weight = mixture.weight(origin);
+        }
+        let numbers = 0..self.parts.focused as u32;
+        boundary.extend(numbers.map(|index| {
+            mixture
+                .shot(problem, self.stream, index, Proposal::ImportanceDensity)
+                .0
+        }));
+    }
+}
+
+/// Fresh shots that are too many to be kept: each scrambling is drawn when it is needed.
+#[derive(Clone, Copy, Debug)]
+pub struct Draw<'a> {
+    problem: &'a Problem,
+    purpose: u32,
+    /// Of each scrambling.
+    parts: Parts,
+    importance: &'a ImportanceDensity,
+}
+
+impl<'a> Draw<'a> {
+    /// The shots of [`Replicates::new`].
+    pub fn new(problem: &'a Problem, purpose: u32, shots: usize) -> Self {
+        let jet = shots.div_ceil(Replicates::COUNT).max(1);
+        let on_rim = jet.div_ceil(2);
+        let focused = on_rim / 2;
+        let boundary = on_rim - focused;
+        Self {
+            problem,
+            purpose,
+            parts: Parts {
+                jet,
+                boundary,
+                focused,
+            },
+            importance: &ImportanceDensity::NONE,
+        }
+    }
+
+    /// Those of the jet alone.
+    pub(super) fn without_boundary(self) -> Self {
+        let parts = Parts {
+            jet: self.parts.jet,
+            ..Parts::NONE
+        };
+        Self { parts, ..self }
+    }
+
+    /// The same with other shots where a focus decides about them.
+    #[must_use]
+    pub fn focused(self, importance: &'a ImportanceDensity) -> Self {
+        Self { importance, ..self }
+    }
+
+    /// Number of scramblings: one, when all shots of the problem are the same.
+    pub fn sets(&self) -> u32 {
+        if self.problem.has_one_ray() {
+            1
+        } else {
+            Replicates::COUNT as u32
+        }
+    }
+
+    /// The shots of one scrambling; one shot, when all shots of the problem are the same.
+    pub fn set(&self, number: u32) -> Replicate {
+        let unfocused = self.unfocused(number);
+        unfocused.into_focused(self.problem, self.importance)
+    }
+
+    fn unfocused(&self, number: u32) -> PendingReplicate {
+        if self.problem.has_one_ray() {
+            return PendingReplicate::new(
+                self.problem,
+                Stream::ValidationSample(0),
+                Parts::JET_ALONE,
+            );
+        }
+        let stream = Replicates::stream(self.purpose, number);
+        PendingReplicate::new(self.problem, stream, self.parts)
+    }
+}

@@ -1,0 +1,291 @@
+//! A problem together with its scene: everything that stays the same for every pose.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::elementary::sin;
+use crate::impact::Contact;
+use crate::printable;
+use crate::problem::equipment::Role;
+use crate::problem::fault::Fault;
+use crate::problem::fault_code::FaultCode;
+use crate::problem::model::{Effect, Model};
+use crate::problem::part::{Part, Target};
+use crate::problem::setting::Settings;
+use crate::problem::{self, Problem, Reading, Source};
+use crate::scene::patch::Patch;
+use crate::scene::{Scene, Walls};
+
+/// A problem, its scene, its target and the rules of each surface.
+#[derive(Clone)]
+pub struct Scenario {
+    /// What was asked.
+    pub problem: Problem,
+    /// What is there.
+    pub scene: Arc<Scene>,
+    /// What is to be peened.
+    pub target: Patch,
+    /// One for each surface of the scene.
+    pub surfaces: Vec<SurfaceLimits>,
+}
+
+/// What holds for one surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceLimits {
+    /// Normal impulse that it may take, N s; no limit when absent.
+    pub allow: Option<f64>,
+    /// Share of all shots that may exceed it.
+    pub share: f64,
+    /// Weight of its impacts in the objective.
+    pub weight: f64,
+    /// Its own contact, whatever contact is chosen.
+    pub contact: Option<Contact>,
+    /// Standard deviation of the tilt of its normal about each direction in it, rad.
+    pub roughness: f64,
+    /// Whether hits on it belong to the flight.
+    pub deflector: bool,
+}
+
+impl Scenario {
+    /// Builds the scene of a problem and finds the target in it.
+    ///
+    /// # Errors
+    /// All faults of the geometry.
+    pub fn new(problem: Problem, walls: Walls) -> Result<Self, Vec<Fault>> {
+        let scene = Scene::build(&problem.parts, walls)?;
+        let target = Patch::find(&scene, &problem.target)?;
+        Self::assemble(problem, scene, target)
+    }
+
+    /// Reads a problem file and builds its scene.
+    ///
+    /// # Errors
+    /// All faults of the file and of the geometry at once, in the order of the text.
+    pub fn load(path: &Path) -> Result<(Self, Source), Box<Rejection>> {
+        let reading = problem::read(path).map_err(|fault| Rejection::unread(*fault))?;
+        let Reading {
+            source, mut faults, ..
+        } = reading;
+        let mut collect = |found: Vec<Fault>| faults.extend(found);
+        let scene = reading.scene.and_then(|parts| {
+            let scene = Scene::build(&parts, Walls::Exact);
+            if let (Err(faults), Some(target)) = (&scene, &reading.target) {
+                collect(target_faults(parts, faults, target));
+            }
+            scene.map_err(&mut collect).ok()
+        });
+        let target = scene
+            .as_ref()
+            .zip(reading.target)
+            .and_then(|(scene, target)| Patch::find(scene, &target).map_err(&mut collect).ok());
+        let unknown = scene.as_ref().map_or_else(Vec::new, |scene| {
+            let names = reading.surfaces.iter();
+            names.filter_map(|name| unknown(scene, name)).collect()
+        });
+        let whole = reading.problem.zip(scene).zip(target);
+        let scenario = whole.and_then(|((problem, scene), target)| {
+            Self::assemble(problem, scene, target)
+                .map_err(&mut collect)
+                .ok()
+        });
+        match scenario {
+            Some(scenario) => Ok((scenario, source)),
+            None => {
+                let is_new = |fault: &Fault| faults.iter().all(|known| known.key != fault.key);
+                let new: Vec<Fault> = unknown.into_iter().filter(is_new).collect();
+                faults.extend(new);
+                Err(Rejection::new(source, faults))
+            }
+        }
+    }
+
+    /// The same without some effects; what depends on the speed becomes what it is at a choice.
+    #[must_use]
+    pub fn without(&self, effects: &[Effect], settings: &Settings) -> Self {
+        let mut reduced = self.clone();
+        let normal_speed = settings.speed * sin(settings.incidence);
+        for effect in effects {
+            effect.remove_from(&mut reduced.problem, normal_speed);
+        }
+        for surface in &mut reduced.surfaces {
+            if effects.contains(&Effect::Roughness) {
+                surface.roughness = 0.0;
+            }
+            if effects.contains(&Effect::FallingRestitution)
+                && let Some(contact) = &mut surface.contact
+            {
+                contact.restitution = contact.restitution.held_at(normal_speed);
+            }
+        }
+        reduced
+    }
+
+    /// The effects that the problem has and that its model does not name.
+    pub fn unasked(&self) -> Vec<Effect> {
+        let Model::Only(named) = &self.problem.model else {
+            return Vec::new();
+        };
+        let effects = self.problem.effects().into_iter();
+        effects.filter(|effect| !named.contains(effect)).collect()
+    }
+
+    /// The same without the effects that are not asked for; what depends on the speed becomes what
+    /// it is at the middle of all settings.
+    #[must_use]
+    pub fn as_asked(&self) -> Self {
+        self.without(&self.unasked(), &self.problem.ranges.middle())
+    }
+
+    /// Whether the paths of shots stay the same when every speed is multiplied by one factor.
+    pub fn speed_scales_out(&self, contact: usize) -> bool {
+        let own = self.surfaces.iter().filter_map(|limits| limits.contact);
+        self.problem.contacts[contact].contact.is_scale_free()
+            && own.into_iter().all(|contact| contact.is_scale_free())
+    }
+
+    /// The contact of the mean shot with a surface of the scene: its own one, or the chosen one.
+    pub fn contact_on(&self, surface: u32, settings: &Settings) -> Contact {
+        self.surfaces[surface as usize]
+            .contact
+            .unwrap_or_else(|| self.problem.contacts[settings.contact].at(settings.static_friction))
+    }
+
+    fn assemble(problem: Problem, mut scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
+        let surfaces = surface_limits(&problem, &scene, target.surface)?;
+        scene.settle(&target);
+        Ok(Self {
+            problem,
+            scene: Arc::new(scene),
+            target,
+            surfaces,
+        })
+    }
+}
+
+/// Why there is no setup: the file and all its faults, each with its place.
+#[derive(Clone, Debug)]
+pub struct Rejection {
+    /// The file; absent when it cannot be read at all.
+    pub source: Option<Source>,
+    /// What is wrong, in the order of the text.
+    pub faults: Vec<Fault>,
+}
+
+impl Rejection {
+    fn unread(fault: Fault) -> Box<Self> {
+        Box::new(Self {
+            source: None,
+            faults: vec![fault],
+        })
+    }
+
+    fn new(source: Source, mut faults: Vec<Fault>) -> Box<Self> {
+        for fault in &mut faults {
+            // Under `surfaces` the name itself is wrong, not what stands behind it.
+            let of_name =
+                fault.rule == FaultCode::UnknownSurface && fault.key.starts_with("surfaces.");
+            let place = || match of_name {
+                true => source.locate_name(&fault.key),
+                false => source.locate(&fault.key),
+            };
+            fault.at = fault.at.or_else(place);
+        }
+        faults.sort_by_key(|fault| fault.at);
+        Box::new(Self {
+            source: Some(source),
+            faults,
+        })
+    }
+
+    /// The faults for people: with the lines of the file, or a line each.
+    pub fn render(&self, color: bool) -> String {
+        match &self.source {
+            Some(source) => problem::render(source, &self.faults, color),
+            None => self
+                .faults
+                .iter()
+                .map(|fault| format!("error: {}\n", printable::line(&fault.to_string())))
+                .collect(),
+        }
+    }
+}
+
+/// What is wrong with the target, where its part can be built although others cannot.
+fn target_faults(mut parts: Vec<Part>, faults: &[Fault], target: &Target) -> Vec<Fault> {
+    let is_damaged = |part: &Part| {
+        let block = format!("scene.{}.", part.name);
+        faults.iter().any(|fault| fault.key.starts_with(&block))
+    };
+    let holds_target = |part: &Part| target.surface.starts_with(&format!("{}.", part.name));
+    parts.retain(|part| holds_target(part) && !is_damaged(part));
+    if parts.is_empty() {
+        return Vec::new();
+    }
+    Scene::build(&parts, Walls::Exact)
+        .and_then(|scene| Patch::find(&scene, target))
+        .err()
+        .unwrap_or_default()
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.render(false).trim_end())
+    }
+}
+
+impl std::error::Error for Rejection {}
+
+/// What is wrong with a rule for a surface that the scene does not have.
+fn unknown(scene: &Scene, surface: &str) -> Option<Fault> {
+    let fault = scene.surface_named(surface).err()?;
+    Some(Fault {
+        key: format!("surfaces.{surface}"),
+        ..*fault
+    })
+}
+
+fn surface_limits(
+    problem: &Problem,
+    scene: &Scene,
+    target: u32,
+) -> Result<Vec<SurfaceLimits>, Vec<Fault>> {
+    let rebound = problem.goals.rebound;
+    let usual = SurfaceLimits {
+        allow: rebound.map(|goal| goal.allow),
+        share: rebound.map_or(DEFAULT_REBOUND_SHARE, |goal| goal.share),
+        weight: rebound.map_or(1.0, |goal| goal.weight),
+        contact: None,
+        roughness: 0.0,
+        deflector: false,
+    };
+    let mut limits = vec![usual; scene.surfaces().len()];
+    let mut faults = Vec::new();
+    for rule in &problem.surfaces {
+        let fault_on_target = rule.fault_on_target();
+        match scene.surface_named(&rule.surface) {
+            Ok(index) if index == target && fault_on_target.is_some() => {
+                faults.extend(fault_on_target);
+            }
+            Ok(index) => {
+                limits[index as usize] = SurfaceLimits {
+                    allow: rule.allow.or(usual.allow),
+                    share: rule.share.unwrap_or(usual.share),
+                    weight: rule.weight.unwrap_or(usual.weight),
+                    contact: rule.contact,
+                    roughness: rule.roughness,
+                    deflector: rule.role == Role::Deflector,
+                };
+            }
+            Err(_) => faults.extend(unknown(scene, &rule.surface)),
+        }
+    }
+    if faults.is_empty() {
+        Ok(limits)
+    } else {
+        Err(faults)
+    }
+}
+
+/// Share of the shots that may exceed a surface's own limit when no general one is given.
+const DEFAULT_REBOUND_SHARE: f64 = 0.01;

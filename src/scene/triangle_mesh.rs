@@ -1,0 +1,143 @@
+//! Rays against triangle meshes.
+//!
+//! parry's own triangle test lets rays through that pass exactly over an edge or a vertex, and a
+//! ray cannot be told to ignore the facet that it starts from. So the test of a triangle is ours,
+//! and so is the tree for rays, which are most of the work; distances take parry's.
+
+mod crossing;
+mod many;
+mod plane;
+mod slide;
+mod touch;
+
+use std::sync::OnceLock;
+
+use nalgebra::Point3;
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use rayon::prelude::*;
+
+use super::LIFT;
+use super::bvh8::Bvh8;
+use super::mesh::Mesh;
+use super::triangle_packet::TrianglePacket;
+use touch::Touchable;
+
+pub(super) use many::{cross, touch};
+
+/// A mesh that is ready for rays.
+#[derive(Clone)]
+pub struct TriangleMesh {
+    tree: Bvh8,
+    /// The triangles of each of its leaves.
+    bundles: Vec<TrianglePacket>,
+    /// What spheres need besides, made when the first one comes.
+    touchable: OnceLock<Touchable>,
+    /// For other walks than rays.
+    distance_tree: Bvh,
+    /// Whether its leaves are the bundles rather than single triangles.
+    bundled: bool,
+    corners: Vec<[u32; 3]>,
+    surfaces: Vec<u32>,
+    vertices: Vec<Point3<f64>>,
+    slack: f64,
+    /// What a weight may lose to an edge that a ray passes by a lift, m².
+    doubtful_weight: f64,
+    /// Whether its fronts look towards free space, as is taken for granted until a target tells.
+    pub(super) fronts_are_free: bool,
+}
+
+impl TriangleMesh {
+    /// Prepares a mesh whose surfaces have the indices `surface_base` onwards. `slack` is the
+    /// distance within which two points count as one, m.
+    pub fn new(mesh: Mesh, surface_base: u32, slack: f64) -> Self {
+        let corners = |index: u32| mesh.corners(&mesh.triangles[index as usize]);
+        let bounds = |triangles: &[u32]| {
+            let corners = triangles.iter().flat_map(|&index| corners(index));
+            let bounds = Aabb::from_points(corners.map(|corner| corner.coords.into()));
+            bounds.loosened(slack)
+        };
+        let count = mesh.triangles.len();
+        let bundled = count > LARGE_MESH;
+        let over_triangles = || {
+            let boxes = (0..count as u32).map(|index| bounds(&[index]));
+            Bvh::from_iter(BvhBuildStrategy::Ploc, boxes.enumerate())
+        };
+        let ((tree, leaves), over_triangles) = rayon::join(
+            || Bvh8::new(count, corners, slack),
+            || (!bundled).then(over_triangles),
+        );
+        let distance_tree = over_triangles.unwrap_or_else(|| {
+            let boxes = leaves.iter().map(|leaf| bounds(leaf));
+            Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate())
+        });
+        Self {
+            distance_tree,
+            bundled,
+            touchable: OnceLock::new(),
+            bundles: leaves
+                .par_iter()
+                .map(|leaf| TrianglePacket::new(leaf, corners, plane::normal))
+                .collect(),
+            tree,
+            corners: mesh.triangles.iter().map(|t| t.corners).collect(),
+            surfaces: mesh
+                .triangles
+                .iter()
+                .map(|t| surface_base + t.surface)
+                .collect(),
+            doubtful_weight: doubtful_weight(&mesh, slack),
+            fronts_are_free: true,
+            vertices: mesh.vertices,
+            slack,
+        }
+    }
+
+    /// Number of triangles.
+    pub fn count(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// parry's tree, for other walks than rays.
+    pub(super) fn distance_tree(&self) -> &Bvh {
+        &self.distance_tree
+    }
+
+    /// The triangles in a leaf of parry's tree.
+    pub(super) fn leaf(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {
+        let bundle = self
+            .bundled
+            .then(|| self.bundles[leaf as usize].triangles());
+        let single = (!self.bundled).then_some(leaf);
+        bundle.into_iter().flatten().copied().chain(single)
+    }
+
+    /// The corner points of a triangle.
+    pub fn corners(&self, index: u32) -> [Point3<f64>; 3] {
+        self.corners[index as usize].map(|corner| self.vertices[corner as usize])
+    }
+
+    /// The surface of a triangle.
+    pub fn surface(&self, index: u32) -> u32 {
+        self.surfaces[index as usize]
+    }
+
+    /// Whether any of its triangles is of a surface.
+    pub fn has_surface(&self, surface: u32) -> bool {
+        self.surfaces.contains(&surface)
+    }
+}
+
+/// What the weights of a triangle of this mesh may lose, m², to an edge that a ray passes by a
+/// lift: edges as the ray sees them are at most twice as long as they are.
+fn doubtful_weight(mesh: &Mesh, slack: f64) -> f64 {
+    let longest = mesh.bounds().map_or(0.0, |(low, high)| (high - low).norm());
+    2.0 * longest * LIFT * slack
+}
+
+/// In meshes with more triangles distances share the bundles: parry's better tree over single
+/// triangles takes time with the square of those that lie alike, as the facets of a prism do.
+const LARGE_MESH: usize = 20_000;
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -1,0 +1,269 @@
+//! What one point of the search is worth: feasible or not, the best speed there, and J.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::control::Control;
+use super::objectives::Objectives;
+use super::pareto_archive::ParetoArchive;
+use crate::checkpoint::{Checkpoint, Page};
+use crate::feasibility::infeasibility;
+use crate::jet::ShotSample;
+use crate::objective::{Tally, Terms};
+use crate::precision::Precision;
+use crate::problem::setting::{Range, Settings};
+use crate::scenario::Scenario;
+
+/// What a choice of settings is worth on a set of shots.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Fitness {
+    /// The nozzle fits.
+    Feasible(Terms),
+    /// The nozzle cannot be there, by this much, m.
+    Infeasible(f64),
+}
+
+impl Fitness {
+    /// A finite number by which standings are ordered: every feasible one before every blocked
+    /// one, by J or by how much the clearance is violated. It is J itself where the nozzle fits, so
+    /// that a common factor on all weights changes nothing.
+    pub fn rank(&self) -> f64 {
+        match self {
+            Self::Feasible(terms) => terms.total().min(WORST_OBJECTIVE),
+            Self::Infeasible(violation) => {
+                // Violations are of the order of millimetres.
+                let millimetres = violation * 1e3;
+                WORST_OBJECTIVE * (1.0 + millimetres / (1.0 + millimetres))
+            }
+        }
+    }
+
+    /// Whether shots miss the target or meet secondary surfaces.
+    pub(super) fn violates(&self) -> bool {
+        matches!(self, Self::Feasible(terms) if terms.rebound > 0.0 || terms.miss > 0.0)
+    }
+
+    /// Whether there can be such a standing.
+    fn is_sound(&self) -> bool {
+        match self {
+            Self::Feasible(terms) => terms.are_sound(),
+            Self::Infeasible(violation) => *violation >= 0.0 && self.rank().is_finite(),
+        }
+    }
+
+    /// J, when the nozzle fits.
+    pub fn objective(&self) -> Option<f64> {
+        match self {
+            Self::Feasible(terms) => Some(terms.total()),
+            Self::Infeasible(_) => None,
+        }
+    }
+}
+
+/// Above every J that weights, impulses and limits within their ranges can give, and so far from the
+/// largest number that squares of it can be added.
+const WORST_OBJECTIVE: f64 = 1e150;
+
+/// How much work was done; shared by all threads.
+#[derive(Debug, Default)]
+pub struct Effort {
+    poses: AtomicUsize,
+    rays: AtomicUsize,
+}
+
+impl Effort {
+    /// Poses judged so far.
+    pub fn poses(&self) -> usize {
+        self.poses.load(Ordering::Relaxed)
+    }
+
+    /// Rays cast so far.
+    pub fn rays(&self) -> usize {
+        self.rays.load(Ordering::Relaxed)
+    }
+
+    /// Adds work.
+    pub fn add(&self, poses: usize, rays: usize) {
+        self.poses.fetch_add(poses, Ordering::Relaxed);
+        self.rays.fetch_add(rays, Ordering::Relaxed);
+    }
+}
+
+/// What was found out about a choice, and with how many rays.
+#[derive(Serialize, Deserialize)]
+struct Evaluated {
+    /// The best one, m/s.
+    speed: f64,
+    fitness: Fitness,
+    rays: usize,
+}
+
+impl Evaluated {
+    /// Whether judging a choice can come to this: the best speed is its own, or one within the range.
+    fn is_sound(&self, settings: &Settings, range: Range) -> bool {
+        let is_allowed = self.speed == settings.speed || range.contains(self.speed);
+        is_allowed && self.fitness.is_sound() && self.rays <= MOST_RAYS
+    }
+}
+
+/// More rays than any pose takes, and few enough for those of any number of poses to be added.
+const MOST_RAYS: usize = u32::MAX as usize;
+
+/// Judges choices on common shots.
+pub struct Evaluator<'a> {
+    scenario: &'a Scenario,
+    precision: Precision,
+    shots: &'a [ShotSample],
+    effort: &'a Effort,
+    control: &'a Control<'a>,
+    /// Where what was judged is written down.
+    page: Option<Page<'a>>,
+    /// Where to keep what was judged, and the factors that are on the weights.
+    archive: Option<(&'a ParetoArchive, Objectives)>,
+}
+
+impl<'a> Evaluator<'a> {
+    /// A judge on some shots, whose paths are traced in one of the precisions.
+    pub fn new(
+        scenario: &'a Scenario,
+        precision: Precision,
+        shots: &'a [ShotSample],
+        effort: &'a Effort,
+        control: &'a Control,
+    ) -> Self {
+        let kind = match precision {
+            Precision::F64 => "judged",
+            Precision::F32 => "judged in f32",
+        };
+        let page = |checkpoint: &'a Checkpoint| checkpoint.page(kind, scenario, shots);
+        Self {
+            scenario,
+            precision,
+            shots,
+            effort,
+            control,
+            page: control.checkpoint.map(page),
+            archive: None,
+        }
+    }
+
+    /// The same that keeps what it judges with factors on the weights.
+    #[must_use]
+    pub(super) fn keeping(self, archive: &'a ParetoArchive, factors: Objectives) -> Self {
+        Self {
+            archive: Some((archive, factors)),
+            ..self
+        }
+    }
+
+    /// Whether the search should come to an end.
+    pub fn is_stopped(&self) -> bool {
+        self.control.is_stopped()
+    }
+
+    /// The standing of a choice, and the choice with the best speed for it.
+    ///
+    /// Where J on the first shots alone is so far above `best` that the rest could not bring it below,
+    /// they are all that is traced, and J is what it is on them. So it is after a request to stop, on
+    /// however few shots, and nothing of it is kept.
+    pub(super) fn evaluator(&self, settings: &Settings, best: f64) -> (Settings, Fitness) {
+        // A pose that is hopeless with some factors on the weights may be the best with others.
+        let ends_early = self.archive.is_none() && self.control.shortcuts.early_ends;
+        let best = if ends_early { best } else { f64::INFINITY };
+        let range = self.scenario.problem.ranges.speed;
+        let is_sound = |evaluated: &Evaluated| evaluated.is_sound(settings, range);
+        let page = self.page.as_ref();
+        let recalled = page.and_then(|page| page.recall(settings, &[best], is_sound));
+        let evaluated = recalled.unwrap_or_else(|| {
+            let evaluated = self.judge_anew(settings, best);
+            if let Some(page) = page
+                && !self.is_stopped()
+            {
+                page.keep(settings, &[best], &evaluated);
+            }
+            evaluated
+        });
+        self.effort.add(1, evaluated.rays);
+        let settings = Settings {
+            speed: evaluated.speed,
+            ..*settings
+        };
+        if let (Some((archive, factors)), Fitness::Feasible(terms)) =
+            (&self.archive, &evaluated.fitness)
+            && !self.is_stopped()
+        {
+            archive.add(settings, terms, factors);
+        }
+        (settings, evaluated.fitness)
+    }
+
+    fn judge_anew(&self, settings: &Settings, best: f64) -> Evaluated {
+        if let Some(infeasible) = infeasibility(self.scenario, settings) {
+            return Evaluated {
+                speed: settings.speed,
+                fitness: Fitness::Infeasible(infeasible.violation),
+                rays: 0,
+            };
+        }
+        let first = (self.shots.len() / SHARES).max(FEWEST);
+        if first >= self.shots.len() {
+            return self.evaluated(settings, &self.trace(settings, self.shots));
+        }
+        let (first, rest) = self.shots.split_at(first);
+        let few = self.trace(settings, first);
+        if best < f64::INFINITY {
+            let evaluated = self.evaluated(settings, &few);
+            if evaluated.fitness.rank() > SHARES as f64 * best {
+                return evaluated;
+            }
+        }
+        let all = Tally::join(vec![few, self.trace(settings, rest)]);
+        self.evaluated(settings, &all)
+    }
+
+    fn evaluated(&self, settings: &Settings, tally: &Tally) -> Evaluated {
+        let problem = &self.scenario.problem;
+        let speed = if self.scenario.speed_scales_out(settings.contact) {
+            tally.best_speed(&problem.goals, problem.ranges.speed)
+        } else {
+            settings.speed
+        };
+        Evaluated {
+            speed,
+            fitness: Fitness::Feasible(tally.terms(&problem.goals, speed)),
+            rays: tally.rays,
+        }
+    }
+
+    /// Traces shots, on all threads where they are some of many.
+    fn trace(&self, settings: &Settings, shots: &[ShotSample]) -> Tally {
+        let speed = if self.scenario.speed_scales_out(settings.contact) {
+            // Paths do not depend on the speed; any will do to trace them.
+            1.0
+        } else {
+            settings.speed
+        };
+        let tally = |shots: &[ShotSample]| {
+            Tally::trace_as(self.precision, self.scenario, settings, speed, shots)
+        };
+        if self.shots.len() <= MOST_ALONE {
+            return tally(shots);
+        }
+        let chunks = shots.par_chunks(CHUNK).enumerate();
+        let wanted = chunks.filter(|(number, _)| *number == 0 || !self.is_stopped());
+        Tally::join(wanted.map(|(_, shots)| tally(shots)).collect())
+    }
+}
+
+/// One of so many shares of the shots is traced first. Where J is as many times above the best on
+/// them, it is above the best on all, even if the rest did no harm; unless the first hits on target,
+/// over which two of the terms are means, are a still smaller share of all such hits.
+const SHARES: usize = 8;
+/// Shots that are traced first at least.
+const FEWEST: usize = 64;
+/// Up to so many shots one thread traces alone.
+const MOST_ALONE: usize = 2048;
+/// Shots of more than those that one thread traces at a time.
+const CHUNK: usize = 256;
