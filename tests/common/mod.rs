@@ -1,6 +1,11 @@
 //! Problems and what else several tests share.
 #![allow(dead_code)]
 
+pub mod cases;
+pub mod held;
+pub mod kept;
+pub mod program;
+
 use nalgebra::{Point3, Vector3};
 use peenpose::impact::Contact;
 use peenpose::problem::Problem;

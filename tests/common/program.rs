@@ -1,5 +1,4 @@
 //! The program from outside.
-#![allow(dead_code)]
 
 use std::ffi::OsStr;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! What each fuzz target does with its input.
 //!
-//! Plain functions, so that `cargo test --test fuzzed` replays with the stable compiler what the
+//! Plain functions, so that `cargo test --test problems fuzzed` replays with the stable compiler what the
 //! fuzzer found.
 
 pub mod beside;

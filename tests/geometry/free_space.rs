@@ -1,0 +1,286 @@
+//! The nozzle stands in free space: which side of a target is free, for every kind of mesh that people
+//! have, and no setting that puts the nozzle into the material passes.
+
+mod kinds;
+
+use crate::common::program;
+use std::path::Path;
+
+use nalgebra::{Point3, Vector3};
+use peenpose::feasibility::{Obstacle, gap_within_tolerance, infeasibility};
+use peenpose::problem::fault_code::FaultCode;
+use peenpose::problem::part::{Part, Place, Shape};
+use peenpose::problem::setting::Setting;
+use peenpose::scenario::Scenario;
+use peenpose::scene::{Scene, Walls};
+use peenpose::solve::{Control, passing_windows, solve, spread_settings};
+use peenpose::verdict::Subject;
+use rayon::prelude::*;
+
+use kinds::Free;
+
+fn shipped(name: &str) -> Scenario {
+    let path = format!("tests/free_space/{name}.yaml");
+    Scenario::load(path.as_ref()).expect("it is sound").0
+}
+
+fn quick() -> Control<'static> {
+    Control {
+        most_shots: 1024,
+        validation_shots: 4096,
+        ..Control::default()
+    }
+}
+
+#[test]
+fn meshes_that_are_nearly_sound_are_peened_from_outside() {
+    for name in [
+        "missing_triangle",
+        "inside_out_with_lug",
+        "one_of_two_mirrored",
+    ] {
+        let scenario = shipped(name);
+        assert_eq!(scenario.target.frame.normal, Vector3::y(), "{name}");
+        let solution = solve(&scenario, &quick());
+        let best = &solution.answers[0];
+        assert!(best.passes(), "{name}");
+        assert_eq!(infeasibility(&scenario, &best.settings), None, "{name}");
+    }
+}
+
+#[test]
+fn a_nozzle_in_the_metal_is_named() {
+    let only = |scenario: &Scenario| spread_settings(scenario, 0, 1)[0];
+    for (name, reason) in [
+        ("exit_in_bore_wall", "the nozzle's exit is inside hole"),
+        (
+            "jet_through_lance",
+            "the jet leaves through the nozzle's own body",
+        ),
+        (
+            "exit_in_slot_wall",
+            "the nozzle comes too near to disc.flanks",
+        ),
+    ] {
+        let scenario = shipped(name);
+        let found = infeasibility(&scenario, &only(&scenario)).expect("it is infeasible");
+        assert_eq!(found.obstacle.reason(&scenario), reason);
+        assert!(found.violation > 0.0);
+        let solution = solve(&scenario, &quick());
+        assert!(!solution.answers[0].passes(), "{name}");
+    }
+}
+
+/// Every kind of mesh, what is decided about it, and that nothing passes from inside.
+#[test]
+fn each_kind_of_mesh_is_decided_rightly_or_refused() {
+    let folder = tempfile::tempdir().expect("there is space");
+    for kind in kinds::all() {
+        let scenario = kind.scenario(folder.path(), None);
+        match (kind.free, scenario) {
+            (Free::Outside, Ok(scenario)) => {
+                let away = (scenario.target.frame.normal - kind.outward).norm();
+                assert!(
+                    away < 1e-6,
+                    "{}: {:?}",
+                    kind.name,
+                    scenario.target.frame.normal
+                );
+            }
+            (Free::Refused, Err(rules)) => {
+                assert_eq!(rules, [FaultCode::FreeSideUnclear], "{}", kind.name);
+            }
+            (free, found) => panic!(
+                "{}: {free:?} expected, found {:?}",
+                kind.name,
+                found.map(|scenario| scenario.target.frame.normal)
+            ),
+        }
+        // Told the side, it is peened from there; and what is solid refuses the other one.
+        let told = kind.scenario(folder.path(), Some(kind.outward));
+        let told = told.unwrap_or_else(|rules| panic!("{}: {rules:?}", kind.name));
+        assert!((told.target.frame.normal - kind.outward).norm() < 1e-6);
+        let settings = spread_settings(&told, 0, 1)[0];
+        assert_eq!(infeasibility(&told, &settings), None, "{}", kind.name);
+    }
+}
+
+/// Where the nozzle stands on the other side of the same places, it is in the material.
+#[test]
+fn the_exit_behind_the_target_is_infeasible() {
+    let folder = tempfile::tempdir().expect("there is space");
+    // Behind a skin of a micrometre there is free space again.
+    let kinds = kinds::all().into_iter();
+    for kind in kinds.filter(|kind| kind.name != "a skin of a micrometre") {
+        let scenario = kind.scenario(folder.path(), Some(kind.outward));
+        let mut scenario = scenario.unwrap_or_else(|rules| panic!("{}: {rules:?}", kind.name));
+        scenario.problem.nozzle.body.clear();
+        scenario.target.frame.normal = -scenario.target.frame.normal;
+        let settings = spread_settings(&scenario, 0, 1)[0];
+        let found = infeasibility(&scenario, &settings);
+        let found = found.unwrap_or_else(|| panic!("{} fits inside", kind.name));
+        let is_named = matches!(found.obstacle, Obstacle::Material(_) | Obstacle::Surface(_));
+        assert!(is_named, "{}: {found:?}", kind.name);
+    }
+}
+
+/// Rays in three directions, counted by another test of triangles, against the winding numbers.
+#[test]
+fn the_inside_of_eleven_meshes_is_that_of_counted_rays() {
+    const POINTS: u32 = 9100;
+    let folder = tempfile::tempdir().expect("there is space");
+    let mut checked = 0;
+    for (number, body) in kinds::bodies().into_iter().enumerate() {
+        let path = folder.path().join(format!("{number}.obj"));
+        std::fs::write(&path, body.text()).expect("there is space");
+        let part = Part {
+            name: "body".into(),
+            shape: Shape::Mesh {
+                path,
+                metres_per_unit: 1e-3,
+                regions: Vec::new(),
+            },
+            place: Place::default(),
+            on_nozzle: false,
+        };
+        let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
+        let (low, high) = body.bounds();
+        let wrong: Vec<Point3<f64>> = (0..POINTS)
+            .into_par_iter()
+            .filter_map(|index| {
+                let share = |axis| f64::from(sobol_burley::sample(index, axis, number as u32));
+                let at = Vector3::new(share(0), share(1), share(2));
+                let point = low + (high - low).component_mul(&at.map(|it| 1.1 * it - 0.05));
+                let inside = scene.in_material(&(point * 1e-3), &(point * 1e-3));
+                (inside.is_some() != body.holds(&point)).then_some(point)
+            })
+            .collect();
+        assert!(wrong.is_empty(), "{}: {wrong:?}", body.name);
+        checked += POINTS;
+    }
+    assert!(checked >= 100_000);
+}
+
+/// The worst gap over the tolerance is at most that of any of many poses within it, and hardly less
+/// than the least of them.
+#[test]
+fn the_gap_within_tolerance_is_that_of_the_worst_of_many_poses() {
+    let with = |nozzle: &str| {
+        let text = include_str!("../free_space/lance_in_hub.yaml");
+        let old = "  body: [ { capsule: { length: 80 mm, radius: 4 mm } } ]";
+        let text = text.replace(old, nozzle);
+        let folder = tempfile::tempdir().expect("there is space");
+        let path = folder.path().join("hub.yaml");
+        std::fs::write(&path, text).expect("there is space");
+        Scenario::load(&path).expect("it is sound").0
+    };
+    for nozzle in [
+        "  body: [ { ball: { radius: 2 mm } } ]",
+        "  body: [ { capsule: { length: 80 mm, radius: 2 mm } } ]",
+        "  body: [ { capsule: { length: 80 mm, radius: 2 mm, direction: [0, 0.2, -1] } } ]",
+        "  body: []",
+    ] {
+        let scenario = with(nozzle);
+        let tolerance = scenario.problem.tolerance;
+        let mut exact = scenario.clone();
+        exact.problem.tolerance = Default::default();
+        let choices = spread_settings(&scenario, 0, 24);
+        choices.par_iter().for_each(|settings| {
+            if infeasibility(&exact, settings).is_some() {
+                return;
+            }
+            let found = gap_within_tolerance(&scenario, settings)
+                .expect("it is near")
+                .distance;
+            let mut least = f64::INFINITY;
+            for (inc, az, off) in grid(4) {
+                let mut set = *settings;
+                set = Setting::Incidence.with(&set, set.incidence + inc * tolerance.incidence);
+                set = Setting::Azimuth.with(&set, set.azimuth + az * tolerance.azimuth);
+                set = Setting::Standoff.with(&set, set.standoff + off * tolerance.standoff);
+                let gap = gap_within_tolerance(&exact, &set)
+                    .expect("it is near")
+                    .distance;
+                least = least.min(gap);
+            }
+            // The lance is 80 mm long; its end turns by 1 deg and 2 deg.
+            let bulge = 0.12 * (0.0175_f64.powi(2) + 0.035_f64.powi(2)) / 2.0;
+            assert!(
+                found < least + 1e-9,
+                "{nozzle} {settings:?}: {found} {least}"
+            );
+            assert!(
+                found > (least - bulge).min(-1e-3) || found > least - bulge,
+                "{nozzle} {settings:?}: {found} {least}"
+            );
+        });
+    }
+}
+
+/// Every corner of a cube of so many steps each way, in -1 to 1.
+fn grid(steps: i32) -> impl Iterator<Item = (f64, f64, f64)> {
+    let at = move |k: i32| 2.0 * f64::from(k) / f64::from(steps) - 1.0;
+    let count = steps + 1;
+    (0..count * count * count)
+        .map(move |k| (at(k % count), at(k / count % count), at(k / count / count)))
+}
+
+/// The windows of an answer end where the verdict on the clearance turns, errors included.
+#[test]
+fn windows_and_the_verdict_on_the_clearance_agree() {
+    let scenario = shipped("lance_in_hub");
+    let solution = solve(&scenario, &quick());
+    let best = &solution.answers[0];
+    assert!(best.passes());
+    let clearance = best
+        .verdicts
+        .iter()
+        .find(|it| it.subject == Subject::Clearance);
+    assert!(clearance.expect("it is judged").passes());
+    let gap = gap_within_tolerance(&scenario, &best.settings).expect("it is near");
+    assert!(gap.distance >= scenario.problem.nozzle.clearance, "{gap:?}");
+    let mut ends = 0;
+    for window in passing_windows(&scenario, &solution) {
+        let start = window.setting.of(&best.settings);
+        for drift in [window.down, window.up] {
+            let fits = |value: f64| {
+                infeasibility(&scenario, &window.setting.with(&best.settings, value)).is_none()
+            };
+            assert!(fits(drift.to), "{window:?}");
+            if drift.turns == Some(peenpose::solve::Turn::Clearance) {
+                let beyond = drift.to + 1.001 * drift.within * (drift.to - start).signum();
+                let beyond = if drift.to == start {
+                    // It turns at once, one way or the other.
+                    ends += 1;
+                    continue;
+                } else {
+                    beyond
+                };
+                assert!(!fits(beyond), "{window:?}");
+                ends += 1;
+            }
+        }
+    }
+    assert!(ends > 0);
+}
+
+/// Mesh warnings are on stderr of the commands that answer.
+#[test]
+fn solve_and_evaluate_warn_about_meshes() {
+    for command in ["solve", "evaluate"] {
+        let mut arguments = vec![command, "tests/free_space/one_of_two_mirrored.yaml"];
+        if command == "evaluate" {
+            for set in [
+                "incidence=90deg",
+                "azimuth=0deg",
+                "standoff=8mm",
+                "speed=17m/s",
+            ] {
+                arguments.extend(["--set", set]);
+            }
+        }
+        let run = program::peenpose(arguments, Path::new(env!("CARGO_MANIFEST_DIR")));
+        let words = &run.messages;
+        assert!(words.contains("a closed body is inside out"), "{words}");
+    }
+}

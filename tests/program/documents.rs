@@ -1,0 +1,213 @@
+//! Every command in the README and in `docs/` is run, and the outputs of the tutorial are compared.
+//!
+//! A document is read from top to bottom in a folder of its own: a block of YAML that starts with
+//! `# name.yaml` is written to that file, a block of shell is run, and every line of a block of text
+//! behind it must be in what the commands printed. Pictures that the commands draw must be those of
+//! the repository.
+#![cfg(unix)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Commands that take minutes, each with where it is run instead.
+const LONG: [(&str, &str); 7] = [
+    ("peenpose chart", "tests/reports/chart.rs"),
+    ("cargo test", "it is what runs this"),
+    ("cargo install", "builds the whole program again"),
+    ("rustup", "installs another compiler"),
+    (
+        "cargo +nightly fuzz",
+        "tests/problems/fuzzed.rs replays what it found",
+    ),
+    ("cargo doc", ".ci/run"),
+    ("cargo bench", "benches/ are checked by .ci/run"),
+];
+
+/// A fenced block of a document.
+struct Block {
+    language: String,
+    text: String,
+}
+
+fn blocks(document: &str) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut open: Option<Block> = None;
+    for line in document.lines() {
+        match (line.strip_prefix("```"), &mut open) {
+            (Some(language), None) => {
+                let language = language.to_owned();
+                let text = String::new();
+                open = Some(Block { language, text });
+            }
+            (Some(_), Some(_)) => blocks.extend(open.take()),
+            (None, Some(block)) => {
+                block.text += line;
+                block.text += "\n";
+            }
+            (None, None) => {}
+        }
+    }
+    assert!(open.is_none(), "a block is never closed");
+    blocks
+}
+
+/// The commands of a block of shell, without comments.
+fn commands(block: &str) -> Vec<String> {
+    let joined = block.replace("\\\n", " ");
+    let lines = joined.lines().map(|line| match line.split_once(" #") {
+        Some((command, _)) => command.trim(),
+        None => line.trim(),
+    });
+    lines
+        .filter(|line| !line.is_empty() && !line.starts_with('#'))
+        .map(str::to_owned)
+        .collect()
+}
+
+/// The command with the programs that the test was built with.
+fn with_built_programs(command: &str) -> String {
+    let program = PathBuf::from(env!("CARGO_BIN_EXE_peenpose"));
+    let program_shown = program.display();
+    if let Some(arguments) = command.strip_prefix("peenpose ") {
+        return format!("'{program_shown}' {arguments}");
+    }
+    let Some(run) = command.strip_prefix("cargo run --release ") else {
+        panic!("do not know how to run `{command}`");
+    };
+    match run.strip_prefix("--example ") {
+        None => format!("'{program_shown}' {}", run.trim_start_matches("-- ")),
+        Some(rest) => {
+            let (name, arguments) = rest.split_once(' ').unwrap_or((rest, ""));
+            let example = program.with_file_name("examples").join(name);
+            assert!(
+                example.is_file(),
+                "no example `{name}`: cargo build --examples makes them"
+            );
+            let arguments = arguments.trim_start_matches("-- ");
+            format!("'{}' {arguments}", example.display())
+        }
+    }
+}
+
+fn is_long(command: &str) -> bool {
+    let run_here = command.replace("cargo run --release -- ", "peenpose ");
+    LONG.iter().any(|(start, _)| run_here.starts_with(start))
+}
+
+/// Runs a command; 0 and 1 are answers, anything else is a failure.
+fn run(folder: &Path, command: &str) -> Output {
+    let output = Command::new("sh")
+        .args(["-c", &with_built_programs(command)])
+        .current_dir(folder)
+        .env("HOME", folder)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    let status = output.status.code();
+    assert!(
+        matches!(status, Some(0 | 1)),
+        "{command}: {status:?} {said}"
+    );
+    assert!(!said.contains("error:"), "{command}: {said}");
+    output
+}
+
+/// A folder with what a clone has, as far as commands use it.
+fn clone_of_repository() -> tempfile::TempDir {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("docs")).unwrap();
+    fs::create_dir(folder.path().join("problems")).unwrap();
+    for entry in fs::read_dir(root.join("problems")).unwrap() {
+        let entry = entry.unwrap();
+        let copy = folder.path().join("problems").join(entry.file_name());
+        fs::copy(entry.path(), copy).unwrap();
+    }
+    folder
+}
+
+/// Runs a document; returns how many commands it ran and how many lines it compared.
+fn follow(document: &str) -> (usize, usize) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(root.join(document)).unwrap();
+    let folder = clone_of_repository();
+    let (mut ran, mut compared, mut printed) = (0, 0, None);
+    for block in blocks(&text) {
+        match block.language.as_str() {
+            "yaml" => {
+                let first = block.text.lines().next().unwrap_or_default();
+                if let Some(name) = first.strip_prefix("# ").filter(|n| n.ends_with(".yaml")) {
+                    fs::write(folder.path().join(name), &block.text).unwrap();
+                }
+            }
+            "sh" => {
+                let mut all = String::new();
+                for command in commands(&block.text).iter().filter(|c| !is_long(c)) {
+                    all += &String::from_utf8(run(folder.path(), command).stdout).unwrap();
+                    ran += 1;
+                }
+                printed = Some(all);
+            }
+            "text" if document.starts_with("docs/tutorial") => {
+                let Some(printed) = &printed else { continue };
+                for line in block.text.lines() {
+                    assert!(printed.contains(line), "{document}: not printed: {line}");
+                    compared += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    for drawn in ["docs", "maps"] {
+        compare_pictures(document, &folder.path().join(drawn));
+    }
+    (ran, compared)
+}
+
+fn compare_pictures(document: &str, drawn: &Path) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for entry in fs::read_dir(drawn).into_iter().flatten() {
+        let entry = entry.unwrap();
+        if entry
+            .path()
+            .extension()
+            .is_some_and(|ending| ending == "svg")
+        {
+            let (now, then) = (
+                fs::read(entry.path()).unwrap(),
+                fs::read(root.join("docs").join(entry.file_name())).unwrap(),
+            );
+            assert!(
+                now == then,
+                "{document}: {:?} is out of date",
+                entry.file_name()
+            );
+        }
+    }
+}
+
+#[test]
+fn tutorial() {
+    let (ran, compared) = follow("docs/tutorial.md");
+    assert!(ran >= 6 && compared >= 15, "{ran} {compared}");
+}
+
+#[test]
+fn readme() {
+    let (ran, _) = follow("README.md");
+    assert!(ran >= 9, "{ran}");
+}
+
+#[test]
+fn other_documents() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut ran = 0;
+    for entry in fs::read_dir(root.join("docs")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if name.ends_with(".md") && name != "tutorial.md" {
+            ran += follow(&format!("docs/{name}")).0;
+        }
+    }
+    assert!(ran >= 1, "{ran}");
+}
