@@ -17,7 +17,6 @@ use criterion::{
 use nalgebra::Point3;
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
-use peenpose::precision::Precision;
 use peenpose::problem;
 use peenpose::problem::part::Shape;
 use peenpose::problem::setting::Settings;
@@ -80,14 +79,10 @@ fn rays(criterion: &mut Criterion) {
             scenario.problem.paths.shot_size = shot_size;
             let once = Tally::trace(&scenario, &settings, 1.0, &samples.shots);
             group.throughput(Throughput::Elements(once.rays as u64));
-            for precision in Precision::ALL {
-                let shots = &samples.shots;
-                group.bench_function(format!("{name}, {kind}, {precision:?}"), |bencher| {
-                    bencher.iter(|| {
-                        Tally::trace_as(precision, &scenario, black_box(&settings), 1.0, shots)
-                    });
-                });
-            }
+            let shots = &samples.shots;
+            group.bench_function(format!("{name}, {kind}"), |bencher| {
+                bencher.iter(|| Tally::trace(&scenario, black_box(&settings), 1.0, shots));
+            });
         }
     }
     group.finish();

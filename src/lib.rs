@@ -62,7 +62,7 @@
 //!
 //! // The complete result, and the sheet for the shop.
 //! let circumstances = Circumstances {
-//!     ladder: &solution.ladder,
+//!     ablations: &solution.ablations,
 //!     source: &source,
 //!     status: solution.status.into(),
 //!     command: "peenpose solve floor.yaml".into(),
@@ -89,7 +89,6 @@
 //! |---|---|
 //! | [`elementary`] | sines, logarithms, powers with the same bits on every machine |
 //! | [`digits`] | numbers in texts: five significant digits at most |
-//! | [`precision`] | the two precisions that paths can be traced in |
 //! | [`printable`] | text from elsewhere, made safe to show |
 //! | [`units`] | `0.5 mm` to SI: the only conversions |
 //! | [`impact`] | one impact of a sphere on a surface: the contact laws |
@@ -127,8 +126,8 @@
 mod content;
 pub mod digits;
 pub mod elementary;
-pub mod precision;
 pub mod printable;
+mod triple;
 pub mod units;
 
 pub mod impact;

@@ -137,6 +137,18 @@ impl Scenario {
         self.without(&self.unasked(), &self.problem.ranges.middle())
     }
 
+    /// The same as a search needs it: where J does not depend on what follows the first impact, paths end
+    /// there. What the whole model is asked for is left as it is.
+    #[must_use]
+    pub fn as_searched(&self) -> Self {
+        let costs = |limits: &SurfaceLimits| limits.allow.is_some() && limits.weight > 0.0;
+        let mut searched = self.clone();
+        if self.problem.model != Model::Full && !self.surfaces.iter().any(costs) {
+            searched.problem.paths.impacts = 1;
+        }
+        searched
+    }
+
     /// Whether the paths of shots stay the same when every speed is multiplied by one factor.
     pub fn speed_scales_out(&self, contact: usize) -> bool {
         let own = self.surfaces.iter().filter_map(|limits| limits.contact);

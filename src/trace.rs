@@ -14,12 +14,12 @@ use nalgebra::{Point3, Vector3};
 
 use crate::impact::{Contact, Friction, Regime, Restitution, rebound};
 use crate::jet::{Aim, Pose, ShotSample};
-use crate::precision::{Real, Triple, dot, unit};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
 use crate::scene::nozzle_frame::NozzleFrame;
 use crate::scene::ray::{HitId, Ray};
+use crate::triple::{Triple, dot, unit};
 use packet::fire;
 
 /// Traces the shots of one choice of settings.
@@ -237,7 +237,7 @@ impl<'a> Tracer<'a> {
 
     /// Fires shots in volleys and tells the witness about them; `end_packet` is told the shots of
     /// each volley and the rays that they took together.
-    pub(crate) fn fire<R: Real, W: Observer<R>>(
+    pub(crate) fn fire<W: Observer>(
         &self,
         shots: &[ShotSample],
         observer: &mut W,
@@ -255,7 +255,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Where the nozzle really stands for a shot.
-    fn nozzle_frame(&self, sample: &ShotSample) -> NozzleFrame<f64> {
+    fn nozzle_frame(&self, sample: &ShotSample) -> NozzleFrame {
         let frame = &self.scenario.target.frame;
         self.aim.pose_set_for(frame, sample).nozzle_frame()
     }
@@ -286,7 +286,7 @@ fn rough_normal(
     normal: &Vector3<f64>,
     tilt: [f64; 2],
 ) -> Vector3<f64> {
-    let departure = |normal: Triple<f64>| {
+    let departure = |normal: Triple| {
         let after = rebound(contact, velocity, rolling, &normal.into());
         after.map_or([0.0; 3], |after| after.velocity.into())
     };
@@ -296,8 +296,8 @@ fn rough_normal(
 
 /// Kinetic energy per unit mass of a solid sphere, translation and rotation, J/kg.
 #[inline(always)]
-fn energy<R: Real>(velocity: Triple<R>, rolling: Triple<R>) -> R {
-    R::of(0.5) * dot(velocity, velocity) + R::of(0.2) * dot(rolling, rolling)
+fn energy(velocity: Triple, rolling: Triple) -> f64 {
+    0.5 * dot(velocity, velocity) + 0.2 * dot(rolling, rolling)
 }
 
 /// The contact that a shot meets when restitution and friction are not exactly known.

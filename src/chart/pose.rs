@@ -1,4 +1,4 @@
-//! How well J of one pose is known after how much time: by shots, sampling, walls and precision.
+//! How well J of one pose is known after how much time: by shots, sampling and walls.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,6 @@ use super::timing;
 use crate::elementary::square;
 use crate::jet::{Replicates, ShotSample, purpose};
 use crate::objective::{Sums, Tally};
-use crate::precision::Precision;
 use crate::problem::fault::Fault;
 use crate::problem::part::Shape;
 use crate::problem::setting::Settings;
@@ -25,8 +24,6 @@ pub struct PoseCurve {
     pub sampling: Sampling,
     /// What they are traced against.
     pub walls: Walls,
-    /// In which precision.
-    pub precision: Precision,
     /// Triangles of the scene; they stand in for exact walls only where distances are measured.
     pub triangles: usize,
     /// By how much J is above that of the first way on the same shots, relative to it: what more
@@ -58,21 +55,10 @@ pub enum Walls {
     /// The triangles of mesh files.
     Mesh,
     /// Triangles instead of planes and cylinders.
-    TriangleMesh {
+    Facets {
         /// Angle by which their chords turn at most, deg.
         chord_angle_deg: f64,
     },
-}
-
-impl Walls {
-    /// The precisions worth comparing: rays meet triangles in f64 in any case, so that f32 would
-    /// only add conversions there.
-    fn precisions(self) -> &'static [Precision] {
-        match self {
-            Self::Exact => &Precision::ALL,
-            Self::Mesh | Self::TriangleMesh { .. } => &[Precision::F64],
-        }
-    }
 }
 
 /// Chord angles of the meshes that exact walls are compared with, deg.
@@ -106,7 +92,6 @@ pub(super) fn curves(
 /// One way to trace shots.
 struct Way<'a> {
     walls: Walls,
-    precision: Precision,
     scenario: Cow<'a, Scenario>,
     settings: &'a Settings,
 }
@@ -115,15 +100,11 @@ struct Way<'a> {
 fn ways<'a>(scenario: &'a Scenario, settings: &'a Settings) -> Result<Vec<Way<'a>>, Vec<Fault>> {
     let mut ways = Vec::new();
     for walls in models(scenario) {
-        let scenario = built(scenario, walls)?;
-        for &precision in walls.precisions() {
-            ways.push(Way {
-                walls,
-                precision,
-                scenario: scenario.clone(),
-                settings,
-            });
-        }
+        ways.push(Way {
+            walls,
+            scenario: built(scenario, walls)?,
+            settings,
+        });
     }
     Ok(ways)
 }
@@ -139,7 +120,7 @@ fn models(scenario: &Scenario) -> Vec<Walls> {
     {
         return vec![Walls::Mesh];
     }
-    let facets = |chord_angle_deg| Walls::TriangleMesh { chord_angle_deg };
+    let facets = |chord_angle_deg| Walls::Facets { chord_angle_deg };
     std::iter::once(Walls::Exact)
         .chain(CHORD_ANGLES.map(facets))
         .collect()
@@ -148,7 +129,7 @@ fn models(scenario: &Scenario) -> Vec<Walls> {
 fn built(scenario: &Scenario, walls: Walls) -> Result<Cow<'_, Scenario>, Vec<Fault>> {
     match walls {
         Walls::Exact | Walls::Mesh => Ok(Cow::Borrowed(scenario)),
-        Walls::TriangleMesh { chord_angle_deg } => {
+        Walls::Facets { chord_angle_deg } => {
             let chord_angle = chord_angle_deg.to_radians();
             Scenario::new(
                 scenario.problem.clone(),
@@ -206,7 +187,6 @@ fn curves_of(
         PoseCurve {
             sampling,
             walls: way.walls,
-            precision: way.precision,
             triangles: way.scenario.scene.triangles(),
             bias,
             bias_standard_error,
@@ -252,13 +232,7 @@ impl Way<'_> {
     }
 
     fn sums(&self, shots: &[ShotSample]) -> Sums {
-        let tally = Tally::trace_as(
-            self.precision,
-            &self.scenario,
-            self.settings,
-            self.settings.speed,
-            shots,
-        );
+        let tally = Tally::trace(&self.scenario, self.settings, self.settings.speed, shots);
         tally.sums(&self.scenario.problem.goals, self.settings.speed)
     }
 }

@@ -57,7 +57,7 @@ const RARE: f64 = 10.0;
 
 /// Finds out what harm shots do.
 struct Inspector {
-    score: Score<f64>,
+    score: Score,
     /// What (N*)^2 costs on each surface.
     costs: Vec<f64>,
     tangential: Option<TangentialImpulse>,
@@ -105,8 +105,8 @@ impl Inspector {
     }
 }
 
-impl Observer<f64> for Inspector {
-    fn impacts(&mut self, packet: &RayPacket<f64>) {
+impl Observer for Inspector {
+    fn impacts(&mut self, packet: &RayPacket) {
         self.score.impacts(packet);
         for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
             let shot = packet.shot[i] as usize;

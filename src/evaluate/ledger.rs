@@ -81,7 +81,7 @@ const MOST_KEPT: usize = 1 << 21;
 /// Writes a ledger.
 struct Clerk<'a> {
     scenario: &'a Scenario,
-    score: Score<f64>,
+    score: Score,
     sticking: usize,
     impacts: usize,
     surfaces: Vec<SurfaceSums>,
@@ -101,8 +101,8 @@ impl Clerk<'_> {
     }
 }
 
-impl Observer<f64> for Clerk<'_> {
-    fn impacts(&mut self, packet: &RayPacket<f64>) {
+impl Observer for Clerk<'_> {
+    fn impacts(&mut self, packet: &RayPacket) {
         self.score.impacts(packet);
         for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
             let number = packet.number[i] as usize;

@@ -81,7 +81,7 @@ impl Survey {
 
 /// Makes a survey.
 struct Surveyor {
-    score: Score<f64>,
+    score: Score,
     sticking: usize,
     per_speed: f64,
     largest: Vec<Vec<f64>>,
@@ -101,8 +101,8 @@ impl Surveyor {
     }
 }
 
-impl Observer<f64> for Surveyor {
-    fn impacts(&mut self, packet: &RayPacket<f64>) {
+impl Observer for Surveyor {
+    fn impacts(&mut self, packet: &RayPacket) {
         self.score.impacts(packet);
         for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
             if self.score.is_on_target(i) {

@@ -3,7 +3,6 @@
 use super::collision::Coefficients;
 use super::contact::Contact;
 use super::law::Law;
-use crate::precision::Real;
 
 /// The friction of a contact, free of the law's name.
 #[derive(Clone, Copy, Debug)]
@@ -37,13 +36,13 @@ impl Friction {
 
     /// With E at the speed of an impact, in the precision that it is computed in.
     #[inline(always)]
-    pub fn at<R: Real>(&self, restitution: f64) -> Coefficients<R> {
+    pub fn at(&self, restitution: f64) -> Coefficients {
         Coefficients {
-            restitution: R::of(restitution),
-            stick_share: R::of(self.stick_share),
-            holds: R::of(self.holds),
-            slides: R::of(self.slides),
-            spin: R::of(self.spin),
+            restitution,
+            stick_share: self.stick_share,
+            holds: self.holds,
+            slides: self.slides,
+            spin: self.spin,
         }
     }
 }

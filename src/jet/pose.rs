@@ -36,7 +36,7 @@ impl Pose {
     }
 
     /// The frame of the nozzle, for the parts that move with it.
-    pub fn nozzle_frame(&self) -> NozzleFrame<f64> {
+    pub fn nozzle_frame(&self) -> NozzleFrame {
         NozzleFrame::new([self.up, self.side, self.direction], self.exit)
     }
 

@@ -3,7 +3,6 @@
 use super::hits::Hits;
 use super::tally::Tally;
 use crate::jet::{ShotSample, speed_variance};
-use crate::precision::{Precision, Real};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::lanes::{LANES, Lane, WIDEST, components, larger, padded};
@@ -11,71 +10,71 @@ use crate::scene::patch::Patch;
 use crate::trace::{End, Observer, RayPacket, Tracer, mask};
 
 /// Builds a [`Tally`] from volleys of shots.
-pub(crate) struct Score<R> {
+pub(crate) struct Score {
     tally: Tally,
     /// Launch speed, m/s.
     speed: f64,
     /// The mean square of the shots' factors on it, where paths do not depend on them.
-    mean_square: Option<R>,
+    mean_square: Option<f64>,
     /// What (N*)^2 on a surface costs.
-    harm: Vec<R>,
+    harm: Vec<f64>,
     /// The same on the first surface.
-    usual_harm: R,
+    usual_harm: f64,
     /// Whether it is the same on all of them.
     harms_alike: bool,
-    target: Target<R>,
+    target: Target,
     /// Whether the last impact of each shot in flight was on target.
-    on_target: Lane<R>,
+    on_target: Lane,
     /// Whether each shot of the volley has hit the target first.
     hit_target: [bool; LANES],
 }
 
-/// The target patch in the precision of the flight.
+/// The target patch.
 #[derive(Clone, Copy)]
-struct Target<R> {
+struct Target {
     surface: u32,
     /// Whether its free side is that in front.
     front: bool,
-    low: [R; 3],
-    high: [R; 3],
+    low: [f64; 3],
+    high: [f64; 3],
 }
 
-impl<R: Real> Target<R> {
+impl Target {
     fn of(patch: &Patch) -> Self {
         let everywhere = [-f64::INFINITY, f64::INFINITY].map(|bound| [bound; 3]);
         let [low, high] = patch
-            .reach(R::COARSENESS)
+            .reach()
             .map_or(everywhere, |(low, high)| [low.into(), high.into()]);
         Self {
             surface: patch.surface,
             front: patch.front,
-            low: low.map(R::of),
-            high: high.map(R::of),
+            low,
+            high,
         }
     }
 
     #[inline(always)]
-    fn holds(&self, point: [R; 3]) -> bool {
+    fn holds(&self, point: [f64; 3]) -> bool {
         let within =
             |axis: usize| (self.low[axis] <= point[axis]) & (point[axis] <= self.high[axis]);
         within(0) & within(1) & within(2)
     }
 }
 
-impl<R: Real> Score<R> {
+impl Score {
     /// For so many shots that leave with a contact at a launch speed, m/s.
     pub fn new(scenario: &Scenario, contact: usize, speed: f64, shots: usize) -> Self {
         let scales_out = scenario.speed_scales_out(contact);
         let speed_variance = scales_out.then(|| speed_variance(&scenario.problem));
-        let harm: Vec<R> = scenario
+        let harm: Vec<f64> = scenario
             .surfaces
             .iter()
             .map(|limits| {
                 let cost = |allow: f64| limits.weight / (allow * allow);
-                R::of(limits.allow.map_or(0.0, cost))
+                limits.allow.map_or(0.0, cost)
             })
             .collect();
-        let usual_harm = harm.first().copied().unwrap_or(R::ZERO);
+        let usual_harm = harm.first().copied().unwrap_or(0.0);
         Self {
             tally: Tally {
                 hits: Hits::with_capacity(shots),
@@ -83,19 +82,19 @@ impl<R: Real> Score<R> {
                 ..Tally::default()
             },
             speed,
-            mean_square: speed_variance.map(|variance| R::of(1.0 + variance)),
+            mean_square: speed_variance.map(|variance| 1.0 + variance),
             harms_alike: harm.iter().all(|&harm| harm == usual_harm),
             usual_harm,
             harm,
             target: Target::of(&scenario.target),
-            on_target: [R::ZERO; LANES],
+            on_target: [0.0; LANES],
             hit_target: [false; LANES],
         }
     }
 
     /// Whether the last impact of a shot in flight was on target.
     pub fn is_on_target(&self, index: usize) -> bool {
-        self.on_target[index] != R::ZERO
+        self.on_target[index] != 0.0
     }
 
     /// Closes a volley of `shots` that took `rays` rays together.
@@ -121,20 +120,20 @@ impl<R: Real> Score<R> {
     }
 
     #[inline(always)]
-    fn add_hits_on_target(&mut self, packet: &RayPacket<R>, is_first: &Lane<R>) {
+    fn add_hits_on_target(&mut self, packet: &RayPacket, is_first: &Lane) {
         let (mut normal, mut tangential) = ([0.0; LANES], [0.0; LANES]);
         let mut normal_at_mean = [0.0; LANES];
         let (mut weight, mut of_jet) = ([0.0; LANES], [0.0; LANES]);
         let per_speed = 1.0 / self.speed;
         let mut count = 0;
         for (i, &first) in is_first.iter().enumerate().take(packet.rays.count) {
-            let hit = first != R::ZERO;
-            normal[count] = packet.impacts.normal[i].wide() * per_speed;
-            let factor = self.mean_square.map_or(1.0, |_| packet.speed[i].wide());
+            let hit = first != 0.0;
+            normal[count] = packet.impacts.normal[i] * per_speed;
+            let factor = self.mean_square.map_or(1.0, |_| packet.speed[i]);
             normal_at_mean[count] = normal[count] / factor;
-            tangential[count] = packet.impacts.tangential[i].wide() * per_speed;
-            weight[count] = packet.weight[i].wide();
-            of_jet[count] = packet.of_jet[i].wide();
+            tangential[count] = packet.impacts.tangential[i] * per_speed;
+            weight[count] = packet.weight[i];
+            of_jet[count] = packet.of_jet[i];
             self.hit_target[packet.shot[i] as usize % LANES] |= hit;
             count += usize::from(hit);
         }
@@ -156,39 +155,16 @@ impl Tally {
         speed: f64,
         shots: &[ShotSample],
     ) -> Self {
-        Self::trace_in::<f64>(scenario, settings, speed, shots)
-    }
-
-    /// The same with paths in one of the precisions.
-    pub fn trace_as(
-        precision: Precision,
-        scenario: &Scenario,
-        settings: &Settings,
-        speed: f64,
-        shots: &[ShotSample],
-    ) -> Self {
-        match precision {
-            Precision::F64 => Self::trace_in::<f64>(scenario, settings, speed, shots),
-            Precision::F32 => Self::trace_in::<f32>(scenario, settings, speed, shots),
-        }
-    }
-
-    fn trace_in<R: Real>(
-        scenario: &Scenario,
-        settings: &Settings,
-        speed: f64,
-        shots: &[ShotSample],
-    ) -> Self {
-        let mut score = Score::<R>::new(scenario, settings.contact, speed, shots.len());
+        let mut score = Score::new(scenario, settings.contact, speed, shots.len());
         let tracer = Tracer::new(scenario, settings, speed);
         tracer.fire(shots, &mut score, Score::end_packet);
         score.finish()
     }
 }
 
-impl<R: Real> Observer<R> for Score<R> {
+impl Observer for Score {
     #[inline(always)]
-    fn impacts(&mut self, packet: &RayPacket<R>) {
+    fn impacts(&mut self, packet: &RayPacket) {
         let count = packet.rays.count;
         let mut harm = [self.usual_harm; LANES];
         if !self.harms_alike {
@@ -197,29 +173,29 @@ impl<R: Real> Observer<R> for Score<R> {
             }
         }
         let target = self.target;
-        let mut on_surface = [R::ZERO; LANES];
+        let mut on_surface = [0.0; LANES];
         let sides = packet.hits.surface.iter().zip(&packet.hits.hit_ids.front);
         for (on_it, (&surface, &front)) in on_surface.iter_mut().zip(sides) {
             *on_it = mask((surface == target.surface) & (front == target.front));
         }
-        let mut speed_share = [R::ONE; LANES];
+        let mut speed_share = [1.0; LANES];
         if let Some(mean_square) = self.mean_square {
             for (share, &speed) in speed_share.iter_mut().zip(&packet.speed) {
                 *share = mean_square / (speed * speed);
             }
         }
-        let (mut on_target, mut is_first) = ([R::ZERO; LANES], [R::ZERO; LANES]);
-        let mut rebound = [R::ZERO; LANES];
+        let (mut on_target, mut is_first) = ([0.0; LANES], [0.0; LANES]);
+        let mut rebound = [0.0; LANES];
         for i in 0..padded(count) {
             let inside = target.holds(components(&packet.hits.point, i));
-            let hit = inside & (on_surface[i] != R::ZERO);
-            let counts = packet.impacts.counts[i] != R::ZERO;
-            let first = counts & hit & (packet.number[i] == R::ONE);
+            let hit = inside & (on_surface[i] != 0.0);
+            let counts = packet.impacts.counts[i] != 0.0;
+            let first = counts & hit & (packet.number[i] == 1.0);
             let normal = packet.impacts.normal[i];
             let cost = packet.weight[i] * harm[i] * speed_share[i] * normal * normal;
             on_target[i] = mask(hit);
             is_first[i] = mask(first);
-            rebound[i] = if counts & !hit { cost } else { R::ZERO };
+            rebound[i] = if counts & !hit { cost } else { 0.0 };
         }
         self.on_target = on_target;
         let per_speed_squared = 1.0 / (self.speed * self.speed);
@@ -237,8 +213,8 @@ impl<R: Real> Observer<R> for Score<R> {
 
 /// The largest of the first `count` numbers, which are not negative.
 #[inline(always)]
-pub(super) fn largest<R: Real>(values: &Lane<R>, count: usize) -> f64 {
-    let mut parts = [R::ZERO; WIDEST];
+pub(super) fn largest(values: &Lane, count: usize) -> f64 {
+    let mut parts = [0.0; WIDEST];
     let (whole, rest) = values[..count].as_chunks::<WIDEST>();
     for chunk in whole {
         for (part, &value) in parts.iter_mut().zip(chunk) {
@@ -248,23 +224,23 @@ pub(super) fn largest<R: Real>(values: &Lane<R>, count: usize) -> f64 {
     for (part, &value) in parts.iter_mut().zip(rest) {
         *part = larger(value, *part);
     }
-    let largest = parts.into_iter().fold(R::ZERO, larger);
-    largest.wide()
+
+    parts.into_iter().fold(0.0, larger)
 }
 
 /// The sum of the first `count` numbers, in a fixed order that compilers can work on side by side.
 #[inline(always)]
-fn sum<R: Real>(values: &Lane<R>, count: usize) -> f64 {
+fn sum(values: &Lane, count: usize) -> f64 {
     const PARTS: usize = 8;
     let mut parts = [0.0; PARTS];
     let (whole, rest) = values[..count].as_chunks::<PARTS>();
     for chunk in whole {
         for part in 0..PARTS {
-            parts[part] += chunk[part].wide();
+            parts[part] += chunk[part];
         }
     }
     for (part, value) in parts.iter_mut().zip(rest) {
-        *part += value.wide();
+        *part += value;
     }
     parts.iter().sum()
 }

@@ -2,6 +2,7 @@
 
 use super::hits::{Hits, Moments, moments};
 use super::{Sums, Terms};
+use crate::jet::ShotSample;
 use crate::problem::goal::Goals;
 use crate::problem::setting::Range;
 
@@ -45,6 +46,26 @@ impl Tally {
             all.rays += part.rays;
         }
         all
+    }
+
+    /// The least share of J of these shots that J of them and the rest can be, at any speed: no term is
+    /// below what it is when the rest hit the target just as they should and harm nothing.
+    pub(crate) fn least_share_with(&self, rest: &[ShotSample]) -> f64 {
+        let share = |here: f64, there: f64| {
+            if here > 0.0 {
+                here / (here + there)
+            } else {
+                1.0
+            }
+        };
+        let weight: f64 = rest.iter().map(|shot| shot.weight).sum();
+        let of_jet = rest.iter().filter(|shot| shot.of_jet).count() as f64;
+        let shares = [
+            share(self.weight, weight),
+            share(self.weight - self.missed, weight),
+            share(self.hits.of_jet(), of_jet),
+        ];
+        shares.into_iter().fold(1.0, f64::min)
     }
 
     /// The terms at a launch speed, m/s.

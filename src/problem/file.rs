@@ -76,10 +76,9 @@ pub(super) struct ProblemFile {
     pub coverage: Field<CoverageEntry>,
     /// How exactly a shop sets the settings; exactly where absent.
     pub tolerance: Field<ToleranceEntry>,
-    /// Which effects are modelled. `auto` searches without what does not matter in the scene at
-    /// hand, and says what each effect does there; `full` never leaves anything out; what a list
-    /// does not name is not modelled at all, in the search and in the figures. The
-    /// [effects](#model) are listed at the end.
+    /// Which effects are modelled. `auto` models all of them and gives a pose no more shots once it cannot
+    /// become better; `full` saves nothing; what a list does not name is not modelled at all, in the search
+    /// and in the figures. The [effects](#model) are listed at the end.
     #[schemars(
         with = "Field<form::ModelName>",
         example = ["rebounds", "spin"],

@@ -11,7 +11,7 @@ use super::json::{key_at, printable};
 #[derive(Debug)]
 pub enum RecordFault {
     /// It has not the form of one.
-    Primitive {
+    Form {
         /// The key at which that shows; empty outside all of them.
         key: String,
         /// What is wrong, and where.
@@ -34,10 +34,10 @@ pub enum RecordFault {
 impl fmt::Display for RecordFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Primitive { key, error } if key.is_empty() => {
+            Self::Form { key, error } if key.is_empty() => {
                 write!(f, "is not a result: {error}")
             }
-            Self::Primitive { key, error } => write!(f, "is not a result: `{key}`: {error}"),
+            Self::Form { key, error } => write!(f, "is not a result: `{key}`: {error}"),
             Self::Newer { version } => write!(
                 f,
                 "was written by peenpose {version}, which is newer than this one, {OWN}: \
@@ -71,7 +71,7 @@ pub(crate) fn read_json<T: DeserializeOwned>(text: &str) -> Result<T, RecordFaul
     {
         return Err(RecordFault::Newer { version });
     }
-    serde_json::from_str(text).map_err(|error| RecordFault::Primitive {
+    serde_json::from_str(text).map_err(|error| RecordFault::Form {
         key: key_at(text, error.line(), error.column()),
         error,
     })

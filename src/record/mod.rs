@@ -31,7 +31,7 @@ pub(crate) use fault::read_json;
 pub use front::FrontRecord;
 pub use library::{LibraryContactRecord, MediumRecord, OriginRecord};
 pub use map::MapTerm;
-pub use model::{ModelRecord, RungRecord};
+pub use model::{EffectRecord, ModelRecord};
 pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use receipt::{ReceiptRecord, SpreadRecord, TargetRecord};
 pub use unknowns::{
@@ -52,7 +52,7 @@ use crate::printable;
 use crate::problem::Source;
 use crate::scenario::Scenario;
 use crate::scene::MeshSource;
-use crate::solve::{Answer, Ladder, Status, Window};
+use crate::solve::{Ablation, Answer, Status, Window};
 use crate::unknowns::Unknowns;
 use crate::validity::Note;
 
@@ -87,7 +87,7 @@ pub struct Record {
     /// on; empty where it was not asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub front: Vec<FrontRecord>,
-    /// Which effects were searched with, and what each of them does.
+    /// The model that was asked for, and what each effect does.
     #[serde(default)]
     pub model: ModelRecord,
     /// What was left out.
@@ -184,8 +184,8 @@ pub struct RunInfo<'a> {
     pub status: StatusRecord,
     /// The command that gives the same answer again.
     pub command: String,
-    /// Which effects were searched with.
-    pub ladder: &'a Ladder,
+    /// What each effect of the model does, as far as that was measured.
+    pub ablations: &'a [Ablation],
     /// Work done.
     pub work: WorkRecord,
 }
@@ -219,7 +219,7 @@ impl Record {
                 .collect(),
             choices,
             front: Vec::new(),
-            model: ModelRecord::new(scenario, run.ladder),
+            model: ModelRecord::new(scenario, run.ablations),
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(scenario, &unknowns)),
             coverage: coverage.as_ref().map(CoverageRecord::new),

@@ -1,32 +1,26 @@
-//! Which effects were searched with, and what each of them does.
+//! The model that was asked for, and what each effect does.
 
 use serde::{Deserialize, Serialize};
 
 use super::answer::{SettingsRecord, subject_name};
-use crate::precision::Precision;
 use crate::problem::model::{Effect, Model};
 use crate::scenario::Scenario;
-use crate::solve::{Ladder, Rung};
+use crate::solve::Ablation;
 
 /// The model behind a result.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ModelRecord {
     /// `auto`, `full`, or the effects that were asked for.
     pub asked: Vec<String>,
-    /// Effects that the search did without.
+    /// Effects that the problem has and that were not asked for.
     pub searched_without: Vec<String>,
-    /// How often one was put back because the whole model disagreed.
-    pub put_back: usize,
-    /// In which precision the search traced paths, `f64` or `f32`; figures are always f64.
-    #[serde(default)]
-    pub precision: Precision,
     /// What the effects do, as far as that was measured.
-    pub effects: Vec<RungRecord>,
+    pub effects: Vec<EffectRecord>,
 }
 
 /// What one effect does: the model without it against the whole model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RungRecord {
+pub struct EffectRecord {
     /// Its name.
     pub effect: String,
     /// What it is, for people.
@@ -51,43 +45,40 @@ pub struct RungRecord {
 }
 
 impl ModelRecord {
-    /// The record of a ladder.
-    pub fn new(scenario: &Scenario, ladder: &Ladder) -> Self {
+    /// The model of a problem, and what its effects do as far as that was measured.
+    pub fn new(scenario: &Scenario, ablations: &[Ablation]) -> Self {
         let name = |effect: &Effect| effect.name().to_owned();
         Self {
-            asked: match &ladder.model {
+            asked: match &scenario.problem.model {
                 Model::Auto => vec!["auto".into()],
                 Model::Full => vec!["full".into()],
                 Model::Only(effects) => effects.iter().map(name).collect(),
             },
-            searched_without: ladder.left_out().iter().map(name).collect(),
-            put_back: ladder.put_back,
-            precision: ladder.precision,
-            effects: ladder
-                .rungs
+            searched_without: scenario.unasked().iter().map(name).collect(),
+            effects: ablations
                 .iter()
-                .map(|rung| RungRecord::new(scenario, rung))
+                .map(|ablation| EffectRecord::new(scenario, ablation))
                 .collect(),
         }
     }
 }
 
-impl RungRecord {
-    fn new(scenario: &Scenario, rung: &Rung) -> Self {
-        let turned = rung.turned.iter();
+impl EffectRecord {
+    fn new(scenario: &Scenario, ablation: &Ablation) -> Self {
+        let turned = ablation.turned.iter();
         Self {
-            effect: rung.effect.name().into(),
-            description: rung.effect.description().into(),
-            change: rung.change,
-            largest_change: rung.largest_change,
+            effect: ablation.effect.name().into(),
+            description: ablation.effect.description().into(),
+            change: ablation.change,
+            largest_change: ablation.largest_change,
             turned: turned
                 .map(|&subject| subject_name(scenario, subject))
                 .collect(),
-            settings_with: SettingsRecord::new(&rung.best_with),
-            settings_without: SettingsRecord::new(&rung.best_without),
-            regret: rung.regret,
-            relative_rays: rung.relative_rays,
-            left_out: rung.left_out,
+            settings_with: SettingsRecord::new(&ablation.best_with),
+            settings_without: SettingsRecord::new(&ablation.best_without),
+            regret: ablation.regret,
+            relative_rays: ablation.relative_rays,
+            left_out: ablation.left_out,
         }
     }
 }

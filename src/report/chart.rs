@@ -1,7 +1,6 @@
 //! A chart in words and numbers.
 
 use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches};
-use crate::precision::Precision;
 use crate::report::figure::curve_name;
 use crate::report::finding::{self, rounded_time, share, signed_share};
 use crate::report::layout::{Align, Block, Table};
@@ -14,7 +13,6 @@ pub fn chart(chart: &Chart) -> String {
     let blocks = [
         Some(head(chart)),
         poses(chart),
-        precisions(chart),
         walls(chart),
         chart
             .searches
@@ -101,37 +99,7 @@ fn poses(chart: &Chart) -> Option<Block> {
     Some(block)
 }
 
-/// Double against single precision, with shots drawn as in the search.
-fn precisions(chart: &Chart) -> Option<Block> {
-    let sampling = chart.poses.last()?.sampling;
-    let curve = |precision: Precision| {
-        let is_it = |c: &&PoseCurve| c.sampling == sampling && c.precision == precision;
-        chart.poses.iter().find(is_it)
-    };
-    let (double, single) = curve(Precision::F64).zip(curve(Precision::F32))?;
-    let mut table = Table::new(&[
-        ("PRECISION  shots", Align::Right),
-        ("f64: time", Align::Right),
-        ("error", Align::Right),
-        ("f32: time", Align::Right),
-        ("error", Align::Right),
-    ]);
-    for (double, single) in double.points.iter().zip(&single.points) {
-        table.row([
-            count(double.shots),
-            rounded_time(double.seconds),
-            share(double.error),
-            rounded_time(single.seconds),
-            share(single.error),
-        ]);
-    }
-    let mut block = Block::default();
-    block.table(table);
-    block.paragraph(&finding::of_precision(double, single, chart.accuracy));
-    Some(block)
-}
-
-/// What walls and precision change and cost.
+/// What walls change and cost.
 fn walls(chart: &Chart) -> Option<Block> {
     let sampling = chart.poses.last()?.sampling;
     let is_of_it = |curve: &&PoseCurve| curve.sampling == sampling;

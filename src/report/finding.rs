@@ -2,7 +2,6 @@
 
 use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches, Walls};
 use crate::elementary::{ln, log10, power, whole_power};
-use crate::precision::Precision;
 use crate::report::number::{Scale, count, plain, time};
 use crate::report::series::Series;
 
@@ -23,7 +22,7 @@ pub fn of_poses(chart: &Chart) -> String {
         let is_it = |curve: &&PoseCurve| curve.sampling == Sampling::SobolRim;
         chart.poses.iter().filter(is_it)
     };
-    let is_facets = |curve: &&PoseCurve| matches!(curve.walls, Walls::TriangleMesh { .. });
+    let is_facets = |curve: &&PoseCurve| matches!(curve.walls, Walls::Facets { .. });
     if let Some((exact, coarse)) = of_the_search().next().zip(of_the_search().find(is_facets)) {
         findings.push(format!(
             "the coarsest mesh takes {} times as long as exact walls and changes J by {}",
@@ -46,24 +45,6 @@ fn bias(curve: &PoseCurve) -> String {
         (bias, noise) if bias > noise => share(bias),
         (_, noise) => format!("less than {}", share(noise).trim_start_matches('<')),
     }
-}
-
-/// Whether single precision is enough for a search with this accuracy.
-pub fn of_precision(double: &PoseCurve, single: &PoseCurve, accuracy: f64) -> String {
-    let most = single.bias.abs() + 2.0 * single.bias_standard_error;
-    let verdict = if most < Precision::LITTLE * accuracy {
-        "enough"
-    } else {
-        "not enough"
-    };
-    format!(
-        "f32 takes {} of the time and changes J at these settings by {}: {verdict} for a search to {}; the \
-         numbers reported are always f64. Exact walls only: rays meet the triangles of a mesh in \
-         f64 in any case.",
-        share(seconds(single) / seconds(double)),
-        bias(single),
-        share(accuracy),
-    )
 }
 
 /// Time for the most shots, s.

@@ -8,7 +8,7 @@ pub const LANES: usize = 128;
 pub const WIDEST: usize = 16;
 
 /// One quantity of all rays.
-pub type Lane<R> = [R; LANES];
+pub type Lane<T = f64> = [T; LANES];
 
 /// The number of lanes to work on so that no vector is left half full.
 #[inline(always)]
@@ -47,4 +47,24 @@ pub fn smaller<R: PartialOrd>(a: R, b: R) -> R {
 pub fn any<R: Copy>(numbers: &[R], holds: impl Fn(R) -> bool) -> bool {
     let holding = numbers.iter().map(|&number| u32::from(holds(number)));
     holding.sum::<u32>() > 0
+}
+
+/// The whole number, from 0 to less than 2^23, that a float is; anything for other floats. Compilers do
+/// not convert several at once with `as`, which has to mind all floats.
+#[inline(always)]
+pub fn index(number: f64) -> u32 {
+    const NO_FRACTIONS: f64 = (1_u64 << (f64::MANTISSA_DIGITS - 1)) as f64;
+    (number + NO_FRACTIONS).to_bits() as u32 & ((1 << 23) - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::index;
+
+    #[test]
+    fn whole_numbers_are_indices() {
+        for number in [0, 1, 2, 3, 1000, 65_537, (1 << 23) - 1] {
+            assert_eq!(index(f64::from(number)), number);
+        }
+    }
 }

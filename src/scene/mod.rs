@@ -30,11 +30,11 @@ mod winding;
 
 use nalgebra::{Point3, Vector3};
 
-use crate::precision::{Real, along, scaled, unit};
 use crate::printable;
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::{Fault, one_of};
 use crate::problem::fault_code::FaultCode;
+use crate::triple::{along, scaled, unit};
 use lanes::{components, padded, put};
 use nozzle_frame::NozzleFrame;
 use part::BuiltPart;
@@ -157,7 +157,7 @@ impl Scene {
         ray: &Ray,
         radius: f64,
         leaving: Option<HitId>,
-        nozzle_frame: Option<&NozzleFrame<f64>>,
+        nozzle_frame: Option<&NozzleFrame>,
     ) -> Option<Hit> {
         let is_sphere = radius > 0.0;
         let lift = LIFT * SLACK * self.size;
@@ -202,10 +202,10 @@ impl Scene {
 
     /// What many rays meet first; the same as [`Self::first_contact`] for each of them in f64.
     #[inline(always)]
-    pub fn first_hits<R: Real>(&self, rays: &Rays<R>, hits: &mut Hits<R>) {
+    pub fn first_hits(&self, rays: &Rays, hits: &mut Hits) {
         let count = padded(rays.count);
-        hits.distance[..count].fill(R::INFINITY);
-        hits.above[..count].fill(R::ZERO);
+        hits.distance[..count].fill(f64::INFINITY);
+        hits.above[..count].fill(0.0);
         for (index, part) in (0..).zip(&self.parts) {
             if !part.on_nozzle {
                 part.cross(index, rays, hits);
@@ -213,11 +213,11 @@ impl Scene {
                 moving::cross(part, index, rays, nozzle_frames, hits);
             }
         }
-        let lift = R::of(LIFT * SLACK * R::COARSENESS * self.size);
+        let lift = LIFT * SLACK * self.size;
         if rays.are_spheres {
-            place::<R, true>(rays, hits, lift);
+            place::<true>(rays, hits, lift);
         } else {
-            place::<R, false>(rays, hits, lift);
+            place::<false>(rays, hits, lift);
         }
     }
 
@@ -266,16 +266,12 @@ impl Scene {
 
 /// Turns normals to the side that the rays come from, and finds the places of contact.
 #[inline(always)]
-fn place<R: Real, const BALLS: bool>(rays: &Rays<R>, hits: &mut Hits<R>, lift: R) {
+fn place<const BALLS: bool>(rays: &Rays, hits: &mut Hits, lift: f64) {
     for i in 0..padded(rays.count) {
-        let side = if hits.hit_ids.front[i] {
-            R::ONE
-        } else {
-            -R::ONE
-        };
+        let side = if hits.hit_ids.front[i] { 1.0 } else { -1.0 };
         let mut normal = scaled(components(&hits.normal, i), side);
         let missing = lift - hits.above[i];
-        let mut above = if missing > R::ZERO { missing } else { R::ZERO };
+        let mut above = if missing > 0.0 { missing } else { 0.0 };
         if BALLS {
             normal = unit(normal);
             above = -rays.radius[i];

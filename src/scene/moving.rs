@@ -6,7 +6,6 @@ use super::lanes::{LANES, components, padded, put};
 use super::nozzle_frame::NozzleFrames;
 use super::part::BuiltPart;
 use super::rays::{HitIds, Hits, Rays};
-use crate::precision::Real;
 
 /// The part of no ray.
 const NO_PART: u32 = u32::MAX;
@@ -19,12 +18,12 @@ const NO_PART: u32 = u32::MAX;
     "x86_64+avx+avx2+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+bmi1+bmi2+fma",
     "x86_64+avx+avx2+bmi1+bmi2+fma"
 ))]
-pub(super) fn cross<R: Real>(
+pub(super) fn cross(
     part: &BuiltPart,
     index: u32,
-    rays: &Rays<R>,
-    nozzle_frames: &NozzleFrames<R>,
-    hits: &mut Hits<R>,
+    rays: &Rays,
+    nozzle_frames: &NozzleFrames,
+    hits: &mut Hits,
 ) {
     let there = rays_there(rays, nozzle_frames);
     let mut met = Hits {
@@ -48,7 +47,7 @@ pub(super) fn cross<R: Real>(
 
 /// Rays of the scene, each as it is in the frame of its own nozzle.
 #[inline(always)]
-fn rays_there<R: Real>(rays: &Rays<R>, nozzle_frames: &NozzleFrames<R>) -> Rays<R> {
+fn rays_there(rays: &Rays, nozzle_frames: &NozzleFrames) -> Rays {
     let mut there = Rays {
         count: rays.count,
         are_spheres: rays.are_spheres,

@@ -6,22 +6,22 @@ use nalgebra::{Point3, Vector3};
 
 use super::lanes::{LANES, Lane, components, put};
 use super::ray::Ray;
-use crate::precision::{Real, Triple, along, dot, scaled};
+use crate::triple::{Triple, along, dot, scaled};
 
 /// The frame of the nozzle in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NozzleFrame<R> {
-    axes: [Triple<R>; 3],
-    origin: Triple<R>,
+pub struct NozzleFrame {
+    axes: [Triple; 3],
+    origin: Triple,
 }
 
 /// Stands side by side.
-pub struct NozzleFrames<R> {
-    axes: [[Lane<R>; 3]; 3],
-    origin: [Lane<R>; 3],
+pub struct NozzleFrames {
+    axes: [[Lane; 3]; 3],
+    origin: [Lane; 3],
 }
 
-impl NozzleFrame<f64> {
+impl NozzleFrame {
     /// A frame by its three unit vectors and its origin, m.
     pub fn new(axes: [Vector3<f64>; 3], origin: Point3<f64>) -> Self {
         Self {
@@ -45,30 +45,30 @@ impl NozzleFrame<f64> {
     }
 }
 
-impl<R: Real> NozzleFrame<R> {
+impl NozzleFrame {
     #[inline(always)]
-    pub(super) fn point_there(&self, point: Triple<R>) -> Triple<R> {
-        self.vector_there(along(point, self.origin, -R::ONE))
+    pub(super) fn point_there(&self, point: Triple) -> Triple {
+        self.vector_there(along(point, self.origin, -1.0))
     }
 
     #[inline(always)]
-    pub(super) fn vector_there(&self, vector: Triple<R>) -> Triple<R> {
+    pub(super) fn vector_there(&self, vector: Triple) -> Triple {
         let [x, y, z] = self.axes;
         [dot(x, vector), dot(y, vector), dot(z, vector)]
     }
 
     /// A vector of this frame, as it is in the scene.
     #[inline(always)]
-    pub(super) fn vector_back(&self, vector: Triple<R>) -> Triple<R> {
+    pub(super) fn vector_back(&self, vector: Triple) -> Triple {
         let [x, y, z] = self.axes;
         along(along(scaled(x, vector[0]), y, vector[1]), z, vector[2])
     }
 }
 
-impl<R: Real> NozzleFrames<R> {
+impl NozzleFrames {
     /// All where the scene's frame is.
     pub fn none() -> Self {
-        let (zero, one) = ([R::ZERO; LANES], [R::ONE; LANES]);
+        let (zero, one) = ([0.0; LANES], [1.0; LANES]);
         Self {
             axes: [[one, zero, zero], [zero, one, zero], [zero, zero, one]],
             origin: [zero; 3],
@@ -76,8 +76,8 @@ impl<R: Real> NozzleFrames<R> {
     }
 
     /// Sets one of them.
-    pub fn set(&mut self, index: usize, nozzle_frame: &NozzleFrame<f64>) {
-        let narrow = |vector: Triple<f64>| vector.map(R::of);
+    pub fn set(&mut self, index: usize, nozzle_frame: &NozzleFrame) {
+        let narrow = |vector: Triple| vector;
         for (lanes, axis) in self.axes.iter_mut().zip(nozzle_frame.axes) {
             put(lanes, index, narrow(axis));
         }
@@ -85,12 +85,12 @@ impl<R: Real> NozzleFrames<R> {
     }
 
     /// Every number of theirs.
-    pub fn lanes_mut(&mut self) -> impl Iterator<Item = &mut Lane<R>> {
+    pub fn lanes_mut(&mut self) -> impl Iterator<Item = &mut Lane> {
         self.axes.iter_mut().flatten().chain(&mut self.origin)
     }
 
     #[inline(always)]
-    pub(super) fn at(&self, index: usize) -> NozzleFrame<R> {
+    pub(super) fn at(&self, index: usize) -> NozzleFrame {
         let [x, y, z] = &self.axes;
         NozzleFrame {
             axes: [

@@ -15,7 +15,6 @@ use super::rays::{Hits, Rays};
 use super::tessellate;
 use super::triangle_mesh::{self, TriangleMesh};
 use super::winding::Winding;
-use crate::precision::Real;
 use crate::printable;
 use crate::problem::fault::Fault;
 use crate::problem::part::{Ends, Part, Place, Shape};
@@ -328,7 +327,7 @@ impl BuiltPart {
     /// Takes the first crossings that are nearer than what the rays have hit so far; `index` is
     /// that of this part. Normals are those on the fronts.
     #[inline(always)]
-    pub fn cross<R: Real>(&self, index: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
+    pub fn cross(&self, index: u32, rays: &Rays, hits: &mut Hits) {
         match &self.prism {
             Some(prism) => prism.cross(index, rays, hits),
             None if rays.are_spheres => triangle_mesh::touch(&self.facets, index, rays, hits),

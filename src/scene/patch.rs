@@ -53,17 +53,15 @@ impl Patch {
     /// Whether a place on its surface belongs to it.
     #[inline]
     pub fn covers(&self, point: &Point3<f64>) -> bool {
-        self.reach(1.0).is_none_or(|limits| inside(point, &limits))
+        self.reach().is_none_or(|limits| inside(point, &limits))
     }
 
-    /// The box in which hits count that were found this many times as coarsely as in f64. Rounding must
-    /// not lose those in its faces, where a part often ends.
+    /// The box in which hits count: rounding must not lose those in its faces, where a part often ends.
     #[inline]
-    pub fn reach(&self, coarseness: f64) -> Option<(Point3<f64>, Point3<f64>)> {
+    pub fn reach(&self) -> Option<(Point3<f64>, Point3<f64>)> {
         self.within.map(|limits| {
-            let coarse = self.rounding * coarseness;
             let least = SMALL * shortest_side(&limits);
-            widened(limits, self.slack.max(coarse.min(least)))
+            widened(limits, self.slack.max(self.rounding.min(least)))
         })
     }
 

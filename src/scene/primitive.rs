@@ -12,7 +12,6 @@ mod touch;
 use std::hint::select_unpredictable;
 
 use crate::elementary::{cos, sin_cos};
-use crate::precision::Real;
 use crate::problem::curve::Curve;
 pub(super) use cylinder::Cylinder;
 pub(super) use edge::Edge;
@@ -22,17 +21,17 @@ pub(super) use touch::SLIDES;
 /// The surface that one piece of a cross-section becomes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Primitive {
-    Plane(Plane<f64>),
-    Cylinder(Cylinder<f64>),
+    Plane(Plane),
+    Cylinder(Cylinder),
 }
 
 /// A ray in the frame of its prism, and what is known about its start.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flight<R> {
-    pub origin: [R; 3],
-    pub direction: [R; 3],
+pub(super) struct Flight {
+    pub origin: [f64; 3],
+    pub direction: [f64; 3],
     /// Of the shot, m; 0 for a point.
-    pub radius: R,
+    pub radius: f64,
     /// Whether it starts on the wall that is asked.
     pub from_here: bool,
     /// Whether it runs on the front of what it starts from; without a start it does.
@@ -41,75 +40,75 @@ pub(super) struct Flight<R> {
 
 /// Where walls end along z, and within what distance points count as one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent<R> {
-    pub length: R,
-    pub slack: R,
+pub(super) struct Extent {
+    pub length: f64,
+    pub slack: f64,
 }
 
 /// A wall of a prism.
-pub(super) trait Intersect<R> {
+pub(super) trait Intersect {
     /// Where a flight meets it. `LEAVES`: whether it starts on a surface.
-    fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Intersection<R>;
+    fn meet<const LEAVES: bool>(&self, flight: &Flight, extent: &Extent) -> Intersection;
 
     /// Where a shot of finite size touches it.
-    fn touch(&self, flight: &Flight<R>, extent: &Extent<R>) -> Intersection<R>;
+    fn touch(&self, flight: &Flight, extent: &Extent) -> Intersection;
 }
 
 /// Where a ray meets a wall.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Intersection<R> {
+pub(super) struct Intersection {
     /// Distance, m.
-    pub distance: R,
+    pub distance: f64,
     /// The distance that counts when walls are compared; infinite when the ray does not meet it.
-    pub rank: R,
+    pub rank: f64,
     /// Whether it comes from the front.
     pub front: bool,
     /// Unit normal on the front there, in the cross-section.
-    pub normal: [R; 2],
+    pub normal: [f64; 2],
 }
 
-impl<R: Real> Extent<R> {
+impl Extent {
     #[inline(always)]
-    fn hold(&self, z: R, margin: R) -> bool {
+    fn hold(&self, z: f64, margin: f64) -> bool {
         (z >= -margin) & (z <= self.length + margin)
     }
 }
 
-impl<R: Real> Flight<R> {
+impl Flight {
     /// How far beyond its edges a wall counts: a little where the ray sees its front, as far as the
     /// ray runs on fronts. One that it sees from behind ends exactly where it ends.
     #[inline(always)]
-    fn margin(&self, front: bool, extent: &Extent<R>) -> R {
+    fn margin(&self, front: bool, extent: &Extent) -> f64 {
         if front == self.on_front {
             extent.slack
         } else {
-            R::ZERO
+            0.0
         }
     }
 
     /// The distance that counts for a crossing between the edges of a wall, if it is one: those
     /// seen from behind yield to one seen at an edge.
     #[inline(always)]
-    fn rank(&self, distance: R, spans: bool, margin: R, extent: &Extent<R>) -> R {
+    fn rank(&self, distance: f64, spans: bool, margin: f64, extent: &Extent) -> f64 {
         let z = self.origin[2] + self.direction[2] * distance;
         // NaN, for no crossing, is not ahead.
-        if (distance > R::ZERO) & spans & extent.hold(z, margin) {
+        if (distance > 0.0) & spans & extent.hold(z, margin) {
             distance + (extent.slack - margin)
         } else {
-            R::INFINITY
+            f64::INFINITY
         }
     }
 
     /// What follows where the ray starts within the slack of a wall that it does not come from: it
     /// meets that wall at once when it heads into it.
     #[inline(always)]
-    fn touching(&self, normal: [R; 2]) -> Intersection<R> {
+    fn touching(&self, normal: [f64; 2]) -> Intersection {
         let approach = dot([self.direction[0], self.direction[1]], normal);
-        let front = approach < R::ZERO;
-        let enters = (approach != R::ZERO) & (front == self.on_front);
+        let front = approach < 0.0;
+        let enters = (approach != 0.0) & (front == self.on_front);
         Intersection {
-            distance: R::ZERO,
-            rank: if enters { R::ZERO } else { R::INFINITY },
+            distance: 0.0,
+            rank: if enters { 0.0 } else { f64::INFINITY },
             front,
             normal,
         }
@@ -148,11 +147,7 @@ impl Primitive {
     }
 
     /// Where a flight meets the wall. `LEAVES`: whether it starts on a surface.
-    pub fn meet<const LEAVES: bool>(
-        &self,
-        flight: &Flight<f64>,
-        extent: &Extent<f64>,
-    ) -> Intersection<f64> {
+    pub fn meet<const LEAVES: bool>(&self, flight: &Flight, extent: &Extent) -> Intersection {
         match self {
             Self::Plane(plane) => plane.meet::<LEAVES>(flight, extent),
             Self::Cylinder(cylinder) => cylinder.meet::<LEAVES>(flight, extent),
@@ -160,7 +155,7 @@ impl Primitive {
     }
 
     /// Where a shot of finite size touches the wall.
-    pub fn touch(&self, flight: &Flight<f64>, extent: &Extent<f64>) -> Intersection<f64> {
+    pub fn touch(&self, flight: &Flight, extent: &Extent) -> Intersection {
         match self {
             Self::Plane(plane) => plane.touch(flight, extent),
             Self::Cylinder(cylinder) => cylinder.touch(flight, extent),
@@ -226,7 +221,7 @@ impl Primitive {
 
 /// One of two meetings, component by component.
 #[inline(always)]
-fn chosen<R: Real>(first: bool, one: Intersection<R>, other: Intersection<R>) -> Intersection<R> {
+fn chosen(first: bool, one: Intersection, other: Intersection) -> Intersection {
     Intersection {
         distance: select_unpredictable(first, one.distance, other.distance),
         rank: select_unpredictable(first, one.rank, other.rank),
@@ -239,11 +234,11 @@ fn chosen<R: Real>(first: bool, one: Intersection<R>, other: Intersection<R>) ->
 }
 
 #[inline(always)]
-fn dot<R: Real>(a: [R; 2], b: [R; 2]) -> R {
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
 #[inline(always)]
-fn minus<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
+fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }

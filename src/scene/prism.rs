@@ -23,10 +23,10 @@ pub struct Prism {
     /// The first index of its surfaces in the scene.
     first_surface: u32,
     /// Those that stick out into free space.
-    edges: Vec<Edge<f64>>,
+    edges: Vec<Edge>,
     /// The surfaces of the two walls beside each edge.
     edge_surfaces: Vec<[u32; 2]>,
-    extent: Extent<f64>,
+    extent: Extent,
     rotation: Matrix3<f64>,
     shift: Vector3<f64>,
     moved: bool,
@@ -196,7 +196,7 @@ impl Prism {
 
 /// The nearest crossing so far.
 struct Nearest {
-    best: Intersection<f64>,
+    best: Intersection,
     piece: Option<u32>,
     /// Component along z of the normal on the front; not 0 on a cap.
     cap: f64,
@@ -219,7 +219,7 @@ impl Nearest {
 
     /// Takes a crossing if it is nearer.
     #[inline]
-    fn take(&mut self, piece: u32, meeting: &Intersection<f64>) {
+    fn take(&mut self, piece: u32, meeting: &Intersection) {
         if meeting.rank < self.best.rank {
             self.best = *meeting;
             self.piece = Some(piece);

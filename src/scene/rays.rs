@@ -5,24 +5,23 @@ use nalgebra::{Point3, Vector3};
 use super::lanes::{LANES, Lane, components, put};
 use super::nozzle_frame::NozzleFrames;
 use super::ray::{Crossing, HitId, Ray};
-use crate::precision::Real;
 
 /// Rays side by side; all of them start on a surface, or none.
-pub struct Rays<R> {
+pub struct Rays {
     /// How many there are; what stands beyond has no meaning.
     pub count: usize,
     /// Where they start, m.
-    pub origin: [Lane<R>; 3],
+    pub origin: [Lane; 3],
     /// Unit directions.
-    pub direction: [Lane<R>; 3],
+    pub direction: [Lane; 3],
     /// Whether the shots have a size; their centres move along the rays.
     pub are_spheres: bool,
     /// Radii of the shots, m.
-    pub radius: Lane<R>,
+    pub radius: Lane,
     /// The spots that they start from, if they do.
     pub leaving: Option<HitIds>,
     /// The stands of their nozzles, where parts of the scene move with these.
-    pub nozzle_frames: Option<Box<NozzleFrames<R>>>,
+    pub nozzle_frames: Option<Box<NozzleFrames>>,
 }
 
 /// Spots side by side.
@@ -37,15 +36,15 @@ pub struct HitIds {
 }
 
 /// What the rays meet first.
-pub struct Hits<R> {
+pub struct Hits {
     /// Distances, m; infinite where nothing is met.
-    pub distance: Lane<R>,
+    pub distance: Lane,
     /// How far the rays start above what they meet at once, m; 0 elsewhere.
-    pub above: Lane<R>,
+    pub above: Lane,
     /// The places, m.
-    pub point: [Lane<R>; 3],
+    pub point: [Lane; 3],
     /// Unit normals towards the side that the rays come from.
-    pub normal: [Lane<R>; 3],
+    pub normal: [Lane; 3],
     /// Indices of the surfaces in the scene.
     pub surface: [u32; LANES],
     /// The exact spots.
@@ -78,18 +77,18 @@ impl HitIds {
     }
 }
 
-impl<R: Real> Rays<R> {
+impl Rays {
     /// No rays yet.
     pub fn none() -> Self {
         // Numbers that no arithmetic stumbles over, beyond the rays that there are.
-        let mut direction = [[R::ZERO; LANES]; 3];
-        direction[2] = [R::ONE; LANES];
+        let mut direction = [[0.0; LANES]; 3];
+        direction[2] = [1.0; LANES];
         Self {
             count: 0,
-            origin: [[R::ZERO; LANES]; 3],
+            origin: [[0.0; LANES]; 3],
             direction,
             are_spheres: false,
-            radius: [R::ZERO; LANES],
+            radius: [0.0; LANES],
             leaving: None,
             nozzle_frames: None,
         }
@@ -98,20 +97,20 @@ impl<R: Real> Rays<R> {
     /// One of them, in f64.
     pub fn at(&self, index: usize) -> Ray {
         Ray {
-            origin: Point3::from(components(&self.origin, index).map(Real::wide)),
-            direction: Vector3::from(components(&self.direction, index).map(Real::wide)),
+            origin: Point3::from(components(&self.origin, index)),
+            direction: Vector3::from(components(&self.direction, index)),
         }
     }
 }
 
-impl<R: Real> Hits<R> {
+impl Hits {
     /// No hits yet.
     pub fn none() -> Self {
         Self {
-            distance: [R::INFINITY; LANES],
-            above: [R::ZERO; LANES],
-            point: [[R::ZERO; LANES]; 3],
-            normal: [[R::ZERO; LANES]; 3],
+            distance: [f64::INFINITY; LANES],
+            above: [0.0; LANES],
+            point: [[0.0; LANES]; 3],
+            normal: [[0.0; LANES]; 3],
             surface: [0; LANES],
             hit_ids: HitIds::none(),
         }
@@ -126,14 +125,10 @@ impl<R: Real> Hits<R> {
         crossing: &Crossing,
         normal: Vector3<f64>,
     ) {
-        self.distance[index] = R::of(crossing.distance);
-        self.above[index] = R::of(crossing.above);
+        self.distance[index] = crossing.distance;
+        self.above[index] = crossing.above;
         self.surface[index] = crossing.surface;
-        put(
-            &mut self.normal,
-            index,
-            [normal.x, normal.y, normal.z].map(R::of),
-        );
+        put(&mut self.normal, index, [normal.x, normal.y, normal.z]);
         let (piece, front) = (crossing.piece, crossing.front);
         self.hit_ids.set(index, HitId { part, piece, front });
     }

@@ -187,7 +187,7 @@ fn a_shot_touches_a_scene_a_radius_before_a_point_would() {
         assert!((shot.point - expected).norm() < 1e-12);
         assert!((point.point - (ray.origin + ray.direction * distance)).norm() < 1e-9);
         // The same among many.
-        let mut rays = Rays::<f64>::none();
+        let mut rays = Rays::none();
         rays.count = 1;
         rays.are_spheres = true;
         rays.radius[0] = 0.4;
@@ -343,30 +343,12 @@ fn hits_are_a_lift_above_their_surface_or_as_high_as_the_ray_starts() {
             let mut nozzle_frames = NozzleFrames::none();
             nozzle_frames.set(0, &nozzle_frame);
             rays.nozzle_frames = Some(Box::new(nozzle_frames));
-            let mut hits = Hits::<f64>::none();
+            let mut hits = Hits::none();
             scene.first_hits(&rays, &mut hits);
             assert_eq!(hits.distance[0], 0.0, "{height} {on_nozzle}");
             assert!((hits.point[1][0] - hit.point.y).abs() < 1e-15, "{height}");
         }
     }
-}
-
-/// By more than its roundings, or rays would start behind the surface that they leave.
-#[test]
-fn hits_in_single_precision_are_as_much_higher_as_it_is_coarser() {
-    let room = [part("room", block([-2.0; 3], [2.0; 3]), false)];
-    let scene = Scene::build(&room, Walls::Exact).expect("it is sound");
-    let lift = 2.0 * LIFT * SLACK * f32::COARSENESS;
-    let mut rays = Rays::<f32>::none();
-    rays.count = 1;
-    put(&mut rays.origin, 0, [0.1, 0.2, 0.3]);
-    put(&mut rays.direction, 0, [0.0, 0.0, -1.0]);
-    let mut hits = Hits::none();
-    scene.first_hits(&rays, &mut hits);
-    let height = f64::from(hits.point[2][0]) + 2.0;
-    let rounding = 2.0 * f64::from(f32::EPSILON);
-    assert!(lift > 2.0 * rounding, "{lift}");
-    assert!((height - lift).abs() < rounding, "{height}");
 }
 
 /// What is a thousandth of the scene away from the wall is beyond the opposite one.

@@ -21,8 +21,6 @@ pub enum Status {
 /// otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shortcuts {
-    /// Paths may be traced in single precision.
-    pub single_precision: bool,
     /// Poses that a part of their shots proves to be worse are given no more.
     pub early_ends: bool,
     /// More shots are drawn from where the leading settings do harm.
@@ -32,7 +30,6 @@ pub struct Shortcuts {
 impl Default for Shortcuts {
     fn default() -> Self {
         Self {
-            single_precision: true,
             early_ends: true,
             importance: true,
         }

@@ -12,7 +12,7 @@ use crate::checkpoint::{Checkpoint, Page};
 use crate::feasibility::infeasibility;
 use crate::jet::ShotSample;
 use crate::objective::{Tally, Terms};
-use crate::precision::Precision;
+use crate::problem::model::Model;
 use crate::problem::setting::{Range, Settings};
 use crate::scenario::Scenario;
 
@@ -38,11 +38,6 @@ impl Fitness {
                 WORST_OBJECTIVE * (1.0 + millimetres / (1.0 + millimetres))
             }
         }
-    }
-
-    /// Whether shots miss the target or meet secondary surfaces.
-    pub(super) fn violates(&self) -> bool {
-        matches!(self, Self::Feasible(terms) if terms.rebound > 0.0 || terms.miss > 0.0)
     }
 
     /// Whether there can be such a standing.
@@ -114,7 +109,6 @@ const MOST_RAYS: usize = u32::MAX as usize;
 /// Judges choices on common shots.
 pub struct Evaluator<'a> {
     scenario: &'a Scenario,
-    precision: Precision,
     shots: &'a [ShotSample],
     effort: &'a Effort,
     control: &'a Control<'a>,
@@ -125,22 +119,16 @@ pub struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// A judge on some shots, whose paths are traced in one of the precisions.
+    /// An evaluator on some shots.
     pub fn new(
         scenario: &'a Scenario,
-        precision: Precision,
         shots: &'a [ShotSample],
         effort: &'a Effort,
         control: &'a Control,
     ) -> Self {
-        let kind = match precision {
-            Precision::F64 => "judged",
-            Precision::F32 => "judged in f32",
-        };
-        let page = |checkpoint: &'a Checkpoint| checkpoint.page(kind, scenario, shots);
+        let page = |checkpoint: &'a Checkpoint| checkpoint.page("judged", scenario, shots);
         Self {
             scenario,
-            precision,
             shots,
             effort,
             control,
@@ -158,30 +146,37 @@ impl<'a> Evaluator<'a> {
         }
     }
 
+    /// The accuracy that is asked for, relative to J.
+    pub fn accuracy(&self) -> f64 {
+        self.scenario.problem.accuracy
+    }
+
     /// Whether the search should come to an end.
     pub fn is_stopped(&self) -> bool {
         self.control.is_stopped()
     }
 
-    /// The standing of a choice, and the choice with the best speed for it.
+    /// The fitness of some settings, and the settings with the best speed for them.
     ///
-    /// Where J on the first shots alone is so far above `best` that the rest could not bring it below,
-    /// they are all that is traced, and J is what it is on them. So it is after a request to stop, on
-    /// however few shots, and nothing of it is kept.
-    pub(super) fn evaluator(&self, settings: &Settings, best: f64) -> (Settings, Fitness) {
-        // A pose that is hopeless with some factors on the weights may be the best with others.
-        let ends_early = self.archive.is_none() && self.control.shortcuts.early_ends;
-        let best = if ends_early { best } else { f64::INFINITY };
+    /// Where the first shots prove that J of all of them is above `cut`, they are all that is traced, and J
+    /// is what it is on them. So it is after a request to stop, on however few shots, and nothing of it is
+    /// kept.
+    pub(super) fn evaluate(&self, settings: &Settings, cut: f64) -> (Settings, Fitness) {
+        let cut = if self.ends_early() {
+            cut
+        } else {
+            f64::INFINITY
+        };
         let range = self.scenario.problem.ranges.speed;
         let is_sound = |evaluated: &Evaluated| evaluated.is_sound(settings, range);
         let page = self.page.as_ref();
-        let recalled = page.and_then(|page| page.recall(settings, &[best], is_sound));
+        let recalled = page.and_then(|page| page.recall(settings, &[cut], is_sound));
         let evaluated = recalled.unwrap_or_else(|| {
-            let evaluated = self.judge_anew(settings, best);
+            let evaluated = self.evaluate_anew(settings, cut);
             if let Some(page) = page
                 && !self.is_stopped()
             {
-                page.keep(settings, &[best], &evaluated);
+                page.keep(settings, &[cut], &evaluated);
             }
             evaluated
         });
@@ -199,7 +194,15 @@ impl<'a> Evaluator<'a> {
         (settings, evaluated.fitness)
     }
 
-    fn judge_anew(&self, settings: &Settings, best: f64) -> Evaluated {
+    /// Whether a pose that cannot become good enough is given no more shots. One that is hopeless with some
+    /// factors on the weights may be the best with others; and the whole model is whole.
+    fn ends_early(&self) -> bool {
+        self.archive.is_none()
+            && self.control.shortcuts.early_ends
+            && self.scenario.problem.model != Model::Full
+    }
+
+    fn evaluate_anew(&self, settings: &Settings, cut: f64) -> Evaluated {
         if let Some(infeasible) = infeasibility(self.scenario, settings) {
             return Evaluated {
                 speed: settings.speed,
@@ -207,20 +210,29 @@ impl<'a> Evaluator<'a> {
                 rays: 0,
             };
         }
-        let first = (self.shots.len() / SHARES).max(FEWEST);
-        if first >= self.shots.len() {
-            return self.evaluated(settings, &self.trace(settings, self.shots));
-        }
-        let (first, rest) = self.shots.split_at(first);
-        let few = self.trace(settings, first);
-        if best < f64::INFINITY {
-            let evaluated = self.evaluated(settings, &few);
-            if evaluated.fitness.rank() > SHARES as f64 * best {
+        let mut tally = Tally::default();
+        for end in self.looks() {
+            let (seen, rest) = self.shots.split_at(end);
+            let next = self.trace(settings, &seen[tally.shots..]);
+            tally = Tally::join(vec![tally, next]);
+            if rest.is_empty() || cut == f64::INFINITY {
+                continue;
+            }
+            let evaluated = self.evaluated(settings, &tally);
+            if evaluated.fitness.rank() * tally.least_share_with(rest) > cut {
                 return evaluated;
             }
         }
-        let all = Tally::join(vec![few, self.trace(settings, rest)]);
-        self.evaluated(settings, &all)
+        self.evaluated(settings, &tally)
+    }
+
+    /// After how many shots J is looked at, all of them last. They do not depend on the cut, on which the
+    /// order of sums and so their last bits must not.
+    fn looks(&self) -> impl Iterator<Item = usize> {
+        let all = self.shots.len();
+        let some = LOOKS.map(|share| (all as f64 * share) as usize);
+        let worthwhile = move |&end: &usize| end >= FEWEST && end < all;
+        some.into_iter().filter(worthwhile).chain([all])
     }
 
     fn evaluated(&self, settings: &Settings, tally: &Tally) -> Evaluated {
@@ -245,9 +257,7 @@ impl<'a> Evaluator<'a> {
         } else {
             settings.speed
         };
-        let tally = |shots: &[ShotSample]| {
-            Tally::trace_as(self.precision, self.scenario, settings, speed, shots)
-        };
+        let tally = |shots: &[ShotSample]| Tally::trace(self.scenario, settings, speed, shots);
         if self.shots.len() <= MOST_ALONE {
             return tally(shots);
         }
@@ -257,11 +267,9 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// One of so many shares of the shots is traced first. Where J is as many times above the best on
-/// them, it is above the best on all, even if the rest did no harm; unless the first hits on target,
-/// over which two of the terms are means, are a still smaller share of all such hits.
-const SHARES: usize = 8;
-/// Shots that are traced first at least.
+/// Shares of the shots after which J is looked at.
+const LOOKS: [f64; 4] = [0.125, 0.25, 0.5, 0.75];
+/// Shots that are traced before J is looked at, at least.
 const FEWEST: usize = 64;
 /// Up to so many shots one thread traces alone.
 const MOST_ALONE: usize = 2048;

@@ -17,7 +17,6 @@ use super::search::{STAGES, Search};
 use crate::elementary::hypot;
 use crate::evaluate::evaluate_adaptively;
 use crate::jet::{Samples, Stream, ValidationSample, purpose};
-use crate::precision::Precision;
 use crate::scenario::Scenario;
 
 /// What can be had.
@@ -150,22 +149,15 @@ fn search(
     let weighted = weighted(scenario, weights);
     let evaluator = |shots: usize| {
         let shots = shots.min(samples.shots.len());
-        Evaluator::new(
-            &weighted,
-            Precision::F64,
-            &samples.shots[..shots],
-            effort,
-            control,
-        )
+        Evaluator::new(&weighted, &samples.shots[..shots], effort, control)
     };
     if control.is_stopped() {
         return;
     }
-    let accuracy = scenario.problem.accuracy;
     let mut search = Search::screen(&weighted, contact, &evaluator(SCREENING_SHOTS));
-    search.refine(&evaluator(STAGES[0].shots), &STAGES[0], accuracy);
+    search.refine(&evaluator(STAGES[0].shots), &STAGES[0]);
     let last = evaluator(STAGES[1].shots).keeping(archive, weights);
-    search.refine(&last, &STAGES[1], accuracy);
+    search.refine(&last, &STAGES[1]);
     (control.watch)(Progress {
         poses: effort.poses(),
         best: None,

@@ -7,27 +7,27 @@
 //! report the winner on shots that the search has not seen. The speed is not searched: its best value
 //! follows exactly from the traced paths wherever restitution does not depend on it.
 
+mod ablation;
 mod answer;
 mod control;
 mod evaluator;
 mod figures;
 mod front;
-mod ladder;
-mod models;
 mod objectives;
 mod pareto_archive;
 mod polish;
+mod sampler;
 mod search;
 mod space;
 mod stopping_rule;
 mod tie;
 mod window;
 
+pub use ablation::Ablation;
 pub use answer::Answer;
 pub use control::{Control, Progress, Shortcuts, Status};
 pub use evaluator::{Effort, Fitness};
 pub use front::{Front, front};
-pub use ladder::{Ladder, Rung};
 pub use objectives::{Objectives, objectives};
 pub use tie::is_tie;
 pub use window::{Drift, Turn, Window, passing_windows, passing_windows_until, windows};
@@ -38,10 +38,10 @@ use crate::problem::setting::{Settings, Tolerance};
 use crate::scenario::Scenario;
 use evaluator::Evaluator;
 use figures::Figures;
-use models::Models;
+use sampler::Sampler;
 use search::{STAGES, STAGES_SET_EXACTLY, Search, Stage};
 use space::Space;
-use stopping_rule::{SearchEstimate, is_in_reach, least_objective, not_converged};
+use stopping_rule::{is_in_reach, least_objective, not_converged};
 use tie::ranked;
 
 /// What a search found.
@@ -52,8 +52,8 @@ pub struct Solution {
     /// The best settings for each contact, best first: by J, and contacts that tie with the best in
     /// the order of the file.
     pub answers: Vec<Answer>,
-    /// Which effects were searched with, and what each of them does.
-    pub ladder: Ladder,
+    /// What each effect of the model does at the answer; none where the search was told to stop.
+    pub ablations: Vec<Ablation>,
     /// Work done.
     pub poses: usize,
     /// Shots at each pose in the last stage.
@@ -90,40 +90,35 @@ pub fn spread_settings(scenario: &Scenario, contact: usize, count: usize) -> Vec
 /// Finds the best settings of a problem.
 pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
     let effort = Effort::default();
-    let mut models = Models::new(scenario);
-    let asked = models.asked.clone();
+    let asked = scenario.as_asked();
+    let searched = asked.as_searched();
+    let mut sampler = Sampler::new(&searched);
     let ((mut searches, mut shots), mut figures) = rayon::join(
-        || descend(&mut models, control, &effort),
+        || descend(&searched, &mut sampler, control, &effort),
         || Figures::new(&asked, control, &effort),
     );
-    let mut estimates = agree(&mut models, &mut searches, shots, control, &effort);
     let mut answers = figures.all(&searches);
-    let problem = &scenario.problem;
-    let mut open = not_converged(
-        &estimates,
-        &answers,
-        problem,
-        shots,
-        control.validation_shots,
-    );
+    let problem = &asked.problem;
+    let not_converged = |searches: &[Search], answers: &[Answer], shots| {
+        not_converged(searches, answers, problem, shots, control.validation_shots)
+    };
+    let mut open = not_converged(&searches, &answers, shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
-        let stage = Stage::beyond(shots);
-        models.importance_of(&searches, &effort, control);
-        refine(&models, &mut searches, &open, &stage, control, &effort);
-        estimates = agree(&mut models, &mut searches, shots, control, &effort);
+        sampler.adapt(&searches, &effort, control);
+        let samples = sampler.draw(shots);
+        let evaluator = Evaluator::new(&searched, &samples.shots, &effort, control);
+        refine_in_turn(&mut searches, &open, &evaluator, &Stage::beyond(shots));
+        tell(control, &effort, &searches);
         answers = figures.renewed(answers, &searches);
-        open = not_converged(
-            &estimates,
-            &answers,
-            problem,
-            shots,
-            control.validation_shots,
-        );
+        open = not_converged(&searches, &answers, shots);
     }
-    if !control.is_stopped() {
-        models.measure_unasked(&searches, &effort, control);
-    }
+    let ablations = if control.is_stopped() {
+        Vec::new()
+    } else {
+        let importance = sampler.importance();
+        ablation::measure(scenario, &asked, importance, &searches, &effort, control)
+    };
     let answers = ranked(answers, problem);
     let status = match answers.first() {
         _ if control.is_stopped() => Status::Interrupted,
@@ -134,54 +129,24 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
     Solution {
         status,
         answers,
-        ladder: models.ladder,
+        ablations,
         poses: effort.poses(),
         shots_per_pose: shots,
         rays: effort.rays(),
     }
 }
 
-/// Goes on with what was left out, as long as the whole model disagrees with the one that is
-/// searched. Returns J of the candidates.
-fn agree(
-    models: &mut Models,
-    searches: &mut [Search],
-    shots: usize,
+/// Screens the settings of every contact and goes down through the stages; to the end, unless the nozzle
+/// is set exactly and J is precise before. Returns the searches and the shots at each pose of the last
+/// stage.
+fn descend(
+    scenario: &Scenario,
+    sampler: &mut Sampler,
     control: &Control,
     effort: &Effort,
-) -> Vec<SearchEstimate> {
-    let mut estimates = models.estimates(searches, shots, control);
-    while !control.is_stopped() && models.put_back(searches, &estimates, effort, control) {
-        let all: Vec<usize> = (0..searches.len()).collect();
-        let stage = Stage::beyond(shots);
-        refine(models, searches, &all, &stage, control, effort);
-        estimates = models.estimates(searches, shots, control);
-    }
-    estimates
-}
-
-/// Takes some of the searches through a stage, in turn.
-fn refine(
-    models: &Models,
-    searches: &mut [Search],
-    which: &[usize],
-    stage: &Stage,
-    control: &Control,
-    effort: &Effort,
-) {
-    let samples = models.draw(stage.shots);
-    let evaluator = models.evaluator(&samples, effort, control);
-    let accuracy = models.asked.problem.accuracy;
-    refine_in_turn(searches, which, &evaluator, stage, accuracy);
-    tell(control, effort, searches);
-}
-
-/// Screens the settings of every contact and goes down through the stages, after the first of them
-/// with the effects that matter; to the end, unless the nozzle is set exactly and J is sharp before.
-/// Returns the searches and the shots at each pose of the last stage.
-fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Search>, usize) {
+) -> (Vec<Search>, usize) {
     let affordable = |stage: &&Stage| stage.shots <= control.most_shots;
-    let is_set_exactly = models.asked.problem.tolerance == Tolerance::default();
+    let is_set_exactly = scenario.problem.tolerance == Tolerance::default();
     let all = if is_set_exactly {
         &STAGES_SET_EXACTLY
     } else {
@@ -189,47 +154,30 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
     };
     let stages: Vec<&Stage> = all.iter().filter(affordable).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
-    let contacts = &models.asked.problem.ranges.contact;
-    let samples = models.draw(SCREENING_SHOTS);
-    let evaluator = models.evaluator(&samples, effort, control);
+    let samples = sampler.draw(SCREENING_SHOTS);
+    let evaluator = Evaluator::new(scenario, &samples.shots, effort, control);
+    let contacts = scenario.problem.ranges.contact.par_iter();
     let mut searches: Vec<Search> = contacts
-        .par_iter()
-        .map(|&contact| Search::screen(&models.searched, contact, &evaluator))
+        .map(|&contact| Search::screen(scenario, contact, &evaluator))
         .collect();
-    if !control.is_stopped() {
-        models.choose_precision(&searches, effort, control);
-    }
     for (index, stage) in stages.into_iter().enumerate() {
         if control.is_stopped() {
             break;
         }
-        let before = searches.clone();
         if index > 0 {
-            models.importance_of(&searches, effort, control);
+            sampler.adapt(&searches, effort, control);
         }
-        if stage.shots > CHEAP_SHOTS {
-            models.leave_out_size(&mut searches, effort, control);
-        }
-        advance(models, &mut searches, stage, control, effort);
-        if control.is_stopped() {
-            continue;
-        }
-        if index == 0 {
-            models.climb(&mut searches, effort, control);
-        } else if stage.shots < most_shots {
-            let mut estimates = models.estimates(&searches, stage.shots, control);
-            // What was found without effects that matter leads astray: once more from where it began.
-            while !control.is_stopped()
-                && models.put_back(&mut searches, &estimates, effort, control)
-            {
-                let carried = |search: &Search| search.carried_over(&models.searched);
-                searches = before.iter().map(carried).collect();
-                advance(models, &mut searches, stage, control, effort);
-                estimates = models.estimates(&searches, stage.shots, control);
-            }
-            if is_set_exactly && models.are_precise(&searches, stage.shots, effort) {
-                return (searches, stage.shots);
-            }
+        let samples = sampler.draw(stage.shots);
+        let evaluator = Evaluator::new(scenario, &samples.shots, effort, control);
+        advance(&mut searches, &evaluator, stage);
+        tell(control, effort, &searches);
+        let is_between = index > 0 && stage.shots < most_shots;
+        if is_set_exactly
+            && is_between
+            && !control.is_stopped()
+            && sampler.is_precise(&searches, stage.shots, effort)
+        {
+            return (searches, stage.shots);
         }
     }
     (searches, most_shots)
@@ -237,45 +185,29 @@ fn descend(models: &mut Models, control: &Control, effort: &Effort) -> (Vec<Sear
 
 /// Takes the searches through a stage: all of them as long as shots are few, then those that could
 /// win.
-fn advance(
-    models: &Models,
-    searches: &mut [Search],
-    stage: &Stage,
-    control: &Control,
-    effort: &Effort,
-) {
+fn advance(searches: &mut [Search], evaluator: &Evaluator, stage: &Stage) {
     if stage.shots > CHEAP_SHOTS {
         let least = least_objective(searches);
         let could_win = |&index: &usize| is_in_reach(&searches[index], least);
         let open: Vec<usize> = (0..searches.len()).filter(could_win).collect();
-        return refine(models, searches, &open, stage, control, effort);
+        return refine_in_turn(searches, &open, evaluator, stage);
     }
-    let samples = models.draw(stage.shots);
-    let evaluator = models.evaluator(&samples, effort, control);
-    let accuracy = models.asked.problem.accuracy;
     let each = searches.par_iter_mut();
-    each.for_each(|search| search.refine(&evaluator, stage, accuracy));
-    tell(control, effort, searches);
+    each.for_each(|search| search.refine(evaluator, stage));
 }
 
 /// Refines some of the searches, the best one first, so that the others can profit from it; the
 /// others, and those that went before the best one, go where that one is if they are better there.
-fn refine_in_turn(
-    searches: &mut [Search],
-    which: &[usize],
-    evaluator: &Evaluator,
-    stage: &Stage,
-    accuracy: f64,
-) {
+fn refine_in_turn(searches: &mut [Search], which: &[usize], evaluator: &Evaluator, stage: &Stage) {
     let rank = |search: &Search| search.best().fitness.rank();
     let mut order = which.to_vec();
     order.sort_by(|&a, &b| rank(&searches[a]).total_cmp(&rank(&searches[b])));
     let mut leader = order[0];
     let mut beside = vec![None; searches.len()];
-    searches[leader].refine(evaluator, stage, accuracy);
+    searches[leader].refine(evaluator, stage);
     for &index in &order[1..] {
         let leading = searches[leader].best().clone();
-        searches[index].refine_from_incumbent(&leading, evaluator, stage, accuracy);
+        searches[index].refine_from_incumbent(&leading, evaluator, stage);
         beside[index] = Some(leader);
         if rank(&searches[index]) < rank(&searches[leader]) {
             leader = index;
@@ -284,7 +216,7 @@ fn refine_in_turn(
     let leading = searches[leader].best().clone();
     for (index, search) in searches.iter_mut().enumerate() {
         if index != leader && beside[index] != Some(leader) {
-            search.follow(&leading, evaluator, stage, accuracy);
+            search.follow(&leading, evaluator, stage);
         }
     }
 }

@@ -21,14 +21,14 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Judges a point.
+    /// Evaluates a point.
     pub fn at(space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
-        Self::beside(f64::INFINITY, space, evaluator, point)
+        Self::below(f64::INFINITY, space, evaluator, point)
     }
 
-    /// Judges a point, roughly where it is far above the best J so far.
-    fn beside(best: f64, space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
-        let (settings, fitness) = evaluator.evaluator(&space.settings(point), best);
+    /// Evaluates a point, exactly where its rank is not above `cut`.
+    pub fn below(cut: f64, space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
+        let (settings, fitness) = evaluator.evaluate(&space.settings(point), cut);
         Self {
             point: space.within(point),
             settings,
@@ -70,8 +70,9 @@ impl CostFunction for &Descent<'_> {
             return Ok(corner.fitness.rank());
         }
         let mut leading = self.leading.borrow_mut();
-        let best = leading[0].fitness.rank();
-        let candidate = Candidate::beside(best, self.space, self.evaluator, point);
+        // What is above all corners of the simplex is rejected, however far above.
+        let worst = leading[leading.len() - 1].fitness.rank();
+        let candidate = Candidate::below(worst, self.space, self.evaluator, point);
         let rank = candidate.fitness.rank();
         let pairs = point.iter().zip(&candidate.point);
         let outside: f64 = pairs.map(|(x, within)| (x - within).abs()).sum();
@@ -103,8 +104,8 @@ pub fn polish(
         if evaluator.is_stopped() {
             break;
         }
-        let middle = Candidate::at(space, evaluator, &middle(&leading));
         let best = &leading[0];
+        let middle = Candidate::below(best.fitness.rank(), space, evaluator, &middle(&leading));
         if middle.fitness.rank() >= best.fitness.rank() * (1.0 - accuracy) {
             return best.clone().or_better(middle);
         }
@@ -177,7 +178,7 @@ fn best_bound(space: &Space, evaluator: &Evaluator, start: Candidate) -> Candida
             let mut point = best.point.clone();
             point[axis] = bound;
             let rank = best.fitness.rank();
-            best = best.or_better(Candidate::beside(rank, space, evaluator, &point));
+            best = best.or_better(Candidate::below(rank, space, evaluator, &point));
         }
     }
     best
@@ -200,7 +201,8 @@ fn first_simplex(
         loop {
             let mut point = start.point.clone();
             point[axis] += towards_middle * edge;
-            let corner = Candidate::beside(rank, space, evaluator, &point);
+            let cut = rank * (1.0 + FAR_TOO_STEEP);
+            let corner = Candidate::below(cut, space, evaluator, &point);
             let rise = corner.fitness.rank() / rank - 1.0;
             let is_short = edge <= SHORTEST_EDGE * size;
             if is_short || rise <= STEEPEST_EDGE || evaluator.is_stopped() {

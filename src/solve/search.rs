@@ -74,13 +74,7 @@ impl Stage {
     }
 
     /// Where the descents from a candidate end.
-    fn descent(
-        &self,
-        space: &Space,
-        evaluator: &Evaluator,
-        start: Candidate,
-        accuracy: f64,
-    ) -> Candidate {
+    fn descent(&self, space: &Space, evaluator: &Evaluator, start: Candidate) -> Candidate {
         let descents = 0..self.descents;
         descents.fold(start, |best, _| {
             let next = polish(
@@ -88,7 +82,7 @@ impl Stage {
                 evaluator,
                 best.clone(),
                 self.size,
-                self.settled * accuracy,
+                self.settled * evaluator.accuracy(),
             );
             best.or_better(next)
         })
@@ -101,8 +95,6 @@ pub(super) struct Search {
     space: Space,
     /// Best first.
     candidates: Vec<Candidate>,
-    /// Whether any place of the screening did harm.
-    has_violations: bool,
 }
 
 impl Search {
@@ -128,11 +120,7 @@ impl Search {
             .filter(|&index| index == 0 || !evaluator.is_stopped())
             .map(|index| Candidate::at(&space, evaluator, &space.spread(index, seed)))
             .collect();
-        let mut search = Self {
-            space,
-            has_violations: candidates.iter().any(|it| it.fitness.violates()),
-            candidates,
-        };
+        let mut search = Self { space, candidates };
         search.sort();
         search
     }
@@ -142,38 +130,13 @@ impl Search {
         &self.candidates[0]
     }
 
-    /// Whether shots missed or met secondary surfaces anywhere when it looked all over the settings: then
-    /// there are cliffs.
-    pub fn has_violations(&self) -> bool {
-        self.has_violations
-    }
-
-    /// The same candidates in the space of another model of the same problem.
-    pub fn carried_over(&self, scenario: &Scenario) -> Self {
-        let contact = self.best().settings.contact;
-        let space = Space::new(
-            &scenario.problem,
-            contact,
-            !scenario.speed_scales_out(contact),
-        );
-        let carried = |candidate: &Candidate| Candidate {
-            point: space.point(&candidate.settings),
-            ..candidate.clone()
-        };
-        Self {
-            candidates: self.candidates.iter().map(carried).collect(),
-            space,
-            ..*self
-        }
-    }
-
     fn sort(&mut self) {
         self.candidates
             .sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
     }
 
     /// Goes on from the best few candidates with more shots.
-    pub fn refine(&mut self, evaluator: &Evaluator, stage: &Stage, accuracy: f64) {
+    pub fn refine(&mut self, evaluator: &Evaluator, stage: &Stage) {
         let space = &self.space;
         let mut starts: Vec<Candidate> = Vec::new();
         for candidate in &self.candidates {
@@ -188,7 +151,7 @@ impl Search {
             .into_par_iter()
             .map(|start| {
                 let start = Candidate::at(space, evaluator, &start.point);
-                stage.descent(space, evaluator, start, accuracy)
+                stage.descent(space, evaluator, start)
             })
             .collect();
         self.sort();
@@ -200,24 +163,17 @@ impl Search {
         leader: &Candidate,
         evaluator: &Evaluator,
         stage: &Stage,
-        accuracy: f64,
     ) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
-        let found = self.beside(&here, leader, evaluator, stage, accuracy);
-        let own = || stage.descent(&self.space, evaluator, here, accuracy);
+        let found = self.beside(&here, leader, evaluator, stage);
+        let own = || stage.descent(&self.space, evaluator, here);
         self.candidates = vec![found.unwrap_or_else(own)];
     }
 
     /// Goes on from where another contact is best, if that is better than where this one is.
-    pub fn follow(
-        &mut self,
-        leader: &Candidate,
-        evaluator: &Evaluator,
-        stage: &Stage,
-        accuracy: f64,
-    ) {
+    pub fn follow(&mut self, leader: &Candidate, evaluator: &Evaluator, stage: &Stage) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
-        if let Some(found) = self.beside(&here, leader, evaluator, stage, accuracy) {
+        if let Some(found) = self.beside(&here, leader, evaluator, stage) {
             self.candidates = vec![found];
         }
     }
@@ -233,26 +189,28 @@ impl Search {
         leader: &Candidate,
         evaluator: &Evaluator,
         stage: &Stage,
-        accuracy: f64,
     ) -> Option<Candidate> {
         if leader.point.len() != self.space.dimensions() {
             return None;
         }
-        let at = |point: &[f64]| Candidate::at(&self.space, evaluator, point);
-        let there = at(&leader.point);
+        let below = |cut: f64, point: &[f64]| Candidate::below(cut, &self.space, evaluator, point);
+        let there = below(here.fitness.rank(), &leader.point);
         if here.fitness.rank() <= there.fitness.rank() {
             return None;
         }
-        let back = |share: f64| at(&between(&there.point, &here.point, share));
-        let way_back = WAY_BACK.map(back).into_iter();
-        let start = way_back.fold(there.clone(), Candidate::or_better);
-        let little = 0.5 * accuracy;
+        let back = |best: Candidate, share: f64| {
+            let point = between(&there.point, &here.point, share);
+            let other = below(best.fitness.rank(), &point);
+            best.or_better(other)
+        };
+        let start = WAY_BACK.into_iter().fold(there.clone(), back);
+        let little = 0.5 * evaluator.accuracy();
         let is_close = there.fitness.rank() <= leader.fitness.rank() * (1.0 + little);
         let gains = start.fitness.rank() < there.fitness.rank() * (1.0 - little);
         Some(if is_close && !gains {
             start
         } else {
-            stage.descent(&self.space, evaluator, start, accuracy)
+            stage.descent(&self.space, evaluator, start)
         })
     }
 }
@@ -271,7 +229,6 @@ mod tests {
 
     use super::*;
     use crate::jet::{Samples, Stream};
-    use crate::precision::Precision;
     use crate::problem::model::Effect;
     use crate::problem::setting::Settings;
     use crate::solve::{Control, Effort};
@@ -280,7 +237,6 @@ mod tests {
     const DAMP: usize = 1;
     const OILED: usize = 2;
     const STAGE: &Stage = &STAGES[2];
-    const ACCURACY: f64 = 0.01;
 
     fn scenario() -> Scenario {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway-long.yaml");
@@ -294,7 +250,7 @@ mod tests {
         let scenario = scenario();
         let shots = Samples::with_boundary(&scenario.problem, Stream::Search, 1024).shots;
         let (effort, control) = (Effort::default(), Control::default());
-        let evaluator = Evaluator::new(&scenario, Precision::F64, &shots, &effort, &control);
+        let evaluator = Evaluator::new(&scenario, &shots, &effort, &control);
         let search = |contact: usize, degrees: f64| {
             let space = Space::new(&scenario.problem, contact, false);
             let settings = Settings {
@@ -304,11 +260,7 @@ mod tests {
                 ..space.settings(&space.spread(0, 0))
             };
             let candidates = vec![Candidate::at(&space, &evaluator, &space.point(&settings))];
-            Search {
-                space,
-                candidates,
-                has_violations: true,
-            }
+            Search { space, candidates }
         };
         check(&evaluator, &search);
     }
@@ -323,7 +275,7 @@ mod tests {
             // J of both is the same at 42.6 deg, but oiled walls allow 44.3 deg.
             let (damp, mut oiled) = (search(DAMP, 42.6), search(OILED, 45.8));
             assert!(rank(&oiled) > 1.02 * rank(&damp));
-            oiled.follow(damp.best(), evaluator, STAGE, ACCURACY);
+            oiled.follow(damp.best(), evaluator, STAGE);
             assert!(rank(&oiled) < 0.97 * rank(&damp), "{}", rank(&oiled));
         });
     }
@@ -337,16 +289,12 @@ mod tests {
         let scenario = scenario.without(&effects, &space.settings(&point));
         let shots = Samples::with_boundary(&scenario.problem, Stream::Search, 1024).shots;
         let (effort, control) = (Effort::default(), Control::default());
-        let evaluator = Evaluator::new(&scenario, Precision::F64, &shots, &effort, &control);
+        let evaluator = Evaluator::new(&scenario, &shots, &effort, &control);
         let candidates = vec![Candidate::at(&space, &evaluator, &point)];
-        let mut search = Search {
-            space,
-            candidates,
-            has_violations: true,
-        };
+        let mut search = Search { space, candidates };
         // J falls by 3 % from the bound to the cliff at 33.3 deg, and is higher again beyond.
         let on_bound = rank(&search);
-        search.refine(&evaluator, &STAGES_SET_EXACTLY[1], ACCURACY);
+        search.refine(&evaluator, &STAGES_SET_EXACTLY[1]);
         assert!(rank(&search) < 0.98 * on_bound, "{}", rank(&search));
     }
 
@@ -355,7 +303,7 @@ mod tests {
         on_common_shots(|evaluator, search| {
             let (damp, mut oiled) = (search(DAMP, 42.6), search(OILED, 44.2));
             let before = oiled.best().settings;
-            oiled.follow(damp.best(), evaluator, STAGE, ACCURACY);
+            oiled.follow(damp.best(), evaluator, STAGE);
             assert_eq!(oiled.best().settings, before);
         });
     }

@@ -6,10 +6,6 @@ use crate::elementary::square;
 use crate::problem::Problem;
 use crate::problem::goal::Goals;
 
-/// J of a candidate with the model that is searched and with the one that is asked for; `None`
-/// where the nozzle does not fit.
-pub(super) type SearchEstimate = Option<(f64, f64)>;
-
 /// Least J over all contacts; infinite while the nozzle has fitted nowhere.
 pub(super) fn least_objective(searches: &[Search]) -> f64 {
     let objectives = searches
@@ -37,15 +33,15 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 /// seen as many shots as stand behind the figures. What is left of J where every goal is reached is
 /// rounding, of which no accuracy can be asked.
 pub(super) fn not_converged(
-    estimates: &[SearchEstimate],
+    searches: &[Search],
     answers: &[Answer],
     problem: &Problem,
     shots: usize,
     validation_shots: usize,
 ) -> Vec<usize> {
     let least = least_found(answers);
-    let is_unsettled = |claim: &SearchEstimate, answer: &Answer| {
-        let (_, claimed) = (*claim)?;
+    let is_open = |search: &Search, answer: &Answer| {
+        let claimed = search.best().fitness.objective()?;
         let found = answer.objective()?;
         let wanted = wanted(found, problem);
         let error = answer.standard_error();
@@ -59,9 +55,9 @@ pub(super) fn not_converged(
         };
         Some(could_win && (is_noisy || found - claimed > tolerable))
     };
-    let pairs = estimates.iter().zip(answers).enumerate();
+    let pairs = searches.iter().zip(answers).enumerate();
     pairs
-        .filter(|(_, (claim, answer))| is_unsettled(claim, answer).unwrap_or(false))
+        .filter(|(_, (search, answer))| is_open(search, answer).unwrap_or(false))
         .map(|(index, _)| index)
         .collect()
 }

@@ -55,7 +55,7 @@ impl Compaction {
 
     /// The same for several quantities.
     #[inline(always)]
-    pub fn fill_all<'a, R: Copy + 'a>(&self, lanes: impl IntoIterator<Item = &'a mut Lane<R>>) {
+    pub fn fill_all<'a>(&self, lanes: impl IntoIterator<Item = &'a mut Lane>) {
         lanes.into_iter().for_each(|lane| self.fill(lane));
     }
 }

@@ -11,55 +11,55 @@ use nalgebra::Vector3;
 use super::compaction::Compaction;
 use super::{End, MOST_DEFLECTIONS, Tracer, energy};
 use crate::jet::ShotSample;
-use crate::precision::{Real, Triple, along, unit};
 use crate::scene::lanes::{LANES, Lane, any, components, padded, put};
 use crate::scene::nozzle_frame::NozzleFrames;
 use crate::scene::rays::{Hits, Rays};
+use crate::triple::{Triple, along, unit};
 use impacts::{Impacts, Rules, path_state};
 
 /// Up to [`LANES`] shots in flight, side by side.
-pub(crate) struct RayPacket<R> {
+pub(crate) struct RayPacket {
     /// Their rays to the next impacts.
-    pub rays: Rays<R>,
+    pub rays: Rays,
     /// What these meet.
-    pub hits: Hits<R>,
+    pub hits: Hits,
     /// What the impacts there do.
-    pub impacts: Impacts<R>,
+    pub impacts: Impacts,
     /// Index of each shot among those that were fired together.
     pub shot: [u32; LANES],
     /// How many impacts it has had; hits on deflectors do not count.
-    pub number: Lane<R>,
+    pub number: Lane,
     /// What it stands for.
-    pub weight: Lane<R>,
+    pub weight: Lane,
     /// Whether it is one that the jet fires, and not one drawn towards the rim.
-    pub of_jet: Lane<R>,
+    pub of_jet: Lane,
     /// Factor on its speed.
-    pub speed: Lane<R>,
+    pub speed: Lane,
     /// Velocity of the centre, m/s.
-    pub velocity: [Lane<R>; 3],
+    pub velocity: [Lane; 3],
     /// R w, m/s.
-    pub rolling: [Lane<R>; 3],
-    mass: Lane<R>,
-    least_energy: Lane<R>,
+    pub rolling: [Lane; 3],
+    mass: Lane,
+    least_energy: Lane,
     /// The chosen contact as this shot meets it, when it is the same everywhere.
-    restitution: Lane<R>,
-    holds: Lane<R>,
-    slides: Lane<R>,
+    restitution: Lane,
+    holds: Lane,
+    slides: Lane,
 }
 
 /// Is told what happens to the shots of a volley.
-pub(crate) trait Observer<R> {
+pub(crate) trait Observer {
     /// All shots in flight have come to their next impact, or left.
-    fn impacts(&mut self, packet: &RayPacket<R>);
+    fn impacts(&mut self, packet: &RayPacket);
 
     /// A shot's path has ended after so many rays.
     fn ends(&mut self, shot: usize, end: End, rays: usize);
 }
 
 /// Fires `shots` together, at most [`LANES`]; returns the number of rays.
-pub(crate) fn fire<R: Real, W: Observer<R>>(
+pub(crate) fn fire<W: Observer>(
     tracer: &Tracer,
-    packet: &mut RayPacket<R>,
+    packet: &mut RayPacket,
     shots: &[ShotSample],
     observer: &mut W,
 ) -> usize {
@@ -74,9 +74,9 @@ pub(crate) fn fire<R: Real, W: Observer<R>>(
     "x86_64+avx+avx2+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+bmi1+bmi2+fma",
     "x86_64+avx+avx2+bmi1+bmi2+fma"
 ))]
-fn fire_at_walls<R: Real, W: Observer<R>>(
+fn fire_at_walls<W: Observer>(
     tracer: &Tracer,
-    packet: &mut RayPacket<R>,
+    packet: &mut RayPacket,
     shots: &[ShotSample],
     observer: &mut W,
 ) -> usize {
@@ -86,18 +86,18 @@ fn fire_at_walls<R: Real, W: Observer<R>>(
 /// Without AVX-512, for which some processors slow down all that they do; the walk through a tree
 /// gains nothing from it.
 #[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
-fn fire_at_facets<R: Real, W: Observer<R>>(
+fn fire_at_facets<W: Observer>(
     tracer: &Tracer,
-    packet: &mut RayPacket<R>,
+    packet: &mut RayPacket,
     shots: &[ShotSample],
     observer: &mut W,
 ) -> usize {
     packet.fly(tracer, shots, observer)
 }
 
-impl<R: Real> RayPacket<R> {
+impl RayPacket {
     pub fn none() -> Self {
-        let zeros = [R::ZERO; LANES];
+        let zeros = [0.0; LANES];
         Self {
             rays: Rays::none(),
             hits: Hits::none(),
@@ -106,7 +106,7 @@ impl<R: Real> RayPacket<R> {
             number: zeros,
             weight: zeros,
             of_jet: zeros,
-            speed: [R::ONE; LANES],
+            speed: [1.0; LANES],
             velocity: [zeros; 3],
             rolling: [zeros; 3],
             mass: zeros,
@@ -135,31 +135,31 @@ impl<R: Real> RayPacket<R> {
             put(&mut self.rays.direction, i, narrow(&ray.direction));
             let velocity = ray.direction * (tracer.speed * sample.speed);
             put(&mut self.velocity, i, narrow(&velocity));
-            put(&mut self.rolling, i, [R::ZERO; 3]);
-            self.rays.radius[i] = R::of(tracer.radius * sample.size);
+            put(&mut self.rolling, i, [0.0; 3]);
+            self.rays.radius[i] = tracer.radius * sample.size;
             self.shot[i] = i as u32;
-            self.number[i] = R::ZERO;
-            self.weight[i] = R::of(sample.weight);
+            self.number[i] = 0.0;
+            self.weight[i] = sample.weight;
             self.of_jet[i] = mask(sample.of_jet);
-            self.speed[i] = R::of(sample.speed);
-            self.mass[i] = R::of(tracer.mass * sample.mass());
+            self.speed[i] = sample.speed;
+            self.mass[i] = tracer.mass * sample.mass();
             if let Some(contact) = &tracer.only_contact {
                 let (restitution, factor) =
                     (contact.restitution + sample.restitution, sample.friction);
-                self.restitution[i] = R::of(restitution.clamp(0.0, 1.0));
-                self.holds[i] = R::of(contact.friction.holds * factor);
-                self.slides[i] = R::of(contact.friction.slides * factor);
+                self.restitution[i] = restitution.clamp(0.0, 1.0);
+                self.holds[i] = contact.friction.holds * factor;
+                self.slides[i] = contact.friction.slides * factor;
             }
         }
         self.rays.nozzle_frames = tracer.moves_parts.then(|| nozzle_frames(tracer, shots));
-        let share = R::of(tracer.scenario.problem.paths.least_energy);
+        let share = tracer.scenario.problem.paths.least_energy;
         for i in 0..padded(self.rays.count) {
-            self.least_energy[i] = share * energy(components(&self.velocity, i), [R::ZERO; 3]);
+            self.least_energy[i] = share * energy(components(&self.velocity, i), [0.0; 3]);
         }
     }
 
     #[inline(always)]
-    fn fly<W: Observer<R>>(
+    fn fly<W: Observer>(
         &mut self,
         tracer: &Tracer,
         shots: &[ShotSample],
@@ -172,8 +172,8 @@ impl<R: Real> RayPacket<R> {
             rays += self.rays.count;
             flights += 1;
             let rules = Rules {
-                most_impacts: R::of(most_impacts),
-                too_few_impacts: R::of(f64::from(flights) - f64::from(MOST_DEFLECTIONS)),
+                most_impacts,
+                too_few_impacts: (f64::from(flights) - f64::from(MOST_DEFLECTIONS)),
             };
             tracer.scenario.scene.first_hits(&self.rays, &mut self.hits);
             if tracer.has_deflectors {
@@ -188,7 +188,7 @@ impl<R: Real> RayPacket<R> {
             observer.impacts(self);
             self.end_paths(flights, observer);
             if !tracer.scenario.problem.paths.spin {
-                self.rolling = [[R::ZERO; LANES]; 3];
+                self.rolling = [[0.0; LANES]; 3];
             }
             self.leave();
         }
@@ -197,8 +197,8 @@ impl<R: Real> RayPacket<R> {
 
     /// Drops the shots whose paths have ended; the last of the others take their lanes.
     #[inline(always)]
-    fn end_paths<W: Observer<R>>(&mut self, flights: u32, observer: &mut W) {
-        let goes_on = R::of(path_state::GOES_ON);
+    fn end_paths<W: Observer>(&mut self, flights: u32, observer: &mut W) {
+        let goes_on = path_state::GOES_ON;
         let path_states = &self.impacts.path_state[..self.rays.count];
         if !any(path_states, |path_state| path_state != goes_on) {
             return;
@@ -272,7 +272,7 @@ impl<R: Real> RayPacket<R> {
 }
 
 /// Where the nozzle really stands for each shot.
-fn nozzle_frames<R: Real>(tracer: &Tracer, shots: &[ShotSample]) -> Box<NozzleFrames<R>> {
+fn nozzle_frames(tracer: &Tracer, shots: &[ShotSample]) -> Box<NozzleFrames> {
     let mut nozzle_frames = Box::new(NozzleFrames::none());
     for (i, sample) in shots.iter().take(LANES).enumerate() {
         nozzle_frames.set(i, &tracer.nozzle_frame(sample));
@@ -282,12 +282,12 @@ fn nozzle_frames<R: Real>(tracer: &Tracer, shots: &[ShotSample]) -> Box<NozzleFr
 
 /// 1 for what is true, 0 for what is not.
 #[inline(always)]
-pub(crate) fn mask<R: Real>(holds: bool) -> R {
-    if holds { R::ONE } else { R::ZERO }
+pub(crate) fn mask(holds: bool) -> f64 {
+    if holds { 1.0 } else { 0.0 }
 }
 
 /// A vector in the precision of the flight.
 #[inline(always)]
-fn narrow<R: Real>(vector: &Vector3<f64>) -> Triple<R> {
-    [R::of(vector.x), R::of(vector.y), R::of(vector.z)]
+fn narrow(vector: &Vector3<f64>) -> Triple {
+    [vector.x, vector.y, vector.z]
 }

@@ -1,11 +1,11 @@
 //! Rough surfaces: every impact meets a normal that is tilted by chance.
 
 use crate::jet::{ShotSample, normal_pair};
-use crate::precision::{Real, Triple, along, cross, dot, unit};
+use crate::triple::{Triple, along, cross, dot, unit};
 
 /// The tangents of a normal are laid out from this direction, which no surface that anybody draws
 /// is perpendicular to.
-const REFERENCE: Triple<f64> = [0.361_327, 0.527_151, 0.769_413];
+const REFERENCE: Triple = [0.361_327, 0.527_151, 0.769_413];
 
 /// Squared length of the cross product with [`REFERENCE`] below which there are no tangents.
 const LEAST_SQUARE: f64 = 1e-20;
@@ -22,17 +22,17 @@ pub(super) fn tilt(sample: &ShotSample, flight: u32, roughness: f64) -> [f64; 2]
 /// meet the tilted one from in front, or would then leave into the wall. `departure` is the velocity
 /// after an impact with some normal.
 #[inline]
-pub(super) fn normal_of_impact<R: Real>(
-    normal: Triple<R>,
+pub(super) fn normal_of_impact(
+    normal: Triple,
     tilt: [f64; 2],
-    velocity: Triple<R>,
-    departure: impl Fn(Triple<R>) -> Triple<R>,
-) -> Triple<R> {
+    velocity: Triple,
+    departure: impl Fn(Triple) -> Triple,
+) -> Triple {
     let Some(tilted) = tilted(normal, tilt) else {
         return normal;
     };
-    let is_met = dot(velocity, normal) < R::ZERO && dot(velocity, tilted) < R::ZERO;
-    if is_met && dot(departure(tilted), normal) > R::ZERO {
+    let is_met = dot(velocity, normal) < 0.0 && dot(velocity, tilted) < 0.0;
+    if is_met && dot(departure(tilted), normal) > 0.0 {
         tilted
     } else {
         normal
@@ -40,15 +40,15 @@ pub(super) fn normal_of_impact<R: Real>(
 }
 
 /// unit(n + a t1 + b t2) with two perpendicular tangents of the normal n.
-fn tilted<R: Real>(normal: Triple<R>, [a, b]: [f64; 2]) -> Option<Triple<R>> {
+fn tilted(normal: Triple, [a, b]: [f64; 2]) -> Option<Triple> {
     let [x, y, z] = REFERENCE;
-    let first = cross(normal, [R::of(x), R::of(y), R::of(z)]);
-    if dot(first, first) < R::of(LEAST_SQUARE) {
+    let first = cross(normal, [x, y, z]);
+    if dot(first, first) < LEAST_SQUARE {
         return None;
     }
     let first = unit(first);
     let second = cross(normal, first);
-    let tilted = along(along(normal, first, R::of(a)), second, R::of(b));
+    let tilted = along(along(normal, first, a), second, b);
     Some(unit(tilted))
 }
 

@@ -15,8 +15,8 @@ struct Scribe {
     stories: Vec<Story>,
 }
 
-impl Observer<f64> for Scribe {
-    fn impacts(&mut self, packet: &RayPacket<f64>) {
+impl Observer for Scribe {
+    fn impacts(&mut self, packet: &RayPacket) {
         for i in 0..packet.rays.count {
             if packet.impacts.counts[i] != 0.0 {
                 let story = &mut self.stories[packet.shot[i] as usize];
@@ -30,7 +30,7 @@ impl Observer<f64> for Scribe {
     }
 }
 
-fn impact_of(packet: &RayPacket<f64>, i: usize) -> PathImpact {
+fn impact_of(packet: &RayPacket, i: usize) -> PathImpact {
     let vector = |lanes| Vector3::from(crate::scene::lanes::components(lanes, i));
     PathImpact {
         number: packet.number[i] as usize,

@@ -10,7 +10,7 @@ use peenpose::record::{Record, RunInfo, StatusRecord, WorkRecord};
 use peenpose::report::sheet;
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Answer, Ladder};
+use peenpose::solve::Answer;
 use peenpose::unknowns::{Quantity, Unknowns};
 use peenpose::verdict::Subject;
 
@@ -192,7 +192,7 @@ fn record(case: &Case) -> Record {
         source: &case.source,
         status: StatusRecord::Evaluated,
         command: "peenpose evaluate plate.yaml".into(),
-        ladder: &Ladder::of(&case.scenario),
+        ablations: &[],
         work: WorkRecord {
             poses: 1,
             shots_per_pose: 4096,

@@ -247,7 +247,7 @@ mod sheets {
             },
         );
         let run = RunInfo {
-            ladder: &solution.ladder,
+            ablations: &solution.ablations,
             source: &reading.source,
             status: solution.status.into(),
             command: "peenpose solve test.yaml".into(),

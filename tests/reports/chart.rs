@@ -5,8 +5,7 @@ use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
 use assert_cmd::Command;
-use peenpose::chart::{BesidePoint, Chart, Control, PoseCurve, Refusal, Sampling, Walls, measure};
-use peenpose::precision::Precision;
+use peenpose::chart::{BesidePoint, Chart, Control, Refusal, Sampling, measure};
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::scenario::Scenario;
@@ -114,7 +113,6 @@ fn every_file_is_there_and_the_text_is_printed() {
     }
     for heading in [
         "J OF ONE POSE",
-        "PRECISION",
         "WALLS",
         "SEARCH",
         "EFFECTS",
@@ -146,10 +144,8 @@ fn numbers(csv: &str, name: &str) -> Vec<f64> {
 #[test]
 fn tables_can_be_read() {
     let poses = RUN.text("pose.csv");
-    // 3 ways to draw shots; exact walls in 2 precisions and 3 meshes; 16 to 16384 shots in steps of 4.
-    assert_eq!(numbers(&poses, "shots").len(), 3 * 5 * 6);
-    let precisions = column(&poses, "precision");
-    assert_eq!(precisions.iter().filter(|p| *p == "f32").count(), 3 * 6);
+    // 3 ways to draw shots; exact walls and 3 meshes; 16 to 16384 shots in steps of 4.
+    assert_eq!(numbers(&poses, "shots").len(), 3 * 4 * 6);
     assert!(
         numbers(&poses, "seconds")
             .iter()
@@ -205,36 +201,6 @@ fn errors_fall_with_shots_and_rim_shots_beat_random_ones() {
     assert_eq!(reference.shots, 32 * 16384);
 }
 
-/// A text without its line breaks.
-fn unwrapped(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-#[test]
-fn single_precision_errs_by_far_less_than_sampling() {
-    let chart = RUN.chart();
-    for sampling in Sampling::ALL {
-        let curve = |precision: Precision| {
-            let is_it = |c: &&PoseCurve| c.sampling == sampling && c.precision == precision;
-            chart.poses.iter().find(is_it).unwrap()
-        };
-        let (double, single) = (curve(Precision::F64), curve(Precision::F32));
-        assert_eq!((double.walls, single.walls), (Walls::Exact, Walls::Exact));
-        assert!(single.bias != 0.0 && single.bias.abs() < 1e-4, "{single:?}");
-        for (double, single) in double.points.iter().zip(&single.points).take(4) {
-            assert_eq!(double.shots, single.shots);
-            let ratio = single.error / double.error;
-            assert!((ratio - 1.0).abs() < 0.01, "{sampling:?}: {ratio}");
-        }
-    }
-    let text = unwrapped(&report::chart(&chart));
-    assert!(text.contains("enough for a search to 3 %"), "{text}");
-    assert!(!text.contains("not enough"), "{text}");
-    // Rays meet triangles in f64.
-    let is_single_mesh = |c: &PoseCurve| c.walls != Walls::Exact && c.precision == Precision::F32;
-    assert!(!chart.poses.iter().any(is_single_mesh));
-}
-
 #[test]
 fn what_is_left_out_changes_what_it_should() {
     let chart = RUN.chart();
@@ -262,8 +228,7 @@ fn figures_are_well_formed_and_name_axes_and_units() {
             "error of J, % of J",
             " µs",
             " %",
-            "exact walls, f64",
-            "exact walls, f32",
+            "exact walls",
             "faster",
             "more accurate",
         ],
@@ -387,9 +352,6 @@ fn a_problem_without_scatter_has_no_figure_of_it() {
     assert!(run.text("pose.csv").lines().count() > 1);
     assert!(run.out.contains("as good without any one of these effects"));
     assert!(run.out.contains("(J = 9.6e-13)"), "{}", run.out);
-    // All of such a J is rounding, which f32 does more of.
-    let text = unwrapped(&run.out);
-    assert!(text.contains("not enough for a search to 1 %"), "{text}");
     assert!(
         !run.out.contains("NaN") && !run.out.contains("inf"),
         "{}",
@@ -464,7 +426,7 @@ fn a_chart_that_is_stopped_later_keeps_what_it_has() {
     };
     let chart = measure(&scenario, &source, String::new(), Vec::new(), &control).unwrap();
     assert!(chart.interrupted);
-    assert_eq!(chart.poses.len(), 3 * 5);
+    assert_eq!(chart.poses.len(), 3 * 4);
     assert_eq!(chart.searches.as_ref().unwrap().runs.len(), 2);
     assert!(chart.effects.is_empty());
     assert!(report::chart(&chart).contains("interrupted"));

@@ -8,7 +8,7 @@ mod examples;
 mod best_known;
 mod deflector;
 mod determinism;
-mod ladder;
+mod effects;
 mod map;
 mod pareto;
 mod shortcuts;

@@ -4,9 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use peenpose::checkpoint::Checkpoint;
-use peenpose::evaluate::evaluate_adaptively;
-use peenpose::jet::{ValidationSample, purpose};
-use peenpose::precision::Precision;
 use peenpose::problem::setting::{Range, Settings};
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
@@ -37,61 +34,6 @@ fn choices(solution: &Solution) -> Vec<Settings> {
         .iter()
         .map(|answer| answer.settings)
         .collect()
-}
-
-/// J of the answer for each contact, in the order of the file.
-fn objectives(solution: &Solution) -> Vec<f64> {
-    let mut answers: Vec<_> = solution.answers.iter().collect();
-    answers.sort_by_key(|answer| answer.settings.contact);
-    let evaluations = answers
-        .iter()
-        .map(|answer| answer.evaluation.as_ref().unwrap());
-    evaluations
-        .map(|evaluation| evaluation.terms.total())
-        .collect()
-}
-
-/// The largest difference of J between two answers for the same contact, relative.
-fn apart(one: &Solution, other: &Solution) -> f64 {
-    let pairs = objectives(one).into_iter().zip(objectives(other));
-    pairs
-        .map(|(one, other)| (one / other - 1.0).abs())
-        .fold(0.0, f64::max)
-}
-
-/// The part of the accuracy asked for by which J of answers may differ that were traced in other
-/// precisions.
-const ALIKE: f64 = 0.1;
-
-/// Every figure is what an evaluation of these settings says by itself, which knows f64 alone.
-fn figures_are_those_of_evaluations(scenario: &Scenario, solution: &Solution) {
-    for answer in &solution.answers {
-        let reported = answer.evaluation.as_ref().unwrap();
-        let fresh = ValidationSample::new(&scenario.problem, purpose::ANSWERS, reported.shots);
-        let found = evaluate_adaptively(scenario, &answer.settings, &fresh);
-        assert_eq!(format!("{reported:?}"), format!("{found:?}"));
-    }
-}
-
-#[test]
-fn searches_in_single_and_in_double_precision_find_answers_of_equal_objective() {
-    let in_double = Shortcuts {
-        single_precision: false,
-        ..Shortcuts::default()
-    };
-    for file in ["keyway.yaml", "keyway-long.yaml"] {
-        let scenario = shipped(file).as_asked();
-        let (single, double) = (
-            searched(&scenario, Shortcuts::default()),
-            searched(&scenario, in_double),
-        );
-        assert_eq!(single.ladder.precision, Precision::F32, "{file}");
-        assert_eq!(double.ladder.precision, Precision::F64, "{file}");
-        let apart = apart(&single, &double);
-        assert!(apart < ALIKE * scenario.problem.accuracy, "{file}: {apart}");
-        figures_are_those_of_evaluations(&scenario, &single);
-        figures_are_those_of_evaluations(&scenario, &double);
-    }
 }
 
 #[test]

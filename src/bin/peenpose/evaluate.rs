@@ -8,7 +8,7 @@ use peenpose::jet::{Draw, purpose};
 use peenpose::problem::setting::{Setting, Settings};
 use peenpose::record::{Record, RunInfo, StatusRecord, WorkRecord};
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Answer, Ladder};
+use peenpose::solve::Answer;
 use peenpose::units;
 use peenpose::unknowns::Unknowns;
 use peenpose::validity;
@@ -38,7 +38,7 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         source: &source,
         status: StatusRecord::Evaluated,
         command: command(args, &scenario, &settings),
-        ladder: &Ladder::of(&scenario),
+        ablations: &[],
         work: WorkRecord {
             poses: 1,
             shots_per_pose: shots,

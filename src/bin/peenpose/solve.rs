@@ -64,7 +64,7 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
             solution.status.into()
         },
         command: command(args, &scenario),
-        ladder: &solution.ladder,
+        ablations: &solution.ablations,
         work: WorkRecord {
             poses: solution.poses + front.as_ref().map_or(0, |front| front.poses),
             shots_per_pose: solution.shots_per_pose,

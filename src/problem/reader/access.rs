@@ -73,12 +73,12 @@ impl<'a> MapAccess<'a> for Entries<'a> {
 }
 
 /// An enum that is chosen by the form of its value.
-pub(super) struct Primitive<'a> {
+pub(super) struct Form<'a> {
     pub form: &'static str,
     pub reader: Reader<'a>,
 }
 
-impl<'a> EnumAccess<'a> for Primitive<'a> {
+impl<'a> EnumAccess<'a> for Form<'a> {
     type Error = ReadError;
     type Variant = Reader<'a>;
 

@@ -10,7 +10,7 @@ pub(in crate::problem) enum ReadError {
     /// The fault is on record already.
     Recorded,
     /// Raised by serde's own code; the reader that sees it first records it.
-    ValidationSample {
+    Fresh {
         message: String,
         expected: Option<String>,
     },
@@ -18,14 +18,14 @@ pub(in crate::problem) enum ReadError {
 
 impl de::Error for ReadError {
     fn custom<T: fmt::Display>(message: T) -> Self {
-        Self::ValidationSample {
+        Self::Fresh {
             message: message.to_string(),
             expected: None,
         }
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::ValidationSample {
+        Self::Fresh {
             message: format!("is {found}"),
             expected: Some(expected.to_string()),
         }
@@ -36,7 +36,7 @@ impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Recorded => f.write_str("a fault that is on record"),
-            Self::ValidationSample { message, .. } => f.write_str(message),
+            Self::Fresh { message, .. } => f.write_str(message),
         }
     }
 }

@@ -18,7 +18,7 @@ use serde::Deserializer;
 use serde::de::{IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 
-use access::{Entries, Items, Primitive};
+use access::{Entries, Form, Items};
 use error::ReadError;
 
 use super::fault::{Fault, one_of};
@@ -208,7 +208,7 @@ impl<'a> Deserializer<'a> for Reader<'a> {
         if by_form {
             let form = self.form();
             return if variants.contains(&form) {
-                visitor.visit_enum(Primitive { form, reader: self })
+                visitor.visit_enum(Form { form, reader: self })
             } else {
                 Err(self.unexpected(name))
             };

@@ -35,7 +35,7 @@ impl<'a> Reader<'a> {
     pub(super) fn record<T>(&self, result: Result<T, ReadError>) -> Result<T, ReadError> {
         result.map_err(|error| match error {
             ReadError::Recorded => ReadError::Recorded,
-            ReadError::ValidationSample { message, expected } => {
+            ReadError::Fresh { message, expected } => {
                 let mut fault = Fault::at_key(FaultCode::WrongKind, &self.key, message);
                 fault.expected = expected;
                 self.push(fault)

@@ -6,9 +6,8 @@ use plotters::style::text_anchor::HPos;
 use super::axis::{LogAxis, percent};
 use super::plot::{Axes, Plot};
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
-use super::style::{FAINT, GHOST, INK, LABEL, Look, look_of};
+use super::style::{FAINT, GHOST, INK, LABEL, look_of};
 use crate::chart::{Chart, PoseCurve, Sampling, Walls};
-use crate::precision::Precision;
 use crate::report::finding;
 use crate::report::number::{count, significant, time};
 
@@ -50,14 +49,9 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
     }))
 }
 
-/// Whether there is more than rounding in double precision.
+/// Whether there is more than rounding.
 fn scatters(chart: &Chart) -> bool {
-    let is_double = |curve: &&PoseCurve| curve.precision == Precision::F64;
-    let mut points = chart
-        .poses
-        .iter()
-        .filter(is_double)
-        .flat_map(|curve| &curve.points);
+    let mut points = chart.poses.iter().flat_map(|curve| &curve.points);
     points.any(|point| point.error > LEAST_ERROR)
 }
 
@@ -111,7 +105,7 @@ fn panel(chart: &Chart, plot: &Plot, sampling: Sampling, (x, y): (LogAxis, LogAx
     }
     for (index, curve) in curves(sampling).enumerate() {
         // The ways are in the same order in every panel.
-        let look = look(index, curve);
+        let look = look_of(index);
         plot.line(&points(curve), look)?;
         for point in points(curve) {
             plot.marker(point, look, 9.0)?;
@@ -127,14 +121,6 @@ fn panel(chart: &Chart, plot: &Plot, sampling: Sampling, (x, y): (LogAxis, LogAx
         picked(chart, plot, curve)?;
     }
     Ok(())
-}
-
-/// Single precision is dashed.
-fn look(index: usize, curve: &PoseCurve) -> Look {
-    Look {
-        is_dashed: curve.precision == Precision::F32,
-        ..look_of(index)
-    }
 }
 
 /// The curve that lies leftmost.
@@ -198,7 +184,7 @@ fn legend(chart: &Chart, area: &Area) -> Drawn {
         if left + width > SIZE.0 as i32 - MARGIN {
             (left, top) = (MARGIN, top + LEGEND_ROW);
         }
-        key(area, (left, top), look(index, curve), &name)?;
+        key(area, (left, top), look_of(index), &name)?;
         left += width + MARGIN;
     }
     Ok(())
@@ -208,12 +194,9 @@ fn legend(chart: &Chart, area: &Area) -> Drawn {
 pub fn curve_name(curve: &PoseCurve) -> String {
     let triangles = count(curve.triangles);
     match curve.walls {
-        Walls::Exact => match curve.precision {
-            Precision::F64 => "exact walls, f64".into(),
-            Precision::F32 => "exact walls, f32".into(),
-        },
+        Walls::Exact => "exact walls".into(),
         Walls::Mesh => format!("the mesh as it is, {triangles} triangles"),
-        Walls::TriangleMesh { chord_angle_deg } => {
+        Walls::Facets { chord_angle_deg } => {
             format!("mesh, chords turn {chord_angle_deg}°, {triangles} triangles")
         }
     }

@@ -1,8 +1,7 @@
-//! What each effect of the model does here, and what the search did without.
+//! What each effect of the model does at the answer.
 
 use super::setting::{SETTINGS, Setting};
-use crate::precision::Precision;
-use crate::record::{ModelRecord, Record, RungRecord, SettingsRecord};
+use crate::record::{EffectRecord, ModelRecord, Record, SettingsRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{fixed, significant};
 
@@ -19,7 +18,7 @@ pub fn block(record: &Record) -> Option<Block> {
         ("costing", Align::Right),
         ("rays", Align::Right),
         ("turns", Align::Left),
-        ("search", Align::Left),
+        ("figures", Align::Left),
     ]);
     for effect in &model.effects {
         table.row([
@@ -33,7 +32,7 @@ pub fn block(record: &Record) -> Option<Block> {
             },
             format!("{} %", fixed(effect.relative_rays * 100.0, 0)),
             turns(effect),
-            if effect.left_out { "without" } else { "with" }.into(),
+            if effect.left_out { "without" } else { "" }.into(),
         ]);
     }
     let mut block = Block::default();
@@ -66,7 +65,7 @@ fn change(change: f64) -> String {
 }
 
 /// The setting that moves most.
-fn moves(effect: &RungRecord) -> String {
+fn moves(effect: &EffectRecord) -> String {
     let both = [&effect.settings_with, &effect.settings_without];
     let matters = |setting: &&Setting| !both.iter().any(|it| setting.is_any_at(it));
     let moves = SETTINGS.iter().filter(matters).filter_map(|setting| {
@@ -95,7 +94,7 @@ fn measure(setting: &Setting, settings: &SettingsRecord) -> f64 {
     }
 }
 
-fn turns(effect: &RungRecord) -> String {
+fn turns(effect: &EffectRecord) -> String {
     match effect.turned.as_slice() {
         [] => "-".into(),
         [one] => one.clone(),
@@ -106,25 +105,11 @@ fn turns(effect: &RungRecord) -> String {
 fn sentence(model: &ModelRecord) -> String {
     let left_out = model.effects.iter().filter(|effect| effect.left_out);
     let left_out: Vec<&str> = left_out.map(|e| e.description.as_str()).collect();
-    let is_auto = model.asked.iter().any(|asked| asked == "auto");
-    let what = if left_out.is_empty() {
-        "Every effect matters here: none was left out".to_owned()
-    } else {
-        format!("Left out: {}", left_out.join(", "))
-    };
-    let figures = if is_auto {
-        "; all figures and verdicts are those of the whole model."
-    } else {
-        ", as the file asks; the figures are without them."
-    };
-    let put_back = match model.put_back {
-        0 => String::new(),
-        1 => " One effect was put back because the whole model disagreed.".into(),
-        more => format!(" {more} effects were put back because the whole model disagreed."),
-    };
-    let precision = match model.precision {
-        Precision::F64 => "",
-        Precision::F32 => " The search traced in single precision, the figures are in double.",
-    };
-    format!("{what}{figures}{put_back}{precision}")
+    if left_out.is_empty() {
+        return "All figures and verdicts are those of the whole model.".into();
+    }
+    format!(
+        "Left out, as the file asks: {}; the figures are without them.",
+        left_out.join(", ")
+    )
 }

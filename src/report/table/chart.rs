@@ -4,7 +4,6 @@ use std::io;
 
 use super::{Rows, Table};
 use crate::chart::{Chart, Method, Sampling, Walls};
-use crate::precision::Precision;
 use crate::report::number::plain;
 
 pub(super) fn all(chart: &Chart) -> io::Result<Vec<Table>> {
@@ -19,7 +18,6 @@ fn poses(chart: &Chart) -> io::Result<Table> {
             "walls",
             "chord_angle_deg",
             "triangles",
-            "precision",
             "shots",
             "seconds",
             "error",
@@ -36,11 +34,7 @@ fn poses(chart: &Chart) -> io::Result<Table> {
         let (walls, chord_angle) = match curve.walls {
             Walls::Exact => ("exact", String::new()),
             Walls::Mesh => ("mesh", String::new()),
-            Walls::TriangleMesh { chord_angle_deg } => ("facets", plain(chord_angle_deg)),
-        };
-        let precision = match curve.precision {
-            Precision::F64 => "f64",
-            Precision::F32 => "f32",
+            Walls::Facets { chord_angle_deg } => ("facets", plain(chord_angle_deg)),
         };
         for point in &curve.points {
             table.row(&[
@@ -48,7 +42,6 @@ fn poses(chart: &Chart) -> io::Result<Table> {
                 &walls,
                 &chord_angle,
                 &curve.triangles,
-                &precision,
                 &point.shots,
                 &point.seconds,
                 &point.error,

@@ -3,7 +3,6 @@
 use nalgebra::{Point3, Vector3};
 
 use super::query_shape::QueryShape;
-use crate::precision::Triple;
 use crate::scene::ray::Ray;
 
 /// The coordinates of the boxes: the mesh reaches from -1 to 1 along its longest side.
@@ -21,10 +20,10 @@ pub(super) struct Frame {
 pub(in crate::scene) struct FlatRay<B> {
     /// To measure the sides from where the ray enters and leaves: instead of the sides, the origin
     /// is moved by the radius, forwards and back. Without a radius the first stands for both.
-    pub origins: [Triple<f32>; 2],
+    pub origins: [[f32; 3]; 2],
     /// Inverse direction, towards 0 and away from 0 by more than all rounding on the way to a
     /// distance, for the sides where the ray enters and leaves.
-    pub inverse: [Triple<f32>; 2],
+    pub inverse: [[f32; 3]; 2],
     /// Which of a node's sides the ray enters and leaves through.
     pub sides: [[usize; 3]; 2],
     /// For a closer look at some of the boxes.

@@ -6,13 +6,12 @@ use wide::f32x8;
 use super::oriented_slab::{Looks, OrientedSlabs, UNIT};
 use super::query_shape::QueryShape;
 use super::{Node, WIDTH};
-use crate::precision::Triple;
 use crate::scene::lanes::{larger, smaller};
 
 /// A point.
 pub(in crate::scene) struct Point {
-    origin: Triple<f32>,
-    direction: Triple<f32>,
+    origin: [f32; 3],
+    direction: [f32; 3],
     /// What rounding makes of heights over slabs because of the origin.
     doubt: f32,
 }

@@ -1,59 +1,58 @@
 //! Cylindrical walls.
 
 use super::{Extent, Flight, Intersect, Intersection, chosen, dot, minus};
-use crate::precision::Real;
 
 /// A cylindrical wall, unbounded along z.
 #[derive(Clone, Copy, Debug)]
-pub struct Cylinder<R> {
-    pub centre: [R; 2],
-    pub radius: R,
+pub struct Cylinder {
+    pub centre: [f64; 2],
+    pub radius: f64,
     /// +1 when free space is inside the circle.
-    pub side: R,
+    pub side: f64,
     /// The arc is where (p - centre) . towards >= reach.
-    pub towards: [R; 2],
-    pub reach: R,
+    pub towards: [f64; 2],
+    pub reach: f64,
 }
 
-impl<R: Real> Cylinder<R> {
+impl Cylinder {
     /// The same wall in another precision.
-    pub fn with<S: Real>(&self) -> Cylinder<S> {
+    pub fn with(&self) -> Cylinder {
         Cylinder {
-            centre: self.centre.map(|x| S::of(x.wide())),
-            radius: S::of(self.radius.wide()),
-            side: S::of(self.side.wide()),
-            towards: self.towards.map(|x| S::of(x.wide())),
-            reach: S::of(self.reach.wide()),
+            centre: self.centre.map(|x| x),
+            radius: self.radius,
+            side: self.side,
+            towards: self.towards.map(|x| x),
+            reach: self.reach,
         }
     }
 
     #[inline(always)]
-    pub fn relative(&self, point: [R; 2]) -> [R; 2] {
+    pub fn relative(&self, point: [f64; 2]) -> [f64; 2] {
         minus(point, self.centre)
     }
 
     #[inline(always)]
-    pub fn offset(&self, origin: [R; 2], direction: [R; 2], distance: R) -> [R; 2] {
+    pub fn offset(&self, origin: [f64; 2], direction: [f64; 2], distance: f64) -> [f64; 2] {
         let [x, y] = self.relative(origin);
         [x + direction[0] * distance, y + direction[1] * distance]
     }
 
     /// Distance between a point of the cross-section and the whole circle.
     #[inline(always)]
-    pub fn distance_to_whole(&self, to: [R; 2]) -> R {
+    pub fn distance_to_whole(&self, to: [f64; 2]) -> f64 {
         let relative = self.relative(to);
         (dot(relative, relative).sqrt() - self.radius).abs()
     }
 
     /// Unit normal on the front, at an offset from the centre.
     #[inline(always)]
-    pub(super) fn front(&self, offset: [R; 2]) -> [R; 2] {
+    pub(super) fn front(&self, offset: [f64; 2]) -> [f64; 2] {
         let scale = -self.side / self.radius;
         [offset[0] * scale, offset[1] * scale]
     }
 
     #[inline(always)]
-    pub fn lies_on(&self, relative: [R; 2], slack: R) -> bool {
+    pub fn lies_on(&self, relative: [f64; 2], slack: f64) -> bool {
         let excess = dot(relative, relative) - self.radius * self.radius;
         (excess.abs() <= (self.radius + self.radius) * slack)
             & (dot(relative, self.towards) >= self.reach - slack)
@@ -62,11 +61,11 @@ impl<R: Real> Cylinder<R> {
     /// Distances at which a line crosses the whole cylinder, nearest first, and whether it comes
     /// from the front there; NaN for none. A line that starts `on_it` crosses it once more.
     #[inline(always)]
-    pub fn roots(&self, origin: [R; 2], direction: [R; 2], on_it: bool) -> [(R, bool); 2] {
+    pub fn roots(&self, origin: [f64; 2], direction: [f64; 2], on_it: bool) -> [(f64, bool); 2] {
         let relative = self.relative(origin);
         let (a, half_b) = (dot(direction, direction), dot(relative, direction));
         let c = if on_it {
-            R::ZERO
+            0.0
         } else {
             dot(relative, relative) - self.radius * self.radius
         };
@@ -74,7 +73,7 @@ impl<R: Real> Cylinder<R> {
         let q = -(half_b + (half_b * half_b - a * c).sqrt().copysign(half_b));
         let (first, second) = (q / a, c / q);
         let swapped = second < first;
-        let inside_is_free = self.side > R::ZERO;
+        let inside_is_free = self.side > 0.0;
         [
             (if swapped { second } else { first }, !inside_is_free),
             (if swapped { first } else { second }, inside_is_free),
@@ -84,10 +83,10 @@ impl<R: Real> Cylinder<R> {
     #[inline(always)]
     fn ahead(
         &self,
-        flight: &Flight<R>,
-        extent: &Extent<R>,
-        (distance, front): (R, bool),
-    ) -> Intersection<R> {
+        flight: &Flight,
+        extent: &Extent,
+        (distance, front): (f64, bool),
+    ) -> Intersection {
         let ([x, y, _], [u, v, _]) = (flight.origin, flight.direction);
         let margin = flight.margin(front, extent);
         let offset = self.offset([x, y], [u, v], distance);
@@ -101,7 +100,7 @@ impl<R: Real> Cylinder<R> {
     }
 }
 
-impl Cylinder<f64> {
+impl Cylinder {
     /// Distance to a point of the cross-section.
     #[inline]
     pub fn distance(&self, to: [f64; 2]) -> f64 {
@@ -145,9 +144,9 @@ impl Cylinder<f64> {
     }
 }
 
-impl<R: Real> Intersect<R> for Cylinder<R> {
+impl Intersect for Cylinder {
     #[inline(always)]
-    fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Intersection<R> {
+    fn meet<const LEAVES: bool>(&self, flight: &Flight, extent: &Extent) -> Intersection {
         let ([x, y, z], [u, v, _]) = (flight.origin, flight.direction);
         let relative = self.relative([x, y]);
         let touches = LEAVES
@@ -163,11 +162,11 @@ impl<R: Real> Intersect<R> for Cylinder<R> {
             return ahead;
         }
         let touching = flight.touching(self.front(relative));
-        chosen(touches & (touching.rank == R::ZERO), touching, ahead)
+        chosen(touches & (touching.rank == 0.0), touching, ahead)
     }
 
     #[inline(always)]
-    fn touch(&self, flight: &Flight<R>, extent: &Extent<R>) -> Intersection<R> {
+    fn touch(&self, flight: &Flight, extent: &Extent) -> Intersection {
         self.touched(flight, extent)
     }
 }

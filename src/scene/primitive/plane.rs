@@ -1,65 +1,64 @@
 //! Plane walls.
 
 use super::{Extent, Flight, Intersect, Intersection, chosen, dot, minus};
-use crate::precision::Real;
 
 /// A plane wall, unbounded along z.
 #[derive(Clone, Copy, Debug)]
-pub struct Plane<R> {
-    pub from: [R; 2],
-    pub tangent: [R; 2],
-    pub length: R,
+pub struct Plane {
+    pub from: [f64; 2],
+    pub tangent: [f64; 2],
+    pub length: f64,
 }
 
-impl<R: Real> Plane<R> {
+impl Plane {
     /// The same wall in another precision.
-    pub fn with<S: Real>(&self) -> Plane<S> {
+    pub fn with(&self) -> Plane {
         Plane {
-            from: self.from.map(|x| S::of(x.wide())),
-            tangent: self.tangent.map(|x| S::of(x.wide())),
-            length: S::of(self.length.wide()),
+            from: self.from.map(|x| x),
+            tangent: self.tangent.map(|x| x),
+            length: self.length,
         }
     }
 
     /// A quarter turn counter-clockwise from the tangent.
     #[inline(always)]
-    pub(super) fn front(&self) -> [R; 2] {
+    pub(super) fn front(&self) -> [f64; 2] {
         [-self.tangent[1], self.tangent[0]]
     }
 
     /// Height over the front of the plane and place along it.
     #[inline(always)]
-    pub fn place(&self, point: [R; 2]) -> (R, R) {
+    pub fn place(&self, point: [f64; 2]) -> (f64, f64) {
         let relative = minus(point, self.from);
         (dot(relative, self.front()), dot(relative, self.tangent))
     }
 
     /// Squared distance to a point of the cross-section.
     #[inline(always)]
-    pub fn squared_distance(&self, to: [R; 2]) -> R {
+    pub fn squared_distance(&self, to: [f64; 2]) -> f64 {
         let (height, along) = self.place(to);
-        let beyond = if along < R::ZERO {
+        let beyond = if along < 0.0 {
             along
         } else if along > self.length {
             along - self.length
         } else {
-            R::ZERO
+            0.0
         };
         height * height + beyond * beyond
     }
 
     #[inline(always)]
-    pub fn approach(&self, direction: [R; 2]) -> R {
+    pub fn approach(&self, direction: [f64; 2]) -> f64 {
         dot(direction, self.front())
     }
 
     #[inline(always)]
-    pub fn spans(&self, along: R, margin: R) -> bool {
+    pub fn spans(&self, along: f64, margin: f64) -> bool {
         (along >= -margin) & (along <= self.length + margin)
     }
 }
 
-impl Plane<f64> {
+impl Plane {
     /// Distance to a point of the cross-section.
     #[inline]
     pub fn distance(&self, to: [f64; 2]) -> f64 {
@@ -77,14 +76,14 @@ impl Plane<f64> {
     }
 }
 
-impl<R: Real> Intersect<R> for Plane<R> {
+impl Intersect for Plane {
     #[inline(always)]
-    fn meet<const LEAVES: bool>(&self, flight: &Flight<R>, extent: &Extent<R>) -> Intersection<R> {
+    fn meet<const LEAVES: bool>(&self, flight: &Flight, extent: &Extent) -> Intersection {
         let ([x, y, z], [u, v, _]) = (flight.origin, flight.direction);
         let (height, start) = self.place([x, y]);
         let approach = self.approach([u, v]);
         let distance = -height / approach;
-        let front = approach < R::ZERO;
+        let front = approach < 0.0;
         let margin = flight.margin(front, extent);
         let spans = self.spans(start + distance * dot([u, v], self.tangent), margin);
         let ahead = Intersection {
@@ -102,14 +101,14 @@ impl<R: Real> Intersect<R> for Plane<R> {
         let met = chosen(touches, flight.touching(self.front()), ahead);
         // A line that starts on a plane meets it nowhere else.
         let nowhere = Intersection {
-            rank: R::INFINITY,
+            rank: f64::INFINITY,
             ..met
         };
         chosen(flight.from_here, nowhere, met)
     }
 
     #[inline(always)]
-    fn touch(&self, flight: &Flight<R>, extent: &Extent<R>) -> Intersection<R> {
+    fn touch(&self, flight: &Flight, extent: &Extent) -> Intersection {
         self.touched(flight, extent)
     }
 }

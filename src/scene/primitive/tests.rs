@@ -3,20 +3,20 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::*;
 
 const SLACK: f64 = 1e-6;
-const EXTENT: Extent<f64> = Extent {
+const EXTENT: Extent = Extent {
     length: 10.0,
     slack: SLACK,
 };
 
 /// From (1, 2) for 5 in the direction (3, 4); its front looks to the upper left.
-const PLANE: Plane<f64> = Plane {
+const PLANE: Plane = Plane {
     from: [1.0, 2.0],
     tangent: [0.6, 0.8],
     length: 5.0,
 };
 
 /// A circle of radius 5 round (1, 2); of it the arc to the right between (4, -2) and (4, 6).
-const ARC: Cylinder<f64> = Cylinder {
+const ARC: Cylinder = Cylinder {
     centre: [1.0, 2.0],
     radius: 5.0,
     side: 1.0,
@@ -24,7 +24,7 @@ const ARC: Cylinder<f64> = Cylinder {
     reach: 3.0,
 };
 
-const WHOLE: Cylinder<f64> = Cylinder {
+const WHOLE: Cylinder = Cylinder {
     centre: [0.0, 0.0],
     reach: f64::MIN,
     ..ARC
@@ -37,7 +37,7 @@ fn over(along: f64, height: f64) -> [f64; 2] {
 }
 
 /// A flight in the cross-section at z = 5.
-fn flight(origin: [f64; 2], direction: [f64; 2], radius: f64) -> Flight<f64> {
+fn flight(origin: [f64; 2], direction: [f64; 2], radius: f64) -> Flight {
     Flight {
         origin: [origin[0], origin[1], 5.0],
         direction: [direction[0], direction[1], 0.0],
@@ -346,7 +346,7 @@ fn rays_that_start_on_a_plane_meet_it_at_once_or_never() {
 
 #[test]
 fn rays_meet_a_cylinder_where_it_is() {
-    let meet = |cylinder: &Cylinder<f64>, origin: [f64; 2], direction: [f64; 2]| {
+    let meet = |cylinder: &Cylinder, origin: [f64; 2], direction: [f64; 2]| {
         let met = cylinder.meet::<false>(&flight(origin, direction, 0.0), &EXTENT);
         (met.rank < f64::INFINITY).then_some((met.distance, met.front, met.normal))
     };
@@ -447,7 +447,7 @@ fn shots_touch_a_plane_a_radius_before_it() {
 
 /// Where a shot of radius 1 touches, and the unit normal there.
 fn touched(
-    wall: &impl Intersect<f64>,
+    wall: &impl Intersect,
     origin: [f64; 2],
     direction: [f64; 2],
     from_here: bool,

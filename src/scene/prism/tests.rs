@@ -33,7 +33,7 @@ fn pipe(near_closed: bool, far_closed: bool) -> Prism {
 const RADIUS: f64 = 0.5;
 
 /// What shots touch first that fly side by side.
-fn touched_by_many(prism: &Prism, flights: &[Ray]) -> Hits<f64> {
+fn touched_by_many(prism: &Prism, flights: &[Ray]) -> Hits {
     let mut rays = Rays::none();
     rays.count = flights.len();
     rays.are_spheres = true;

@@ -8,7 +8,6 @@ use multiversion::multiversion;
 
 use super::TriangleMesh;
 use super::crossing::{Nearest, PrecomputedRay};
-use crate::precision::Real;
 use crate::scene::bvh8::Entered;
 use crate::scene::departure::Departure;
 use crate::scene::ray::{HitId, Ray};
@@ -31,7 +30,7 @@ struct Flight {
 ///
 /// The same as [`TriangleMesh::first_crossing`] of each ray. (With AVX-512 it takes longer.)
 #[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
-pub fn cross<R: Real>(facets: &TriangleMesh, part: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
+pub fn cross(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
     for first in (0..rays.count).step_by(GROUP) {
         let mut flights = ArrayVec::<Flight, GROUP>::new();
         for index in first..rays.count.min(first + GROUP) {
@@ -39,7 +38,7 @@ pub fn cross<R: Real>(facets: &TriangleMesh, part: u32, rays: &Rays<R>, hits: &m
             flights.push(Flight {
                 index,
                 ray,
-                limit: hits.distance[index].wide(),
+                limit: hits.distance[index],
                 sight: facets.sight(&ray),
             });
         }
@@ -65,11 +64,11 @@ pub fn cross<R: Real>(facets: &TriangleMesh, part: u32, rays: &Rays<R>, hits: &m
 
 /// Takes the first contacts of spheres in place of rays, likewise.
 #[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
-pub fn touch<R: Real>(facets: &TriangleMesh, part: u32, rays: &Rays<R>, hits: &mut Hits<R>) {
+pub fn touch(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
     for index in 0..rays.count {
         let (leaving, on_it) = leaving(rays, index, part);
-        let limit = hits.distance[index].wide();
-        let radius = rays.radius[index].wide();
+        let limit = hits.distance[index];
+        let radius = rays.radius[index];
         let contact = facets.first_contact(&rays.at(index), radius, leaving, on_it, limit);
         if let Some((crossing, normal)) = contact {
             hits.set(index, part, &crossing, normal);
@@ -79,7 +78,7 @@ pub fn touch<R: Real>(facets: &TriangleMesh, part: u32, rays: &Rays<R>, hits: &m
 
 /// The spot that a ray starts from, and whether it is on the part.
 #[inline(always)]
-fn leaving<R: Real>(rays: &Rays<R>, index: usize, part: u32) -> (Option<HitId>, bool) {
+fn leaving(rays: &Rays, index: usize, part: u32) -> (Option<HitId>, bool) {
     let leaving = rays.leaving.as_ref().map(|hit_ids| hit_ids.at(index));
     (leaving, leaving.is_some_and(|hit_id| hit_id.part == part))
 }

@@ -3,28 +3,28 @@
 use super::{RayPacket, mask};
 use crate::impact::{Coefficients, Contact, Friction, collide};
 use crate::jet::ShotSample;
-use crate::precision::{Real, Triple, dot};
 use crate::scene::lanes::{LANES, Lane, components, padded, put};
 use crate::trace::{Tracer, energy, rough};
+use crate::triple::{Triple, dot};
 
 /// What impacts do, side by side; what is true is 1, what is not 0. (With numbers of one size
 /// throughout, compilers see that loops over them can be worked on several at once.)
-pub(crate) struct Impacts<R> {
+pub(crate) struct Impacts {
     /// N*, N s.
-    pub normal: Lane<R>,
+    pub normal: Lane,
     /// f*, N s.
-    pub tangential: Lane<R>,
-    pub sticks: Lane<R>,
+    pub tangential: Lane,
+    pub sticks: Lane,
     /// Whether there is one that counts: a surface is hit, and it is no deflector.
-    pub counts: Lane<R>,
-    deflected: Lane<R>,
+    pub counts: Lane,
+    deflected: Lane,
     /// Why the flight ends here; see [`path_state`].
-    pub(super) path_state: Lane<R>,
+    pub(super) path_state: Lane,
 }
 
-impl<R: Real> Impacts<R> {
+impl Impacts {
     pub fn none() -> Self {
-        let zeros = [R::ZERO; LANES];
+        let zeros = [0.0; LANES];
         Self {
             normal: zeros,
             tangential: zeros,
@@ -37,15 +37,14 @@ impl<R: Real> Impacts<R> {
 }
 
 /// When paths end for their number of impacts.
-pub(super) struct Rules<R> {
-    pub most_impacts: R,
+pub(super) struct Rules {
+    pub most_impacts: f64,
     /// With so few the rest of the hits were on deflectors: the shot is caught between them.
-    pub too_few_impacts: R,
+    pub too_few_impacts: f64,
 }
 
 /// Why a flight ends, as numbers that are computed side by side.
 pub(super) mod path_state {
-    use crate::precision::Real;
     use crate::trace::End;
 
     pub const GOES_ON: f64 = 0.0;
@@ -54,8 +53,8 @@ pub(super) mod path_state {
     pub const SPENT: f64 = 3.0;
     pub const LIMIT: f64 = 4.0;
 
-    pub fn end<R: Real>(path_state: R) -> End {
-        match path_state.wide() {
+    pub fn end(path_state: f64) -> End {
+        match path_state {
             STAYS => End::Stays,
             SPENT => End::Spent,
             LIMIT => End::Limit,
@@ -64,7 +63,7 @@ pub(super) mod path_state {
     }
 }
 
-impl<R: Real> RayPacket<R> {
+impl RayPacket {
     /// Marks the hits that belong to the flight.
     pub(super) fn mark_deflections(&mut self, tracer: &Tracer) {
         for i in 0..self.rays.count {
@@ -75,7 +74,7 @@ impl<R: Real> RayPacket<R> {
 
     /// Lets the shots rebound from surfaces with one contact.
     #[inline(always)]
-    pub(super) fn collide(&mut self, only: &Coefficients<R>, rules: &Rules<R>) {
+    pub(super) fn collide(&mut self, only: &Coefficients, rules: &Rules) {
         for i in 0..padded(self.rays.count) {
             let contact = Coefficients {
                 restitution: self.restitution[i],
@@ -93,7 +92,7 @@ impl<R: Real> RayPacket<R> {
         tracer: &Tracer,
         shots: &[ShotSample],
         flight: u32,
-        rules: &Rules<R>,
+        rules: &Rules,
     ) {
         for i in 0..self.rays.count {
             let sample = &shots[self.shot[i] as usize];
@@ -112,7 +111,7 @@ impl<R: Real> RayPacket<R> {
         sample: &ShotSample,
         flight: u32,
         contact: &Contact,
-    ) -> Triple<R> {
+    ) -> Triple {
         let normal = components(&self.hits.normal, i);
         let roughness = tracer.scenario.surfaces[self.hits.surface[i] as usize].roughness;
         if roughness == 0.0 {
@@ -130,19 +129,13 @@ impl<R: Real> RayPacket<R> {
 
     /// Lets one shot rebound, and decides what becomes of it.
     #[inline(always)]
-    fn rebound(
-        &mut self,
-        i: usize,
-        normal: Triple<R>,
-        contact: &Coefficients<R>,
-        rules: &Rules<R>,
-    ) {
+    fn rebound(&mut self, i: usize, normal: Triple, contact: &Coefficients, rules: &Rules) {
         let velocity = components(&self.velocity, i);
         let rolling = components(&self.rolling, i);
         let normal_speed = dot(velocity, normal);
         let after = collide(contact, velocity, rolling, normal, normal_speed);
-        let met = (self.hits.distance[i] < R::INFINITY) & (normal_speed < R::ZERO);
-        let counts = met & (self.impacts.deflected[i] == R::ZERO);
+        let met = (self.hits.distance[i] < f64::INFINITY) & (normal_speed < 0.0);
+        let counts = met & (self.impacts.deflected[i] == 0.0);
         let number = self.number[i] + mask(counts);
         let spent = energy(after.velocity, after.rolling) < self.least_energy[i];
         let last = (number == rules.most_impacts) | (number == rules.too_few_impacts);
@@ -152,7 +145,7 @@ impl<R: Real> RayPacket<R> {
             path_state::GOES_ON
         };
         path_state = if spent { path_state::SPENT } else { path_state };
-        path_state = if after.departure == R::ZERO {
+        path_state = if after.departure == 0.0 {
             path_state::STAYS
         } else {
             path_state
@@ -162,7 +155,7 @@ impl<R: Real> RayPacket<R> {
         self.impacts.tangential[i] = self.mass[i] * after.tangential;
         self.impacts.sticks[i] = mask(after.sticks);
         self.impacts.counts[i] = mask(counts);
-        self.impacts.path_state[i] = R::of(path_state);
+        self.impacts.path_state[i] = path_state;
         self.number[i] = number;
         put(&mut self.velocity, i, after.velocity);
         put(&mut self.rolling, i, after.rolling);
@@ -170,12 +163,8 @@ impl<R: Real> RayPacket<R> {
 }
 
 /// A contact at the speed with which a shot meets a surface.
-fn coefficients<R: Real>(
-    contact: &Contact,
-    velocity: Triple<R>,
-    normal: Triple<R>,
-) -> Coefficients<R> {
+fn coefficients(contact: &Contact, velocity: Triple, normal: Triple) -> Coefficients {
     let normal_speed = dot(velocity, normal);
-    let restitution = contact.restitution.at(-normal_speed.wide());
+    let restitution = contact.restitution.at(-normal_speed);
     Friction::of(contact).at(restitution)
 }

@@ -2,14 +2,14 @@
 
 use super::*;
 
-const UP: Triple<f64> = [0.0, 0.0, 1.0];
+const UP: Triple = [0.0, 0.0, 1.0];
 
-fn near(one: Triple<f64>, other: Triple<f64>) -> bool {
+fn near(one: Triple, other: Triple) -> bool {
     (0..3).all(|axis| (one[axis] - other[axis]).abs() < 1e-12)
 }
 
 /// Off the wall as from a mirror.
-fn mirrored(velocity: Triple<f64>) -> impl Fn(Triple<f64>) -> Triple<f64> {
+fn mirrored(velocity: Triple) -> impl Fn(Triple) -> Triple {
     move |normal| along(velocity, normal, -2.0 * dot(velocity, normal))
 }
 

@@ -118,7 +118,7 @@ fn side_by_side(
     leaving: Option<HitId>,
     expected: Option<Hit>,
 ) {
-    let mut rays = Rays::<f64>::none();
+    let mut rays = Rays::none();
     rays.count = 1;
     for axis in 0..3 {
         rays.origin[axis][0] = ray.origin[axis];

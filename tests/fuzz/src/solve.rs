@@ -114,7 +114,7 @@ pub fn recorded(scenario: &Scenario, source: &Source, solution: &Solution) -> Re
         .then(|| Unknowns::of(scenario, &best.settings))
         .flatten();
     let run = RunInfo {
-        ladder: &solution.ladder,
+        ablations: &solution.ablations,
         source,
         status: solution.status.into(),
         command: "peenpose solve any.yaml".into(),

@@ -24,7 +24,7 @@ pub enum Template {
     /// Any part, as a mesh file from CAD
     Mesh,
     /// A flat plate
-    SweptTriangle,
+    Plate,
 }
 
 impl Template {
@@ -32,7 +32,7 @@ impl Template {
         match self {
             Self::Keyway => include_str!("keyway.yaml"),
             Self::Mesh => include_str!("mesh.yaml"),
-            Self::SweptTriangle => include_str!("plate.yaml"),
+            Self::Plate => include_str!("plate.yaml"),
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Which shots of many may touch something at the ends of a prism.
 
 use super::{Best, Flights};
-use crate::precision::Real;
 use crate::scene::lanes::{LANES, components, padded};
 use crate::scene::primitive::Primitive;
 use crate::scene::prism::Prism;
@@ -10,28 +9,28 @@ use crate::scene::prism::Prism;
 const GROUP: usize = 16;
 
 /// Where shots that leave by an end pass it, and how far aside they may still touch something.
-struct Exits<R> {
-    x: [R; GROUP],
-    y: [R; GROUP],
+struct Exits {
+    x: [f64; GROUP],
+    y: [f64; GROUP],
     /// m; infinite for shots that come from outside.
-    reach: [R; GROUP],
+    reach: [f64; GROUP],
 }
 
 impl Prism {
     /// The shots that come so near to an end that they may touch a cap or a rim.
     #[inline(always)]
-    pub(super) fn near_ends<R: Real>(&self, flights: &Flights<R>, best: &Best<R>) -> [bool; LANES] {
+    pub(super) fn near_ends(&self, flights: &Flights, best: &Best) -> [bool; LANES] {
         let mut near = [false; LANES];
         let has_caps = !self.caps.is_empty();
-        let extent = self.extent_in::<R>();
-        let farthest = R::of(f64::from(f32::MAX).sqrt());
+        let extent = self.extent_in();
+        let farthest = f64::from(f32::MAX).sqrt();
         for (i, near) in near.iter_mut().enumerate().take(padded(flights.count)) {
             let from = flights.origin[2][i];
             let rank = best.rank[i];
             let ahead = if rank < farthest { rank } else { farthest };
             let to = from + flights.direction[2][i] * ahead;
             let (low, high) = if from < to { (from, to) } else { (to, from) };
-            let radius = if has_caps { flights.radius[i] } else { R::ZERO };
+            let radius = if has_caps { flights.radius[i] } else { 0.0 };
             let margin = extent.slack + radius;
             *near = (low <= margin) | (high >= extent.length - margin);
         }
@@ -46,9 +45,9 @@ impl Prism {
 
     /// Most shots leave far from any rim; `first` is the first of the group.
     #[inline(always)]
-    fn drop_clear_exits<R: Real>(&self, flights: &Flights<R>, first: usize, near: &mut [bool]) {
+    fn drop_clear_exits(&self, flights: &Flights, first: usize, near: &mut [bool]) {
         let exits = self.exits(flights, first);
-        let mut least = [R::INFINITY; GROUP];
+        let mut least = [f64::INFINITY; GROUP];
         for wall in &self.walls {
             match wall {
                 Primitive::Plane(plane) => {
@@ -75,27 +74,27 @@ impl Prism {
     }
 
     #[inline(always)]
-    fn exits<R: Real>(&self, flights: &Flights<R>, first: usize) -> Exits<R> {
-        let zeros = [R::ZERO; GROUP];
+    fn exits(&self, flights: &Flights, first: usize) -> Exits {
+        let zeros = [0.0; GROUP];
         let mut exits = Exits {
             x: zeros,
             y: zeros,
             reach: zeros,
         };
-        let extent = self.extent_in::<R>();
+        let extent = self.extent_in();
         for i in 0..GROUP {
             let [x, y, z] = components(flights.origin, first + i);
             let [u, v, w] = components(flights.direction, first + i);
-            let outwards = w > R::ZERO;
-            let end = if outwards { extent.length } else { R::ZERO };
+            let outwards = w > 0.0;
+            let end = if outwards { extent.length } else { 0.0 };
             let distance = (end - z) / w;
             exits.x[i] = x + u * distance;
             exits.y[i] = y + v * distance;
             // What lies in the end's plane at a distance D from where the shot passes it is nowhere nearer
             // than D |w| to its path.
-            let is_inside = (z >= R::ZERO) & (z <= extent.length) & (w != R::ZERO);
+            let is_inside = (z >= 0.0) & (z <= extent.length) & (w != 0.0);
             let reach = (flights.radius[first + i] + extent.slack) / w.abs();
-            exits.reach[i] = if is_inside { reach } else { R::INFINITY };
+            exits.reach[i] = if is_inside { reach } else { f64::INFINITY };
         }
         exits
     }

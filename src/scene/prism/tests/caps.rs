@@ -76,7 +76,7 @@ fn rays_that_start_on_a_cap_meet_it_at_once_or_never() {
         let found = pot.first_crossing(&ray, Some(leaving), true, f64::INFINITY);
         let found = found.map(|(crossing, _)| (crossing.distance, crossing.surface));
         // The same among many.
-        let mut rays = Rays::<f64>::none();
+        let mut rays = Rays::none();
         rays.count = 1;
         put(&mut rays.origin, 0, ray.origin.into());
         put(&mut rays.direction, 0, ray.direction.into());

@@ -59,7 +59,7 @@ fn many_rays_start_as_one_does() {
     for (part, piece) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         let front = true;
         let leaving = HitId { part, piece, front };
-        let mut rays = Rays::<f64>::none();
+        let mut rays = Rays::none();
         let mut hit_ids = HitIds::none();
         rays.count = COUNT;
         for index in 0..COUNT {

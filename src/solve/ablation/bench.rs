@@ -4,11 +4,10 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use super::{Rung, SHOTS};
+use super::{Ablation, SHOTS};
 use crate::evaluate::evaluate;
 use crate::jet::{ImportanceDensity, Replicates, Samples, ShotSample, Stream, purpose};
 use crate::objective::Tally;
-use crate::precision::Precision;
 use crate::problem::model::Effect;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
@@ -20,9 +19,9 @@ use crate::solve::space::Space;
 use crate::solve::stopping_rule::{is_in_reach, least_objective, rounding_of_objective};
 use crate::verdict::{Subject, Verdict};
 
-/// Shots of a reduced setup with the weights of those of the whole one: what they differ in is the
-/// model alone.
-pub(in crate::solve) fn fewer<'a>(
+/// Shots of a reduced scenario with the weights of those of the whole one: they differ in the model
+/// alone.
+fn reduced_shots<'a>(
     scenario: &Scenario,
     reduced: &Scenario,
     whole: &'a [ShotSample],
@@ -50,29 +49,15 @@ fn draw_alike(one: &Scenario, other: &Scenario) -> bool {
         && one.has_one_ray() == other.has_one_ray()
 }
 
-/// J at a choice.
-pub(in crate::solve) fn objective(
-    scenario: &Scenario,
-    settings: &Settings,
-    shots: &[ShotSample],
-) -> f64 {
-    objective_in(Precision::F64, scenario, settings, shots)
-}
-
-/// The same with paths in one of the precisions.
-pub(in crate::solve) fn objective_in(
-    precision: Precision,
-    scenario: &Scenario,
-    settings: &Settings,
-    shots: &[ShotSample],
-) -> f64 {
-    let tally = Tally::trace_as(precision, scenario, settings, settings.speed, shots);
+/// J at some settings.
+fn objective(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> f64 {
+    let tally = Tally::trace(scenario, settings, settings.speed, shots);
     tally.terms(&scenario.problem.goals, settings.speed).total()
 }
 
 /// Where effects are measured.
-pub(in crate::solve) struct Bench<'a> {
-    pub(super) scenario: &'a Scenario,
+pub(super) struct Bench<'a> {
+    scenario: &'a Scenario,
     /// Where a part of the shots come from.
     importance: Option<&'a ImportanceDensity>,
     /// The best choice of every contact that could win, the best one first.
@@ -87,7 +72,7 @@ pub(in crate::solve) struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     /// `None` where the nozzle has fitted nowhere.
-    pub(in crate::solve) fn new(
+    pub(super) fn new(
         scenario: &'a Scenario,
         importance: Option<&'a ImportanceDensity>,
         searches: &[Search],
@@ -126,7 +111,7 @@ impl<'a> Bench<'a> {
 
     /// Changes of J, relative, at every leading choice.
     fn changes(&self, reduced: &Scenario) -> Vec<f64> {
-        let shots = fewer(self.scenario, reduced, &self.shots, self.importance);
+        let shots = reduced_shots(self.scenario, reduced, &self.shots, self.importance);
         let pairs = self.leading.par_iter().zip(&self.whole);
         let change = |(settings, whole): (&Settings, &f64)| {
             self.relative(objective(reduced, settings, &shots) - whole, *whole)
@@ -134,25 +119,10 @@ impl<'a> Bench<'a> {
         pairs.map(change).collect()
     }
 
-    pub(super) fn largest_change(&self, left_out: &[Effect]) -> f64 {
-        largest(&self.changes(&self.reduced(left_out)))
-    }
-
-    /// The largest change of J, relative, when paths are traced in another precision.
-    pub(super) fn largest_change_in(&self, precision: Precision) -> f64 {
-        let change = |(settings, whole): (&Settings, &f64)| {
-            let coarse = objective_in(precision, self.scenario, settings, &self.shots);
-            self.relative(coarse - whole, *whole)
-        };
-        let pairs = self.leading.par_iter().zip(&self.whole);
-        let changes: Vec<f64> = pairs.map(change).collect();
-        largest(&changes)
-    }
-
     /// The best settings of a setup near the first leading choice.
     fn descend(&self, scenario: &Scenario, shots: &[ShotSample]) -> Settings {
         let settings = &self.leading[0];
-        let evaluator = Evaluator::new(scenario, Precision::F64, shots, self.effort, self.control);
+        let evaluator = Evaluator::new(scenario, shots, self.effort, self.control);
         let search_speed = !scenario.speed_scales_out(settings.contact);
         let space = Space::new(&scenario.problem, settings.contact, search_speed);
         let start = Candidate::at(&space, &evaluator, &space.point(settings));
@@ -187,11 +157,11 @@ impl<'a> Bench<'a> {
         }
     }
 
-    pub(super) fn rung(&self, effect: Effect, start: &Start) -> Rung {
+    pub(super) fn ablation(&self, effect: Effect, start: &Start, left_out: bool) -> Ablation {
         let reduced = self.reduced(&[effect]);
         let changes = self.changes(&reduced);
         let whole = self.few_shots();
-        let fewer = fewer(self.scenario, &reduced, whole, self.importance);
+        let fewer = reduced_shots(self.scenario, &reduced, whole, self.importance);
         let best_with = start.best;
         // An effect that does nothing here may be the cliff that the best settings keep away from.
         let best_without = self.descend(&reduced, &fewer);
@@ -205,7 +175,7 @@ impl<'a> Bench<'a> {
             .zip(before)
             .filter(|((_, without), with)| without != *with)
             .map(|((subject, _), _)| subject);
-        Rung {
+        Ablation {
             effect,
             change: changes[0],
             largest_change: largest(&changes),
@@ -214,7 +184,7 @@ impl<'a> Bench<'a> {
             best_with,
             regret: self.relative(without - with, with).max(0.0),
             relative_rays: self.relative_rays(&reduced, &fewer),
-            left_out: false,
+            left_out,
         }
     }
 
