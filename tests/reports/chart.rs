@@ -111,13 +111,7 @@ fn every_file_is_there_and_the_text_is_printed() {
             assert!(!run.bytes(&format!("{name}.{ending}")).is_empty());
         }
     }
-    for heading in [
-        "J OF ONE POSE",
-        "WALLS",
-        "SEARCH",
-        "EFFECTS",
-        "REPRODUCE",
-    ] {
+    for heading in ["J OF ONE POSE", "WALLS", "SEARCH", "EFFECTS", "REPRODUCE"] {
         assert!(run.out.contains(heading), "no {heading} in\n{}", run.out);
     }
     assert!(run.out.lines().all(|line| line.trim_end() == line));
