@@ -15,6 +15,7 @@ mod figures;
 mod front;
 mod objectives;
 mod pareto_archive;
+mod point;
 mod polish;
 mod sampler;
 mod search;

@@ -6,6 +6,7 @@ use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::neldermead::NelderMead;
 
 use super::evaluator::{Evaluator, Fitness};
+use super::point::Point;
 use super::space::Space;
 use crate::problem::setting::Settings;
 
@@ -58,10 +59,10 @@ struct Descent<'a> {
 }
 
 impl CostFunction for &Descent<'_> {
-    type Param = Vec<f64>;
+    type Param = Point;
     type Output = f64;
 
-    fn cost(&self, point: &Vec<f64>) -> Result<f64, Error> {
+    fn cost(&self, Point(point): &Point) -> Result<f64, Error> {
         if self.evaluator.is_stopped() {
             // A flat cost ends the run at once.
             return Ok(f64::MAX);
@@ -132,8 +133,8 @@ fn descend(
         corners: &corners,
         leading: RefCell::new(leading),
     };
-    let simplex = corners.iter().map(|corner| corner.point.clone()).collect();
-    if let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(accuracy * scale) {
+    let simplex = corners.iter().map(|corner| Point(corner.point.clone()));
+    if let Ok(solver) = NelderMead::new(simplex.collect()).with_sd_tolerance(accuracy * scale) {
         let most = ITERATIONS_PER_DIMENSION * space.dimensions() as u64;
         let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
         // The best points are kept by the cost function; how the run ended does not matter.
