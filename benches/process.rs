@@ -12,8 +12,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
+use peenpose::control::Control;
 use peenpose::problem::setting::Settings;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 use tempfile::TempDir;
 
 use common::known::Known;

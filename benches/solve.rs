@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use peenpose::control::Control;
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 
 fn shipped(criterion: &mut Criterion) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");

@@ -8,11 +8,12 @@ use std::error::Error;
 use std::path::Path;
 
 use nalgebra::{Point2, Point3};
+use peenpose::control::Control;
 use peenpose::jet::{Pose, Samples, ShotSample, Stream};
 use peenpose::problem::equipment::Body;
 use peenpose::problem::setting::{Settings, Tolerance};
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 use peenpose::trace::{End, Tracer};
 use peenpose::units::{Dimension, parse};
 

@@ -12,9 +12,10 @@ use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
+use peenpose::control::Control;
 use peenpose::problem::model::Model;
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, Solution, solve};
+use peenpose::solve::{Solution, solve};
 
 const FILES: [&str; 7] = [
     "plate",

@@ -4,10 +4,11 @@
 
 use std::error::Error;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
 
+use peenpose::control::{Cancel, Control, Progress};
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, Progress, solve};
+use peenpose::solve::solve;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -19,18 +20,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (scenario, _source) = Scenario::load(Path::new(file))?;
 
     // The search calls this from any of its threads.
-    let stop = AtomicBool::new(false);
-    let watch = |progress: Progress| {
-        let best = progress.best.unwrap_or(f64::INFINITY);
-        println!("{:6} poses: J {best:.6}", progress.poses);
-        if best <= enough {
-            stop.store(true, Ordering::Relaxed);
+    let cancel = Cancel::default();
+    let asked = cancel.clone();
+    let observer = move |progress: Progress| {
+        if let Progress::Search { poses, best } = progress {
+            let best = best.unwrap_or(f64::INFINITY);
+            println!("{poses:6} poses: J {best:.6}");
+            if best <= enough {
+                asked.end();
+            }
         }
     };
 
     let control = Control {
-        stop: &stop,
-        watch: &watch,
+        cancel,
+        observer: Some(Arc::new(observer)),
         ..Control::default()
     };
     let solution = solve(&scenario, &control);

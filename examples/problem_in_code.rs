@@ -5,11 +5,12 @@
 use std::error::Error;
 use std::path::Path;
 
+use peenpose::control::Control;
 use peenpose::problem;
 use peenpose::problem::part::Shape;
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 
 /// Quantities carry their units here; the checked problem is in SI.
 const TEXT: &str = "

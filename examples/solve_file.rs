@@ -5,8 +5,9 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use peenpose::control::Control;
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 
 fn main() -> ExitCode {
     let file = std::env::args().nth(1);

@@ -5,11 +5,12 @@
 use std::error::Error;
 use std::path::Path;
 
+use peenpose::control::Control;
 use peenpose::evaluate::evaluate;
 use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Replicates, purpose};
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 use peenpose::verdict::Verdict;
 
 fn main() -> Result<(), Box<dyn Error>> {

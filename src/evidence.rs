@@ -12,8 +12,7 @@ pub use places::Place;
 pub use shapes::Shape;
 pub use shown::Shown;
 
-use std::sync::atomic::AtomicBool;
-
+use crate::control::Cancel;
 use crate::jet::{Pose, Replicates, Samples, purpose};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
@@ -37,18 +36,8 @@ pub struct Evidence {
 
 impl Evidence {
     /// Fires so many fresh shots; none where the nozzle does not fit. One is enough where all shots
-    /// of a problem are the same.
-    pub fn of(scenario: &Scenario, settings: &Settings, shots: usize) -> Self {
-        Self::until(scenario, settings, shots, &AtomicBool::new(false))
-    }
-
-    /// The same with the first shots alone when `stop` is set.
-    pub fn until(
-        scenario: &Scenario,
-        settings: &Settings,
-        shots: usize,
-        stop: &AtomicBool,
-    ) -> Self {
+    /// of a problem are the same, and the first ones after a request to end.
+    pub fn of(scenario: &Scenario, settings: &Settings, shots: usize, cancel: &Cancel) -> Self {
         let shots = if scenario.problem.has_one_ray() {
             shots.min(1)
         } else {
@@ -58,7 +47,7 @@ impl Evidence {
         let jet = Samples::new(&scenario.problem, stream, shots);
         let pose = Pose::new(&scenario.target.frame, settings);
         let shapes = shapes::all(scenario, &pose);
-        let flights = flights::fire(scenario, settings, &jet, &shapes, stop);
+        let flights = flights::fire(scenario, settings, &jet, &shapes, cancel);
         Self {
             shown: shown::pick(scenario, &flights),
             places: places::find(scenario, &pose, &flights),

@@ -2,14 +2,12 @@
 
 mod standard;
 
-pub use standard::{standard_maps, standard_maps_until};
-
-use std::sync::atomic::{AtomicBool, Ordering};
+pub use standard::standard_maps;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::checkpoint::Checkpoint;
+use crate::control::Control;
 use crate::evaluate::{Counts, Survey};
 use crate::feasibility::infeasibility;
 use crate::jet::{Replicates, Samples, ShotSample, purpose};
@@ -43,26 +41,6 @@ pub enum Place {
     Blocked,
     /// The nozzle fits.
     Open(Cell),
-}
-
-/// How the making of a map is ended early, and where work is kept.
-#[derive(Clone, Copy)]
-pub struct Control<'a> {
-    /// Set to end it with the places that are known by then.
-    pub stop: &'a AtomicBool,
-    /// Where what places do is kept, and taken from.
-    pub checkpoint: Option<&'a Checkpoint>,
-}
-
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-impl Default for Control<'_> {
-    fn default() -> Self {
-        Self {
-            stop: &NEVER,
-            checkpoint: None,
-        }
-    }
 }
 
 /// One axis of a map.
@@ -123,7 +101,7 @@ impl Map {
     ) -> Self {
         let shots = common_shots(&scenario.problem, shots);
         let kind = format!("map {x:?} {y:?}");
-        let page = control.checkpoint;
+        let page = control.checkpoint.as_deref();
         let page = page.map(|checkpoint| checkpoint.page(&kind, scenario, &shots));
         let columns = x.values.len();
         let place = |index: usize| {
@@ -142,7 +120,7 @@ impl Map {
             (0..count).map(|index| vec![index]).collect()
         };
         let cells_of = |group: &Vec<usize>| {
-            if control.stop.load(Ordering::Relaxed) {
+            if control.is_stopped() {
                 return Vec::new();
             }
             let work = || cells_on_one_path(scenario, group, place, &shots);

@@ -63,7 +63,14 @@ impl Scenario {
     /// # Errors
     /// All faults of the file and of the geometry at once, in the order of the text.
     pub fn load(path: &Path) -> Result<(Self, Source), Box<Rejection>> {
-        let reading = problem::read(path).map_err(|fault| Rejection::unread(*fault))?;
+        Self::from_reading(problem::read(path))
+    }
+
+    /// The same for what came of a problem file.
+    pub(crate) fn from_reading(
+        reading: Result<Reading, Box<Fault>>,
+    ) -> Result<(Self, Source), Box<Rejection>> {
+        let reading = reading.map_err(|fault| Rejection::unread(*fault))?;
         let Reading {
             source, mut faults, ..
         } = reading;

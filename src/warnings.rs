@@ -11,9 +11,9 @@ use crate::scenario::Scenario;
 /// All warnings about a problem, in the order of its text.
 ///
 /// ```
-/// use peenpose::{setup::Setup, warnings};
-/// let (setup, source) = Setup::load("problems/keyway.yaml".as_ref())?;
-/// assert_eq!(warnings::of(&setup, &source), []);
+/// use peenpose::{scenario::Scenario, warnings};
+/// let (scenario, source) = Scenario::load("problems/keyway.yaml".as_ref())?;
+/// assert_eq!(warnings::of(&scenario, &source), []);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn of(scenario: &Scenario, source: &Source) -> Vec<Warning> {

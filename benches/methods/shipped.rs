@@ -2,10 +2,11 @@
 
 use std::time::Instant;
 
+use peenpose::control::{Control, Shortcuts};
 use peenpose::jet::Samples;
 use peenpose::objective::Tally;
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, Shortcuts, solve};
+use peenpose::solve::solve;
 use rayon::ThreadPoolBuilder;
 
 use crate::objective::{SHOTS, Step};

@@ -7,11 +7,12 @@
 use std::error::Error;
 use std::fmt::{Display, Formatter};
 
+use peenpose::control::Control;
 use peenpose::evaluate::evaluate_adaptively;
 use peenpose::jet::{ValidationSample, purpose};
 use peenpose::problem::setting::{Setting, Settings};
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 
 use crate::common::known::Known;
 use crate::common::statistics::{Mean, median};

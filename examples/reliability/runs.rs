@@ -3,9 +3,10 @@
 use std::error::Error;
 use std::time::Instant;
 
+use peenpose::control::Control;
 use peenpose::problem::setting::Settings;
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, Status, solve};
+use peenpose::solve::{Status, solve};
 
 use crate::common::known::Known;
 use crate::common::statistics::median;

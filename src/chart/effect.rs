@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::common::{COMPARISON, excess, sums};
-use super::control::Control;
+use super::plan::Plan;
 use super::timing;
 use crate::jet::{Samples, Stream};
 use crate::objective::{Sums, Tally};
@@ -37,14 +37,14 @@ struct Variant {
     misled: Settings,
 }
 
-/// The effects that the problem has; those that were reached when the control stops it.
-pub(super) fn effects(scenario: &Scenario, settings: &Settings, control: &Control) -> Vec<Effect> {
-    let variants = solved_variants(scenario, settings, control);
+/// The effects that the problem has; those that were reached when a request to end came.
+pub(super) fn effects(scenario: &Scenario, settings: &Settings, plan: &Plan) -> Vec<Effect> {
+    let variants = solved_variants(scenario, settings, plan);
     if variants.is_empty() {
         return Vec::new();
     }
     let goals = &scenario.problem.goals;
-    let shots = control.comparison_shots();
+    let shots = plan.comparison_shots();
     let misled = variants.iter().map(|variant| variant.misled);
     let choices: Vec<Settings> = std::iter::once(*settings).chain(misled).collect();
     let full = sums(scenario, &choices, COMPARISON, shots);
@@ -58,23 +58,23 @@ pub(super) fn effects(scenario: &Scenario, settings: &Settings, control: &Contro
             change_standard_error,
             regret,
             regret_standard_error,
-            relative_cost: relative_cost(&variant.scenario, scenario, settings),
+            relative_cost: relative_cost(plan, &variant.scenario, scenario, settings),
         }
     };
     variants.iter().zip(&full[1..]).map(effect).collect()
 }
 
-fn solved_variants(scenario: &Scenario, settings: &Settings, control: &Control) -> Vec<Variant> {
+fn solved_variants(scenario: &Scenario, settings: &Settings, plan: &Plan) -> Vec<Variant> {
     let removals = without_each_effect(scenario, settings);
     let of = removals.len();
     let mut variants = Vec::new();
     for (number, (name, scenario)) in removals.into_iter().enumerate() {
-        if control.is_stopped() {
+        if plan.is_stopped() {
             break;
         }
-        control.tell("effects", number, of);
-        let solution = solve(&scenario, &control.of_a_search());
-        let best = solution.least().filter(|_| !control.is_stopped());
+        plan.tell("effects", number, of);
+        let solution = solve(&scenario, &plan.of_a_search());
+        let best = solution.least().filter(|_| !plan.is_stopped());
         variants.extend(best.map(|best| Variant {
             name,
             misled: best.settings,
@@ -87,14 +87,18 @@ fn solved_variants(scenario: &Scenario, settings: &Settings, control: &Control) 
 /// Few enough to be done before something else takes its turn on a busy machine.
 const TIMED_SHOTS: usize = 1024;
 
-fn relative_cost(without: &Scenario, with: &Scenario, settings: &Settings) -> f64 {
+fn relative_cost(plan: &Plan, without: &Scenario, with: &Scenario, settings: &Settings) -> f64 {
     let draw = |scenario: &Scenario| Samples::new(&scenario.problem, Stream::Search, TIMED_SHOTS);
     let (fewer, all) = (draw(without), draw(with));
     let trace = |scenario: &Scenario, samples: &Samples| {
         Tally::trace(scenario, settings, settings.speed, &samples.shots)
             .terms(&scenario.problem.goals, settings.speed)
     };
-    timing::ratio(|| trace(without, &fewer), || trace(with, &all))
+    timing::ratio(
+        &plan.control.clock,
+        || trace(without, &fewer),
+        || trace(with, &all),
+    )
 }
 
 /// The setup without each of the effects that it has, and without its tolerance; searches for them

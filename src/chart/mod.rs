@@ -6,16 +6,16 @@
 
 mod beside;
 mod common;
-mod control;
 mod effect;
+mod plan;
 mod pose;
 mod sampling;
 mod search;
 mod timing;
 
 pub use beside::{BesideFault, BesidePoint, LARGEST_TABLE, LONGEST_NAME, MOST_METHODS, MOST_RUNS};
-pub use control::{Control, Step};
 pub use effect::Effect;
+pub use plan::Plan;
 pub use pose::{PoseCurve, PosePoint, Walls};
 pub use sampling::Sampling;
 pub use search::{BestKnown, Method, SearchRun, Searches};
@@ -109,7 +109,7 @@ pub enum Refusal {
     TriangleMesh(Vec<Fault>),
 }
 
-/// Measures everything, as far as `control` lets it.
+/// Measures everything, as far as `plan` lets it.
 ///
 /// # Errors
 /// When there is nothing to measure.
@@ -118,12 +118,12 @@ pub fn measure(
     source: &Source,
     command: String,
     beside: Vec<BesidePoint>,
-    control: &Control,
+    plan: &Plan,
 ) -> Result<Chart, Refusal> {
-    control.tell("search", 0, 1);
+    plan.tell("search", 0, 1);
     let problem = &scenario.problem;
-    let solution = solve(scenario, &control.of_a_search());
-    if control.is_stopped() {
+    let solution = solve(scenario, &plan.of_a_search());
+    if plan.is_stopped() {
         return Err(Refusal::Interrupted);
     }
     let best = solution
@@ -131,13 +131,13 @@ pub fn measure(
         .first()
         .filter(|best| best.violation <= 0.0);
     let settings = best.ok_or(Refusal::NoFeasiblePose)?.settings;
-    let reference = reference(scenario, &settings, control);
+    let reference = reference(scenario, &settings, plan);
     if reference.objective <= 0.0 {
         return Err(Refusal::NothingToImprove);
     }
-    let poses = pose::curves(scenario, &settings, reference.objective, control)?;
-    let searches = search::runs(scenario, &settings, beside, control);
-    let effects = effect::effects(scenario, &settings, control);
+    let poses = pose::curves(scenario, &settings, reference.objective, plan)?;
+    let searches = search::runs(scenario, &settings, beside, plan);
+    let effects = effect::effects(scenario, &settings, plan);
     Ok(Chart {
         title: problem.title.clone(),
         file: printable::line(&source.path.display().to_string()).into_owned(),
@@ -148,7 +148,7 @@ pub fn measure(
         seed: problem.seed,
         accuracy: problem.accuracy,
         threads: rayon::current_num_threads(),
-        interrupted: control.is_stopped(),
+        interrupted: plan.is_stopped(),
         recommended: Recommended {
             contact: problem.contacts[settings.contact].name.clone(),
             settings: SettingsRecord::new(&settings),
@@ -161,10 +161,10 @@ pub fn measure(
     })
 }
 
-fn reference(scenario: &Scenario, settings: &Settings, control: &Control) -> Reference {
-    control.tell("reference", 0, 1);
+fn reference(scenario: &Scenario, settings: &Settings, plan: &Plan) -> Reference {
+    plan.tell("reference", 0, 1);
     let goals = &scenario.problem.goals;
-    let shots = control.most_shots * SCRAMBLINGS;
+    let shots = plan.most_shots * SCRAMBLINGS;
     let sets = &sums(
         scenario,
         &[*settings],

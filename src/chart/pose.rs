@@ -5,9 +5,10 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::control::Control;
+use super::plan::Plan;
 use super::sampling::Sampling;
 use super::timing;
+use crate::control::Clock;
 use crate::elementary::square;
 use crate::jet::{Replicates, ShotSample, purpose};
 use crate::objective::{Sums, Tally};
@@ -70,21 +71,21 @@ const RISE: usize = 4;
 /// Shots in a slice of a longer time.
 const TIMED_SHOTS: usize = 4096;
 
-/// Every way to compute J; those that were reached when the control stops it.
+/// Every way to compute J; those that were reached when a request to end came.
 pub(super) fn curves(
     scenario: &Scenario,
     settings: &Settings,
     reference: f64,
-    control: &Control,
+    plan: &Plan,
 ) -> Result<Vec<PoseCurve>, Vec<Fault>> {
     let ways = ways(scenario, settings)?;
     let mut curves = Vec::new();
     for (number, sampling) in Sampling::ALL.into_iter().enumerate() {
-        if control.is_stopped() {
+        if plan.is_stopped() {
             break;
         }
-        control.tell("J of a pose", number, Sampling::ALL.len());
-        curves.extend(curves_of(sampling, &ways, reference, control));
+        plan.tell("J of a pose", number, Sampling::ALL.len());
+        curves.extend(curves_of(sampling, &ways, reference, plan));
     }
     Ok(curves)
 }
@@ -148,21 +149,16 @@ struct Outcome {
     objective: f64,
 }
 
-fn curves_of(
-    sampling: Sampling,
-    ways: &[Way],
-    reference: f64,
-    control: &Control,
-) -> Vec<PoseCurve> {
+fn curves_of(sampling: Sampling, ways: &[Way], reference: f64, plan: &Plan) -> Vec<PoseCurve> {
     let rising = std::iter::successors(Some(FEWEST_SHOTS), |shots| Some(shots * RISE));
     let sizes: Vec<usize> = rising
-        .take_while(|&shots| shots <= control.most_shots.max(FEWEST_SHOTS))
+        .take_while(|&shots| shots <= plan.most_shots.max(FEWEST_SHOTS))
         .collect();
     let draw = |number: usize| {
         let stream = Replicates::stream(purpose::CHART_SCATTER, number as u32);
         sampling.draw(&ways[0].scenario.problem, stream, sizes[sizes.len() - 1])
     };
-    let sets: Vec<Vec<Outcome>> = (0..control.replicates)
+    let sets: Vec<Vec<Outcome>> = (0..plan.replicates)
         .into_par_iter()
         .map(|number| {
             let samples = draw(number);
@@ -180,7 +176,10 @@ fn curves_of(
             let squares = sets.iter().map(|set| set[index].mean_squares[level]);
             PosePoint {
                 shots,
-                seconds: way.seconds(&samples.shots[..shots.min(samples.shots.len())]),
+                seconds: way.seconds(
+                    &plan.control.clock,
+                    &samples.shots[..shots.min(samples.shots.len())],
+                ),
                 error: mean(squares).0.sqrt(),
             }
         });
@@ -224,9 +223,9 @@ impl Way<'_> {
         }
     }
 
-    fn seconds(&self, shots: &[ShotSample]) -> f64 {
+    fn seconds(&self, clock: &Clock, shots: &[ShotSample]) -> f64 {
         let slices: Vec<&[ShotSample]> = shots.chunks(TIMED_SHOTS).collect();
-        timing::seconds(&slices, |slice| {
+        timing::seconds(clock, &slices, |slice| {
             self.sums(slice).terms(&self.scenario.problem.goals)
         })
     }

@@ -1,17 +1,16 @@
 //! How good the answer of a search is after how much time.
 
-use std::time::Instant;
-
 use serde::{Deserialize, Serialize};
 
 use super::beside::BesidePoint;
 use super::common::{COMPARISON, excess, objective, sums};
-use super::control::Control;
+use super::plan::Plan;
 use super::timing::median;
+use crate::control::Control;
 use crate::problem::setting::Settings;
 use crate::record::SettingsRecord;
 use crate::scenario::Scenario;
-use crate::solve::{self, solve};
+use crate::solve::solve;
 
 /// Searches with more and more effort, against the best answer that is known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,24 +103,24 @@ struct Outcome {
     settings: Settings,
 }
 
-/// Searches by every method and seed; those that came to an end when the control stops it.
+/// Searches by every method and seed; those that came to an end when a request to end came.
 pub(super) fn runs(
     scenario: &Scenario,
     recommended: &Settings,
     beside: Vec<BesidePoint>,
-    control: &Control,
+    plan: &Plan,
 ) -> Option<Searches> {
     let methods = methods(scenario.problem.accuracy);
-    let of = methods.len() * control.seeds;
+    let of = methods.len() * plan.seeds;
     let mut outcomes: Vec<Outcome> = Vec::new();
-    for seed in 0..control.seeds as u64 {
+    for seed in 0..plan.seeds as u64 {
         for &method in &methods {
-            if control.is_stopped() {
+            if plan.is_stopped() {
                 break;
             }
-            control.tell("searches", outcomes.len(), of);
+            plan.tell("searches", outcomes.len(), of);
             let seed = scenario.problem.seed.wrapping_add(seed);
-            outcomes.extend(outcome(scenario, method, seed, control));
+            outcomes.extend(outcome(scenario, method, seed, plan));
         }
     }
     if outcomes.is_empty() {
@@ -129,29 +128,29 @@ pub(super) fn runs(
     }
     let mut choices: Vec<Settings> = outcomes.iter().map(|outcome| outcome.settings).collect();
     choices.push(*recommended);
-    Some(compared(scenario, outcomes, &choices, beside, control))
+    Some(compared(scenario, outcomes, &choices, beside, plan))
 }
 
 /// One search; nothing if it was stopped or the nozzle fitted nowhere.
-fn outcome(scenario: &Scenario, method: Method, seed: u64, control: &Control) -> Option<Outcome> {
+fn outcome(scenario: &Scenario, method: Method, seed: u64, plan: &Plan) -> Option<Outcome> {
     let mut scenario = scenario.clone();
     scenario.problem.seed = seed;
-    let usual = control.of_a_search();
+    let usual = plan.of_a_search();
     let effort = match method {
         Method::Accuracy(accuracy) => {
             scenario.problem.accuracy = accuracy;
             usual
         }
-        Method::MostShots(most_shots) => solve::Control {
+        Method::MostShots(most_shots) => Control {
             most_shots,
             ..usual
         },
     };
-    let started = Instant::now();
+    let started = plan.seconds();
     let solution = solve(&scenario, &effort);
-    let seconds = started.elapsed().as_secs_f64();
+    let seconds = plan.seconds() - started;
     let best = solution.least()?;
-    (!control.is_stopped() && best.violation <= 0.0).then_some(Outcome {
+    (!plan.is_stopped() && best.violation <= 0.0).then_some(Outcome {
         method,
         seed,
         seconds,
@@ -165,10 +164,10 @@ fn compared(
     outcomes: Vec<Outcome>,
     choices: &[Settings],
     beside: Vec<BesidePoint>,
-    control: &Control,
+    plan: &Plan,
 ) -> Searches {
     let goals = &scenario.problem.goals;
-    let shots = control.comparison_shots();
+    let shots = plan.comparison_shots();
     let sums = sums(scenario, choices, COMPARISON, shots);
     let totals: Vec<f64> = sums
         .iter()

@@ -1,7 +1,8 @@
 //! Wall-clock measurements on one thread.
 
 use std::hint::black_box;
-use std::time::Instant;
+
+use crate::control::Clock;
 
 /// A measurement takes at least so many repeats, a comparison so many turns, and so long, s.
 const LEAST_REPEATS: usize = 5;
@@ -10,32 +11,37 @@ const LEAST_SECONDS: f64 = 0.01;
 
 /// Time that some work takes, s: the median of its slices times their number, so that a busy
 /// machine, which stretches long work most, does not tell much.
-pub fn seconds<S: Copy, T>(slices: &[S], work: impl Fn(S) -> T) -> f64 {
+pub fn seconds<S: Copy, T>(clock: &Clock, slices: &[S], work: impl Fn(S) -> T) -> f64 {
     let mut turns = slices.iter().cycle();
-    let slice = repeated(LEAST_REPEATS.max(slices.len()), || {
-        timed(&mut || turns.next().map(|slice| work(*slice)))
+    let slice = repeated(clock, LEAST_REPEATS.max(slices.len()), || {
+        timed(clock, &mut || turns.next().map(|slice| work(*slice)))
     });
     slice * slices.len() as f64
 }
 
 /// Median of the time that some work takes over that of other work, taken in turns.
-pub fn ratio<T>(mut work: impl FnMut() -> T, mut over: impl FnMut() -> T) -> f64 {
-    repeated(LEAST_TURNS, || {
-        let first = timed(&mut work);
-        first / timed(&mut over)
+pub fn ratio<T>(clock: &Clock, mut work: impl FnMut() -> T, mut over: impl FnMut() -> T) -> f64 {
+    repeated(clock, LEAST_TURNS, || {
+        let first = timed(clock, &mut work);
+        first / timed(clock, &mut over).max(f64::MIN_POSITIVE)
     })
 }
 
-fn timed<T>(work: &mut impl FnMut() -> T) -> f64 {
-    let started = Instant::now();
+fn timed<T>(clock: &Clock, work: &mut impl FnMut() -> T) -> f64 {
+    let started = clock.seconds();
     black_box(work());
-    started.elapsed().as_secs_f64()
+    clock.seconds() - started
 }
 
-fn repeated(least: usize, mut measurement: impl FnMut() -> f64) -> f64 {
-    let started = Instant::now();
+fn repeated(clock: &Clock, least: usize, mut measurement: impl FnMut() -> f64) -> f64 {
+    let started = clock.seconds();
     let mut values = Vec::new();
-    while values.len() < least || started.elapsed().as_secs_f64() < LEAST_SECONDS {
+    let is_short = || {
+        let elapsed = clock.seconds() - started;
+        // A clock may stand still.
+        0.0 < elapsed && elapsed < LEAST_SECONDS
+    };
+    while values.len() < least || is_short() {
         values.push(measurement());
     }
     median(values)

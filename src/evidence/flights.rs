@@ -1,11 +1,10 @@
 //! Shots on their way, with every impact.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
 use super::Shape;
+use crate::control::Cancel;
 use crate::elementary::asin;
 use crate::jet::{Samples, ShotSample};
 use crate::problem::setting::Settings;
@@ -32,13 +31,13 @@ const MARGIN: f64 = 0.05;
 /// Shots that are fired before it is asked whether there is time for more.
 const VOLLEY: usize = 1024;
 
-/// The flights of some shots, in their order, or of the first ones when `stop` is set.
+/// The flights of some shots, in their order, or of the first ones after a request to end.
 pub(super) fn fire(
     scenario: &Scenario,
     settings: &Settings,
     jet: &Samples,
     shapes: &[Shape],
-    stop: &AtomicBool,
+    cancel: &Cancel,
 ) -> Vec<Flight> {
     let tracer = Tracer::new(scenario, settings, settings.speed);
     let scene = Limits::of(shapes);
@@ -62,7 +61,7 @@ pub(super) fn fire(
         }
     };
     let packets = jet.shots.chunks(VOLLEY).enumerate();
-    let packets = packets.take_while(|(number, _)| *number == 0 || !stop.load(Ordering::Relaxed));
+    let packets = packets.take_while(|(number, _)| *number == 0 || !cancel.is_set());
     let mut flights = Vec::with_capacity(jet.shots.len());
     for (_, packet) in packets {
         flights.par_extend(packet.par_iter().map(flight));

@@ -26,16 +26,7 @@ const PROBES: usize = 64;
 /// over others where these are held. None where fewer than two settings are free.
 ///
 /// The dearer a ray, the coarser they are.
-pub fn standard_maps(scenario: &Scenario, settings: &Settings) -> Vec<Map> {
-    standard_maps_until(scenario, settings, &Control::default())
-}
-
-/// The same, as far as `control` lets them.
-pub fn standard_maps_until(
-    scenario: &Scenario,
-    settings: &Settings,
-    control: &Control,
-) -> Vec<Map> {
+pub fn standard_maps(scenario: &Scenario, settings: &Settings, control: &Control) -> Vec<Map> {
     let rays = rays_at_one_place(scenario, settings);
     let pairs = pairs(&free(scenario, settings));
     let map = |[x, y]: [(Setting, Range); 2]| {

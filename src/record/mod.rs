@@ -41,13 +41,13 @@ pub use window::{DriftRecord, WindowRecord};
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 
+use crate::control::Control;
 use crate::coverage::Coverage;
 use crate::evidence::{Evidence, SHOTS};
-use crate::map::{Control, standard_maps_until};
+use crate::map::standard_maps;
 use crate::printable;
 use crate::problem::Source;
 use crate::scenario::Scenario;
@@ -252,30 +252,15 @@ impl Record {
     }
 
     /// The same with what the pictures of the best settings are drawn from; `best` is the first
-    /// of the answers behind it.
+    /// of the answers behind it. After a request to end there are fewer flights, maps of which nothing is
+    /// known are left out, and the others have blanks.
     #[must_use]
-    pub fn with_evidence(self, scenario: &Scenario, best: &Answer) -> Self {
-        self.with_evidence_until(scenario, best, &AtomicBool::new(false))
-    }
-
-    /// The same with fewer flights, without the maps of which nothing is known when `stop` is set, and with
-    /// blanks in the others.
-    #[must_use]
-    pub fn with_evidence_until(
-        self,
-        scenario: &Scenario,
-        best: &Answer,
-        stop: &AtomicBool,
-    ) -> Self {
+    pub fn with_evidence(self, scenario: &Scenario, best: &Answer, control: &Control) -> Self {
         let fits = best.evaluation.is_some();
         let shots = if fits { SHOTS } else { 0 };
-        let shown = Evidence::until(scenario, &best.settings, shots, stop);
+        let shown = Evidence::of(scenario, &best.settings, shots, &control.cancel);
         let mut evidence = EvidenceRecord::new(scenario, &best.settings, &shown);
-        let control = Control {
-            stop,
-            ..Control::default()
-        };
-        let maps = standard_maps_until(scenario, &best.settings, &control);
+        let maps = standard_maps(scenario, &best.settings, control);
         let maps = maps.iter().map(|map| MapRecord::new(scenario, map));
         evidence.maps = maps.filter(|map| map.known_places() > 0).collect();
         Self {

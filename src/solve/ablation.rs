@@ -4,9 +4,9 @@ mod bench;
 
 use rayon::prelude::*;
 
-use super::Control;
 use super::evaluator::Effort;
 use super::search::Search;
+use crate::control::Control;
 use crate::jet::ImportanceDensity;
 use crate::problem::model::Effect;
 use crate::problem::setting::Settings;

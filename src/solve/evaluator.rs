@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::control::Control;
 use super::objectives::Objectives;
 use super::pareto_archive::ParetoArchive;
 use crate::checkpoint::{Checkpoint, Page};
+use crate::control::Control;
 use crate::feasibility::infeasibility;
 use crate::jet::ShotSample;
 use crate::objective::{Tally, Terms};
@@ -111,7 +111,7 @@ pub struct Evaluator<'a> {
     scenario: &'a Scenario,
     shots: &'a [ShotSample],
     effort: &'a Effort,
-    control: &'a Control<'a>,
+    control: &'a Control,
     /// Where what was judged is written down.
     page: Option<Page<'a>>,
     /// Where to keep what was judged, and the factors that are on the weights.
@@ -132,7 +132,7 @@ impl<'a> Evaluator<'a> {
             shots,
             effort,
             control,
-            page: control.checkpoint.map(page),
+            page: control.checkpoint.as_deref().map(page),
             archive: None,
         }
     }

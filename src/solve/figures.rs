@@ -1,15 +1,12 @@
 //! The figures of the answers, on as many fresh shots as they need.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
-
 use super::answer::Answer;
-use super::control::Control;
 use super::evaluator::Effort;
 use super::polish::Candidate;
 use super::search::Search;
 use super::stopping_rule::is_noisy;
 use super::tie::recommended;
+use crate::control::Control;
 use crate::jet::{ValidationSample, purpose};
 use crate::problem::Problem;
 use crate::scenario::Scenario;
@@ -20,19 +17,19 @@ pub(super) struct Figures<'a> {
     scenario: &'a Scenario,
     effort: &'a Effort,
     most_shots: usize,
-    stop: &'a AtomicBool,
+    control: &'a Control,
     validation: ValidationSample,
 }
 
 impl<'a> Figures<'a> {
     /// Draws a part of the shots.
-    pub fn new(scenario: &'a Scenario, control: &Control<'a>, effort: &'a Effort) -> Self {
+    pub fn new(scenario: &'a Scenario, control: &'a Control, effort: &'a Effort) -> Self {
         let first = control.first_validation_shots();
         Self {
             scenario,
             effort,
             most_shots: control.validation_shots,
-            stop: control.stop,
+            control,
             validation: ValidationSample::new(&scenario.problem, purpose::ANSWERS, first),
         }
     }
@@ -70,7 +67,7 @@ impl<'a> Figures<'a> {
         let problem = &self.scenario.problem;
         let has_all = problem.has_one_ray() || self.validation.shots() >= self.most_shots;
         if has_all
-            || self.stop.load(Ordering::Relaxed)
+            || self.control.is_stopped()
             || !(is_noisy(&answers, problem) || is_open(&answers, problem))
         {
             return answers;
@@ -84,12 +81,12 @@ impl<'a> Figures<'a> {
         let on = |validation: &ValidationSample| {
             Answer::of_all(self.scenario, &candidates, validation, self.effort)
         };
-        if self.stop.load(Ordering::Relaxed) {
+        if self.control.is_stopped() {
             let few = ValidationSample::new(&self.scenario.problem, purpose::ANSWERS, FEW);
-            let began = Instant::now();
+            let began = self.control.clock.seconds();
             let roughly = on(&few);
             let times = self.validation.shots() as f64 / few.shots() as f64;
-            if began.elapsed().as_secs_f64() * times > PATIENCE {
+            if (self.control.clock.seconds() - began) * times > PATIENCE {
                 return roughly;
             }
         }

@@ -9,11 +9,11 @@ use rayon::prelude::*;
 
 use super::SCREENING_SHOTS;
 use super::answer::Answer;
-use super::control::{Control, Progress};
 use super::evaluator::{Effort, Evaluator};
 use super::objectives::{Objectives, objectives};
 use super::pareto_archive::{Evaluated, ParetoArchive, dominates, not_dominated, spread_out};
 use super::search::{STAGES, Search};
+use crate::control::{Control, Progress};
 use crate::elementary::hypot;
 use crate::evaluate::evaluate_adaptively;
 use crate::jet::{Samples, Stream, ValidationSample, purpose};
@@ -158,7 +158,7 @@ fn search(
     search.refine(&evaluator(STAGES[0].shots), &STAGES[0]);
     let last = evaluator(STAGES[1].shots).keeping(archive, weights);
     search.refine(&last, &STAGES[1]);
-    (control.watch)(Progress {
+    control.tell(Progress::Search {
         poses: effort.poses(),
         best: None,
     });

@@ -9,7 +9,6 @@
 
 mod ablation;
 mod answer;
-mod control;
 mod evaluator;
 mod figures;
 mod front;
@@ -20,21 +19,23 @@ mod polish;
 mod sampler;
 mod search;
 mod space;
+mod status;
 mod stopping_rule;
 mod tie;
 mod window;
 
 pub use ablation::Ablation;
 pub use answer::Answer;
-pub use control::{Control, Progress, Shortcuts, Status};
 pub use evaluator::{Effort, Fitness};
 pub use front::{Front, front};
 pub use objectives::{Objectives, objectives};
+pub use status::Status;
 pub use tie::is_tie;
-pub use window::{Drift, Turn, Window, passing_windows, passing_windows_until, windows};
+pub use window::{Drift, Turn, Window, passing_windows, windows};
 
 use rayon::prelude::*;
 
+use crate::control::{Control, Progress};
 use crate::problem::setting::{Settings, Tolerance};
 use crate::scenario::Scenario;
 use evaluator::Evaluator;
@@ -224,7 +225,7 @@ fn refine_in_turn(searches: &mut [Search], which: &[usize], evaluator: &Evaluato
 
 fn tell(control: &Control, effort: &Effort, searches: &[Search]) {
     let best = least_objective(searches);
-    (control.watch)(Progress {
+    control.tell(Progress::Search {
         poses: effort.poses(),
         best: best.is_finite().then_some(best),
     });

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::control::Control;
 use super::evaluator::Effort;
 use super::polish::Candidate;
 use super::search::Search;
 use super::stopping_rule::is_precise;
+use crate::control::Control;
 use crate::evaluate::importance_of;
 use crate::jet::{ImportanceDensity, Replicates, Samples, Stream, purpose};
 use crate::objective::Tally;

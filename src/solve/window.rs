@@ -1,10 +1,9 @@
 //! How far each setting may drift alone before a verdict turns.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use rayon::prelude::*;
 
 use super::Solution;
+use crate::control::Cancel;
 use crate::elementary::whole_power;
 use crate::evaluate::{Counts, Survey};
 use crate::feasibility::{Obstacle, infeasibility};
@@ -51,17 +50,9 @@ const HALVINGS: usize = 6;
 /// Steps of doubling length from the choice outwards.
 const DOUBLINGS: i32 = 5;
 
-/// The windows round the best answer, for the verdicts that it passes; none without a pose that fits.
-pub fn passing_windows(scenario: &Scenario, solution: &Solution) -> Vec<Window> {
-    passing_windows_until(scenario, solution, &AtomicBool::new(false))
-}
-
-/// The same, without those that are not known when `stop` is set.
-pub fn passing_windows_until(
-    scenario: &Scenario,
-    solution: &Solution,
-    stop: &AtomicBool,
-) -> Vec<Window> {
+/// The windows round the best answer, for the verdicts that it passes; none without a pose that fits, and
+/// none of those that are not known when the request to end comes.
+pub fn passing_windows(scenario: &Scenario, solution: &Solution, cancel: &Cancel) -> Vec<Window> {
     let Some(best) = solution.answers.first() else {
         return Vec::new();
     };
@@ -76,7 +67,7 @@ pub fn passing_windows_until(
         .collect();
     let validation =
         Replicates::without_boundary(&scenario.problem, purpose::WINDOWS, WINDOW_SHOTS);
-    windows_until(scenario, &best.settings, &passing, &validation, stop)
+    windows(scenario, &best.settings, &passing, &validation, cancel)
 }
 
 /// Shots behind each verdict of a window at most.
@@ -88,24 +79,9 @@ pub fn windows(
     settings: &Settings,
     passing: &[Subject],
     validation: &Replicates,
+    cancel: &Cancel,
 ) -> Vec<Window> {
-    windows_until(
-        scenario,
-        settings,
-        passing,
-        validation,
-        &AtomicBool::new(false),
-    )
-}
-
-fn windows_until(
-    scenario: &Scenario,
-    settings: &Settings,
-    passing: &[Subject],
-    validation: &Replicates,
-    stop: &AtomicBool,
-) -> Vec<Window> {
-    let is_stopped = || stop.load(Ordering::Relaxed);
+    let is_stopped = || cancel.is_set();
     let ranges: Vec<(Setting, Range)> = Setting::OF_THE_NOZZLE
         .into_iter()
         .filter_map(|setting| Some((setting, scenario.problem.ranges.range(setting)?)))
@@ -115,7 +91,7 @@ fn windows_until(
     let window = |&(setting, Range { min, max }): &(Setting, Range)| {
         // A window that is cut short says nothing.
         let drift = |end: f64, shots: &mut dyn Shots| {
-            drift(scenario, settings, (setting, end), passing, shots, stop)
+            drift(scenario, settings, (setting, end), passing, shots, cancel)
         };
         let (down, up) = if setting == Setting::Speed && shares_paths {
             let mut shots = Recorded::of(scenario, settings, validation);
@@ -208,12 +184,12 @@ fn drift(
     (setting, end): (Setting, f64),
     passing: &[Subject],
     shots: &mut dyn Shots,
-    stop: &AtomicBool,
+    cancel: &Cancel,
 ) -> Drift {
     let start = setting.of(settings);
     let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
     let mut turn = |fraction: f64| {
-        if stop.load(Ordering::Relaxed) {
+        if cancel.is_set() {
             return None;
         }
         turned(

@@ -7,13 +7,14 @@ use crate::common::program;
 use std::path::Path;
 
 use nalgebra::{Point3, Vector3};
+use peenpose::control::Control;
 use peenpose::feasibility::{Obstacle, gap_within_tolerance, infeasibility};
 use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::part::{Part, Place, Shape};
 use peenpose::problem::setting::Setting;
 use peenpose::scenario::Scenario;
 use peenpose::scene::{Scene, Walls};
-use peenpose::solve::{Control, passing_windows, solve, spread_settings};
+use peenpose::solve::{passing_windows, solve, spread_settings};
 use peenpose::verdict::Subject;
 use rayon::prelude::*;
 
@@ -24,7 +25,7 @@ fn shipped(name: &str) -> Scenario {
     Scenario::load(path.as_ref()).expect("it is sound").0
 }
 
-fn quick() -> Control<'static> {
+fn quick() -> Control {
     Control {
         most_shots: 1024,
         validation_shots: 4096,
@@ -240,7 +241,7 @@ fn windows_and_the_verdict_on_the_clearance_agree() {
     let gap = gap_within_tolerance(&scenario, &best.settings).expect("it is near");
     assert!(gap.distance >= scenario.problem.nozzle.clearance, "{gap:?}");
     let mut ends = 0;
-    for window in passing_windows(&scenario, &solution) {
+    for window in passing_windows(&scenario, &solution, &peenpose::control::Cancel::default()) {
         let start = window.setting.of(&best.settings);
         for drift in [window.down, window.up] {
             let fits = |value: f64| {

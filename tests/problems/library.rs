@@ -224,12 +224,13 @@ fn a_single_name_and_a_contact_called_use() {
 mod sheets {
     use std::path::Path;
 
+    use peenpose::control::Control;
     use peenpose::problem;
     use peenpose::record::{Record, RunInfo, WorkRecord};
     use peenpose::report::sheet;
     use peenpose::scenario::Scenario;
     use peenpose::scene::Walls;
-    use peenpose::solve::{Control, passing_windows, solve};
+    use peenpose::solve::{passing_windows, solve};
     use peenpose::unknowns::Unknowns;
 
     use super::{REST, SHOT};
@@ -258,7 +259,7 @@ mod sheets {
                 seconds: 0.0,
             },
         };
-        let windows = passing_windows(&scenario, &solution);
+        let windows = passing_windows(&scenario, &solution, &peenpose::control::Cancel::default());
         let unknowns = Unknowns::of(&scenario, &solution.answers[0].settings);
         Record::new(
             &scenario,

@@ -4,11 +4,12 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use nalgebra::Vector2;
+use peenpose::control::Control;
 use peenpose::problem::curve::Curve;
 use peenpose::problem::part::Shape;
 use peenpose::scenario::Scenario;
 use peenpose::scene::profile::Profile;
-use peenpose::solve::{Answer, Control, Solution, Status, solve};
+use peenpose::solve::{Answer, Solution, Status, solve};
 
 /// Where the best answer for one contact must lie.
 struct Expectation {

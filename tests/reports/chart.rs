@@ -1,11 +1,11 @@
 //! `peenpose chart`: files, figures and tables, and that errors are what they should be.
 
 use std::path::Path;
-use std::sync::LazyLock;
-use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, LazyLock};
 
 use assert_cmd::Command;
-use peenpose::chart::{BesidePoint, Chart, Control, Refusal, Sampling, measure};
+use peenpose::chart::{BesidePoint, Chart, Plan, Refusal, Sampling, measure};
+use peenpose::control::{Cancel, Control, Progress};
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::scenario::Scenario;
@@ -362,18 +362,18 @@ fn scenario() -> (TempDir, Scenario, peenpose::problem::Source) {
 #[test]
 fn everything_but_times_is_the_same_for_any_number_of_threads() {
     let (_folder, scenario, source) = scenario();
-    let control = Control {
+    let plan = Plan {
         most_shots: 1024,
         replicates: 3,
         seeds: 1,
-        ..Control::default()
+        ..Plan::default()
     };
     let timeless = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .unwrap();
-        let chart = || measure(&scenario, &source, String::new(), Vec::new(), &control).unwrap();
+        let chart = || measure(&scenario, &source, String::new(), Vec::new(), &plan).unwrap();
         let mut chart = pool.install(chart);
         chart.threads = 0;
         let points = chart.poses.iter_mut().flat_map(|curve| &mut curve.points);
@@ -395,30 +395,33 @@ fn everything_but_times_is_the_same_for_any_number_of_threads() {
 #[test]
 fn a_chart_that_is_stopped_at_once_says_so() {
     let (_folder, scenario, source) = scenario();
-    let stop = AtomicBool::new(true);
-    let control = Control {
-        stop: &stop,
-        ..Control::default()
-    };
-    let refused = measure(&scenario, &source, String::new(), Vec::new(), &control);
+    let plan = Plan::default();
+    plan.control.cancel.end();
+    let refused = measure(&scenario, &source, String::new(), Vec::new(), &plan);
     assert_eq!(refused, Err(Refusal::Interrupted));
 }
 
 #[test]
 fn a_chart_that_is_stopped_later_keeps_what_it_has() {
     let (_folder, scenario, source) = scenario();
-    let stop = AtomicBool::new(false);
-    let control = Control {
+    let cancel = Cancel::default();
+    let asked = cancel.clone();
+    let observer = move |progress| {
+        if matches!(progress, Progress::Step { name, number: 2, .. } if name == "searches") {
+            asked.end();
+        }
+    };
+    let plan = Plan {
         most_shots: 64,
         replicates: 2,
         seeds: 1,
-        stop: &stop,
-        watch: &|step| {
-            let enough = step.name == "searches" && step.number == 2;
-            stop.fetch_or(enough, std::sync::atomic::Ordering::Relaxed);
+        control: Control {
+            cancel,
+            observer: Some(Arc::new(observer)),
+            ..Control::default()
         },
     };
-    let chart = measure(&scenario, &source, String::new(), Vec::new(), &control).unwrap();
+    let chart = measure(&scenario, &source, String::new(), Vec::new(), &plan).unwrap();
     assert!(chart.interrupted);
     assert_eq!(chart.poses.len(), 3 * 4);
     assert_eq!(chart.searches.as_ref().unwrap().runs.len(), 2);

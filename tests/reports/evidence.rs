@@ -89,7 +89,12 @@ fn the_target_is_cut_out_of_its_surface() {
         "keyway-blind.yaml",
     ] {
         let scenario = shipped(name);
-        let evidence = Evidence::of(&scenario, &middle(&scenario), 0);
+        let evidence = Evidence::of(
+            &scenario,
+            &middle(&scenario),
+            0,
+            &peenpose::control::Cancel::default(),
+        );
         let shapes = &evidence.shapes;
         let surface = scenario.target.surface;
         assert!(shapes[0].is_target && shapes[0].surface == surface);
@@ -133,7 +138,12 @@ fn parts_on_the_nozzle_are_where_it_stands() {
     let scenario = shipped("deflector.yaml");
     let mut settings = middle(&scenario);
     let pin = |settings: &Settings| {
-        let evidence = Evidence::of(&scenario, settings, 0);
+        let evidence = Evidence::of(
+            &scenario,
+            settings,
+            0,
+            &peenpose::control::Cancel::default(),
+        );
         let cut = scenario.scene.surface_named("pin.cut").unwrap();
         let shape = evidence
             .shapes
@@ -152,7 +162,12 @@ fn parts_on_the_nozzle_are_where_it_stands() {
 #[test]
 fn flights_go_from_the_exit_over_every_impact_out_of_the_scene() {
     let scenario = shipped("deflector.yaml");
-    let evidence = Evidence::of(&scenario, &middle(&scenario), 2000);
+    let evidence = Evidence::of(
+        &scenario,
+        &middle(&scenario),
+        2000,
+        &peenpose::control::Cancel::default(),
+    );
     let shapes = || evidence.shapes.iter().flat_map(|shape| &shape.points);
     let low = shapes().fold(Point3::from(Vector3::repeat(1.0)), |low, p| low.inf(p));
     let high = shapes().fold(Point3::from(Vector3::repeat(-1.0)), |high, p| high.sup(p));
@@ -189,7 +204,12 @@ fn flights_go_from_the_exit_over_every_impact_out_of_the_scene() {
 #[test]
 fn what_breaks_is_what_the_verdicts_count() {
     let scenario = scenario(MASKED);
-    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
+    let evidence = Evidence::of(
+        &scenario,
+        &middle(&scenario),
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     let share = |subject: Subject| {
         let broken = evidence
             .flights
@@ -239,7 +259,12 @@ fn shots_that_break_a_limit_are_shown_however_rare_they_are() {
         speed: 31.9,
         ..middle(&scenario)
     };
-    let evidence = Evidence::of(&scenario, &settings, SHOTS);
+    let evidence = Evidence::of(
+        &scenario,
+        &settings,
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     let breaks = |flight: &Flight| flight.broken(&scenario);
     let shown = &evidence.shown;
     assert_eq!(shown.len(), 200);
@@ -272,7 +297,12 @@ fn shots_that_break_a_limit_are_shown_however_rare_they_are() {
 #[test]
 fn the_edge_of_a_mask_is_the_shadow_edge() {
     let scenario = scenario(MASKED);
-    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
+    let evidence = Evidence::of(
+        &scenario,
+        &middle(&scenario),
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     let edge = place(&evidence, "shadow_edge").unwrap();
     // A shot touches the mask's edge with its rim.
     let expected = 0.5e-3 - scenario.problem.shot.radius;
@@ -286,7 +316,12 @@ fn the_edge_of_a_mask_is_the_shadow_edge() {
     );
     // Without the mask the jet ends by itself, 2 mm from its middle.
     let open = self::scenario(&MASKED.replace("[0.5, -10, 2]", "[9, -10, 2]"));
-    let evidence = Evidence::of(&open, &middle(&open), SHOTS);
+    let evidence = Evidence::of(
+        &open,
+        &middle(&open),
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     let edge = place(&evidence, "shadow_edge").unwrap();
     assert!((edge.value - 2e-3).abs() < 0.03e-3, "{edge:?}");
     assert!(edge.text.contains("nothing is in its way"), "{}", edge.text);
@@ -296,7 +331,12 @@ fn the_edge_of_a_mask_is_the_shadow_edge() {
         "surface: plate.z_max, aim",
         &format!("surface: plate.z_max, {within}"),
     ));
-    let evidence = Evidence::of(&small, &middle(&small), SHOTS);
+    let evidence = Evidence::of(
+        &small,
+        &middle(&small),
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     assert_eq!(place(&evidence, "shadow_edge"), None);
 }
 
@@ -311,7 +351,12 @@ fn the_places_are_where_the_extremes_are() {
         )
         .replace("incidence: 90 deg", "incidence: 45 deg");
     let scenario = scenario(&slanting);
-    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
+    let evidence = Evidence::of(
+        &scenario,
+        &middle(&scenario),
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     let lowest = place(&evidence, "lowest_normal_impulse").unwrap();
     let grazing = place(&evidence, "most_grazing").unwrap();
     assert!((35.0..37.0).contains(&grazing.value), "{grazing:?}");
@@ -332,7 +377,12 @@ fn the_places_are_where_the_extremes_are() {
     assert!(place(&evidence, "strongest_rebound").is_none());
     // On the mask the strongest impact is the fastest shot's.
     let masked = self::scenario(MASKED);
-    let evidence = Evidence::of(&masked, &middle(&masked), SHOTS);
+    let evidence = Evidence::of(
+        &masked,
+        &middle(&masked),
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     let mask = masked.scene.surface_named("mask.z_max").unwrap();
     let of_mask = evidence
         .places
@@ -355,7 +405,12 @@ fn the_places_are_where_the_extremes_are() {
 #[test]
 fn one_ray_is_one_shot() {
     let scenario = shipped("plate.yaml");
-    let evidence = Evidence::of(&scenario, &middle(&scenario), SHOTS);
+    let evidence = Evidence::of(
+        &scenario,
+        &middle(&scenario),
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     assert_eq!((evidence.flights.len(), evidence.shown.len()), (1, 1));
     let grazing = place(&evidence, "most_grazing").unwrap();
     assert!((grazing.value - 60.0).abs() < 1e-9);
@@ -369,7 +424,12 @@ fn one_ray_is_one_shot() {
 #[test]
 fn a_nozzle_that_does_not_fit_fires_no_shots() {
     let scenario = scenario(MASKED);
-    let evidence = Evidence::of(&scenario, &middle(&scenario), 0);
+    let evidence = Evidence::of(
+        &scenario,
+        &middle(&scenario),
+        0,
+        &peenpose::control::Cancel::default(),
+    );
     assert!(evidence.flights.is_empty() && evidence.shown.is_empty());
     assert!(evidence.places.is_empty());
     assert_eq!(evidence.shapes[0].triangles.len(), 2);
@@ -412,7 +472,12 @@ fn fine_meshes_are_thinned_but_for_the_target() {
         .replace("380 pN.s", "0.38 nN.s");
     std::fs::write(&file, text).unwrap();
     let (scenario, _) = Scenario::load(&file).unwrap_or_else(|rejection| panic!("{rejection}"));
-    let evidence = Evidence::of(&scenario, &middle(&scenario), 0);
+    let evidence = Evidence::of(
+        &scenario,
+        &middle(&scenario),
+        0,
+        &peenpose::control::Cancel::default(),
+    );
     let [target, rest] = [&evidence.shapes[0], &evidence.shapes[1]];
     assert_eq!(target.share_drawn, 1.0);
     assert!((area(target) / scenario.target.area - 1.0).abs() < 1e-12);
@@ -437,7 +502,12 @@ fn fine_meshes_are_thinned_but_for_the_target() {
 fn the_record_keeps_what_pictures_need_and_no_more() {
     let scenario = shipped("keyway.yaml");
     let settings = keyway_choice();
-    let evidence = Evidence::of(&scenario, &settings, SHOTS);
+    let evidence = Evidence::of(
+        &scenario,
+        &settings,
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     let record = EvidenceRecord::new(&scenario, &settings, &evidence);
     assert_eq!(record.hits.shots, SHOTS);
     let hits: Vec<_> = evidence
@@ -477,7 +547,14 @@ fn threads_make_no_difference() {
     let with = |threads: usize| {
         let pool = rayon_pool(threads);
         let settings = middle(&scenario);
-        let evidence = pool.install(|| Evidence::of(&scenario, &settings, 4096));
+        let evidence = pool.install(|| {
+            Evidence::of(
+                &scenario,
+                &settings,
+                4096,
+                &peenpose::control::Cancel::default(),
+            )
+        });
         EvidenceRecord::new(&scenario, &settings, &evidence)
     };
     let one = with(1);

@@ -19,7 +19,12 @@ fn record() -> Record {
         speed: 46.0,
         ..scenario.problem.ranges.middle()
     };
-    let evidence = Evidence::of(&scenario, &settings, 3000);
+    let evidence = Evidence::of(
+        &scenario,
+        &settings,
+        3000,
+        &peenpose::control::Cancel::default(),
+    );
     record.evidence = Some(EvidenceRecord::new(&scenario, &settings, &evidence));
     record
 }

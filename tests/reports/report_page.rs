@@ -43,7 +43,12 @@ fn illustrated() -> Record {
         contact,
         static_friction: contacts[contact].static_friction.min,
     };
-    let evidence = Evidence::of(&scenario, &settings, SHOTS);
+    let evidence = Evidence::of(
+        &scenario,
+        &settings,
+        SHOTS,
+        &peenpose::control::Cancel::default(),
+    );
     record.evidence = Some(EvidenceRecord::new(&scenario, &settings, &evidence));
     record
 }

@@ -6,9 +6,10 @@ use crate::examples::known::Known;
 use crate::examples::statistics::Mean;
 use crate::examples::validation;
 use crate::examples::variant::{Shots, Variant, variants};
+use peenpose::control::Control;
 use peenpose::feasibility::infeasibility;
 use peenpose::problem::setting::Settings;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 
 const SHOTS: usize = 1 << 16;
 /// Sets of shots from here on found no best settings.

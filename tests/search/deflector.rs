@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use nalgebra::{Rotation3, Unit, Vector3};
+use peenpose::control::Control;
 use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Pose, Samples, ShotSample, Stream};
 use peenpose::problem;
@@ -10,7 +11,7 @@ use peenpose::problem::equipment::{Body, Nozzle};
 use peenpose::problem::setting::{Settings, Tolerance};
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 use peenpose::trace::{PathImpact, Tracer};
 
 /// A wall at z = 0, and a mirror at 45 deg on the nozzle, 10 mm in front of the exit, which turns

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use peenpose::control::Control;
 use peenpose::problem::model::{Effect, Model};
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Ablation, Control, Solution, solve};
+use peenpose::solve::{Ablation, Solution, solve};
 
 fn shipped(file: &str) -> Scenario {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");

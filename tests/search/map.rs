@@ -1,16 +1,17 @@
 //! Maps: each place is what an evaluation there says, whichever way it was computed.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
 use peenpose::checkpoint::Checkpoint;
+use peenpose::control::Control;
 use peenpose::evaluate::evaluate;
 use peenpose::feasibility::infeasibility;
 use peenpose::impact::Restitution;
 use peenpose::jet::{Replicate, Replicates, Samples, Stream};
-use peenpose::map::{Axis, Control, Map, Place, standard_maps};
+use peenpose::map::{Axis, Map, Place, standard_maps};
 use peenpose::problem::setting::{Range, Setting, Settings};
 use peenpose::record::{MapRecord, MapTerm};
 use peenpose::scenario::Scenario;
@@ -184,18 +185,17 @@ fn a_map_that_is_stopped_shows_what_is_known() {
     };
     let whole = map(&Control::default());
     let folder = TempDir::new().unwrap();
-    let checkpoint = Checkpoint::open(folder.path(), &scenario).unwrap();
-    let stop = AtomicBool::new(false);
+    let checkpoint = Arc::new(Checkpoint::open(folder.path(), &scenario).unwrap());
     let control = Control {
-        stop: &stop,
-        checkpoint: Some(&checkpoint),
+        checkpoint: Some(Arc::clone(&checkpoint)),
+        ..Control::default()
     };
     let stopped = thread::scope(|scope| {
         scope.spawn(|| {
             while checkpoint.added() < 20 {
                 thread::sleep(Duration::from_millis(1));
             }
-            stop.store(true, Ordering::Relaxed);
+            control.cancel.end();
         });
         map(&control)
     });
@@ -246,7 +246,7 @@ fn a_report_has_maps_of_what_is_free() {
     let axes = |file: &str| -> Vec<(Setting, Setting)> {
         let (scenario, _) = Scenario::load(&Path::new("problems").join(file)).unwrap();
         let middle = scenario.problem.ranges.middle();
-        let maps = standard_maps(&scenario, &middle);
+        let maps = standard_maps(&scenario, &middle, &peenpose::control::Control::default());
         for map in &maps {
             let values = [&map.x.values, &map.y.values];
             assert!(values.iter().all(|values| (9..=41).contains(&values.len())));
@@ -266,7 +266,7 @@ fn a_report_has_maps_of_what_is_free() {
 
     let mut scenario = keyway();
     scenario.problem.ranges.azimuth = Range::held(0.0);
-    let axes: Vec<_> = standard_maps(&scenario, &good())
+    let axes: Vec<_> = standard_maps(&scenario, &good(), &peenpose::control::Control::default())
         .iter()
         .map(|map| (map.x.setting, map.y.setting))
         .collect();

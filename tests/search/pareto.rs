@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
+use peenpose::control::Control;
 use peenpose::feasibility::infeasibility;
 use peenpose::problem::Problem;
 use peenpose::problem::goal::TangentialImpulse;
 use peenpose::record::FrontRecord;
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Control, Front, Objectives, front, objectives, solve};
+use peenpose::solve::{Front, Objectives, front, objectives, solve};
 
-fn control() -> Control<'static> {
+fn control() -> Control {
     Control {
         most_shots: 1024,
         validation_shots: 1 << 14,

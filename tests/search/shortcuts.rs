@@ -2,12 +2,14 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 use peenpose::checkpoint::Checkpoint;
+use peenpose::control::{Control, Shortcuts};
 use peenpose::problem::setting::{Range, Settings};
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Control, Shortcuts, Solution, Status, solve};
+use peenpose::solve::{Solution, Status, solve};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -112,9 +114,9 @@ fn rays_of_poses(checkpoint: &Path) -> Vec<usize> {
 fn a_search_that_cannot_be_accurate_enough_stops_at_the_most_shots() {
     let scenario = demanding();
     let folder = TempDir::new().unwrap();
-    let checkpoint = Checkpoint::open(folder.path(), &scenario).unwrap();
+    let checkpoint = Arc::new(Checkpoint::open(folder.path(), &scenario).unwrap());
     let control = Control {
-        checkpoint: Some(&checkpoint),
+        checkpoint: Some(Arc::clone(&checkpoint)),
         ..Control::default()
     };
     let solution = solve(&scenario, &control);

@@ -24,13 +24,14 @@ mod threshold;
 use std::path::Path;
 
 use nalgebra::{Point3, Vector3};
+use peenpose::control::Control;
 use peenpose::jet::{Samples, ShotSample, Stream};
 use peenpose::objective::{Tally, Terms};
 use peenpose::problem;
 use peenpose::problem::setting::Settings;
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Control, Solution, solve};
+use peenpose::solve::{Solution, solve};
 use peenpose::trace::{End, PathImpact, Tracer};
 
 use crate::common::held::held;

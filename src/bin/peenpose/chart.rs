@@ -3,16 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use peenpose::chart::{BesidePoint, Chart, Control, LARGEST_TABLE, measure};
+use peenpose::chart::{BesidePoint, Chart, LARGEST_TABLE, Plan};
+use peenpose::control::Control;
 use peenpose::record::LARGEST_FILE;
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
-use peenpose::scenario::Scenario;
+use peenpose::study::quoted;
 
 use crate::args::ChartArgs;
 use crate::folder::Staged;
-use crate::output::{self, Failure, both, limited_text, quoted};
+use crate::output::{self, Failure, both, limited_text};
 use crate::progress::Watcher;
 use crate::result;
 use crate::start;
@@ -23,18 +24,19 @@ const CHART: &str = "chart.json";
 /// Measures a problem file and writes figures, tables and a text.
 pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
     let beside = beside(&args.beside)?;
-    let (scenario, source) = start::load(&args.start, &args.file, Some(&args.out))?;
-    let scenario = scenario.as_asked();
+    let clock = start::clock();
+    let study = start::open(&args.start, &args.file, Some(&args.out))?;
     let watcher = Watcher::new(args.start.quiet);
-    let control = Control {
+    let plan = Plan {
         most_shots: args.most_shots as usize,
         seeds: args.seeds.into(),
-        stop: &watcher.stop,
-        watch: &|step| watcher.show_step(step),
-        ..Control::default()
+        control: Control {
+            clock,
+            ..watcher.control()
+        },
+        ..Plan::default()
     };
-    let command = command(args, &scenario);
-    let chart = measure(&scenario, &source, command, beside, &control);
+    let chart = study.chart(command(args, study.problem().seed), beside, &plan);
     watcher.finish();
     let chart = chart.map_err(|refusal| refusal.to_string())?;
     let json = chart
@@ -108,7 +110,7 @@ fn beside_table(path: &Path) -> Result<Vec<BesidePoint>, String> {
 }
 
 /// The command that makes the chart again.
-fn command(args: &ChartArgs, scenario: &Scenario) -> String {
+fn command(args: &ChartArgs, seed: u64) -> String {
     let file = |path: &Path| quoted(&path.display().to_string());
     let mut command = format!(
         "peenpose chart {} --out {}",
@@ -120,7 +122,7 @@ fn command(args: &ChartArgs, scenario: &Scenario) -> String {
     }
     command
         + &format!(
-            " --most-shots {} --seeds {} --seed {}",
-            args.most_shots, args.seeds, scenario.problem.seed
+            " --most-shots {} --seeds {} --seed {seed}",
+            args.most_shots, args.seeds
         )
 }

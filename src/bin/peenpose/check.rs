@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use peenpose::scenario::Scenario;
+use peenpose::study::Study;
 
 use crate::args::CheckArgs;
 use crate::output::{BAD_INPUT, Failure, text, warnings};
@@ -14,9 +14,10 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let mut failed = ExitCode::SUCCESS;
     let mut good = String::new();
     for path in &args.files {
-        match Scenario::load(path) {
-            Ok((scenario, source)) => {
-                let found = warnings(&scenario, &source);
+        match Study::open(path) {
+            Ok(study) => {
+                let found = warnings(&study);
+                let scenario = study.scenario();
                 if args.deny_warnings && found > 0 {
                     failed = ExitCode::from(BAD_INPUT);
                     continue;

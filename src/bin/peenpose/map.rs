@@ -1,17 +1,18 @@
 //! `peenpose map`: the objective or a term of it over two settings.
 
 use std::process::ExitCode;
+use std::sync::Arc;
 
-use peenpose::checkpoint::Checkpoint;
-use peenpose::map::{self, Axis, Map};
+use peenpose::control::Control;
+use peenpose::map::Axis;
 use peenpose::problem::setting::{Range, Setting, Settings};
 use peenpose::problem::{Problem, given};
 use peenpose::record::{AnswerRecord, MapRecord, MapTerm, QuestionRecord};
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
 use peenpose::report::{self, MapView};
-use peenpose::scenario::Scenario;
-use peenpose::solve::{Answer, Control, solve};
+use peenpose::solve::{Answer, solve};
+use peenpose::study::Study;
 
 use crate::args::MapArgs;
 use crate::checkpoint;
@@ -30,46 +31,45 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         let name = x.setting.name();
         return Err(format!("--y {name}: both axes are the same setting").into());
     }
-    let (mut scenario, source) = start::load(&args.start, &args.file, Some(&args.out))?;
+    let mut study = start::open(&args.start, &args.file, Some(&args.out))?;
     let from = args
         .from
         .as_deref()
-        .map(|path| Earlier::read(path, &scenario, &source, args.start.quiet))
+        .map(|path| Earlier::read(path, &study, args.start.quiet))
         .transpose()?;
     if let Some(name) = &args.contact {
-        let contact = contact_named(name, &scenario.problem)
+        let contact = contact_named(name, study.problem())
             .map_err(|message| format!("--contact: {message}"))?;
-        scenario.problem.ranges.contact = vec![contact];
+        study = study.with_contact(contact);
     }
-    x.check(&scenario.problem)?;
-    y.check(&scenario.problem)?;
+    x.check(study.problem())?;
+    y.check(study.problem())?;
     let varied = [x.setting, y.setting];
-    let kept = checkpoint::open(args.checkpoint.as_deref(), &scenario)?;
-    let kept = kept.as_ref();
-    let given = given(args, from.as_ref(), &scenario, varied)?;
+    let checkpoint = checkpoint::open(args.checkpoint.as_deref(), study.scenario())?.map(Arc::new);
+    let given = given(args, from.as_ref(), study.problem(), varied)?;
     let watcher = Watcher::new(args.start.quiet);
+    let control = Control {
+        checkpoint: checkpoint.clone(),
+        ..watcher.control()
+    };
     let (settings, is_known) = match given {
         Some(given) => given,
-        None => (searched(args, &scenario, kept, &watcher)?, true),
+        None => (searched(args, &study, &control)?, true),
     };
-    let scenario = scenario.as_asked();
     let axis = |asked: &Asked| -> Result<Axis, String> {
-        let range = asked.range(&scenario.problem, &settings)?;
+        let range = asked.range(study.problem(), &settings)?;
         Ok(Axis::over(asked.setting, range, args.steps.into()))
     };
-    let (x, y) = (axis(&x)?, axis(&y)?);
+    let axes = [axis(&x)?, axis(&y)?];
     watcher.show_drawing();
-    let control = map::Control {
-        stop: &watcher.stop,
-        checkpoint: kept,
-    };
-    let map = Map::of(&scenario, &settings, x, y, args.shots as usize, &control);
+    let map = study.map(&settings, axes, args.shots as usize, &control);
     watcher.finish();
-    checkpoint::close(kept, args.start.quiet);
+    checkpoint::close(checkpoint.as_deref(), args.start.quiet);
+    let scenario = study.scenario().as_asked();
     let answer = Answer::evaluated(&scenario, &settings, None);
     let view = MapView {
         map: &MapRecord::new(&scenario, &map),
-        problem: &QuestionRecord::new(&scenario.problem, &source),
+        problem: &QuestionRecord::new(&scenario.problem, study.source()),
         answer: &AnswerRecord::new(&scenario, &answer),
         marks_settings: is_known,
     };
@@ -116,7 +116,7 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
 fn given(
     args: &MapArgs,
     from: Option<&Earlier>,
-    scenario: &Scenario,
+    problem: &Problem,
     varied: [Setting; 2],
 ) -> Result<Option<(Settings, bool)>, String> {
     if args.set.is_empty() && from.is_none() {
@@ -124,26 +124,15 @@ fn given(
     }
     let mut set = args.set.clone();
     set.extend(args.contact.iter().map(|name| format!("contact={name}")));
-    settings::choice_round(varied, &set, from, &scenario.problem).map(Some)
+    settings::choice_round(varied, &set, from, problem).map(Some)
 }
 
 /// The best settings, or the best so far when the search is told to stop.
-fn searched(
-    args: &MapArgs,
-    scenario: &Scenario,
-    kept: Option<&Checkpoint>,
-    watcher: &Watcher,
-) -> Result<Settings, String> {
+fn searched(args: &MapArgs, study: &Study, control: &Control) -> Result<Settings, String> {
     if !args.start.quiet {
         output::note("no --from and no --set: searching for the best settings first");
     }
-    let control = Control {
-        stop: &watcher.stop,
-        watch: &|progress| watcher.show(progress),
-        checkpoint: kept,
-        ..Control::default()
-    };
-    let solution = solve(scenario, &control);
+    let solution = solve(study.scenario(), control);
     let best = solution.answers.first();
     let best = best.ok_or("there is no contact to choose")?;
     Ok(best.settings)

@@ -6,8 +6,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use peenpose::printable;
-use peenpose::problem::{Source, render_warnings};
-use peenpose::scenario::{Rejection, Scenario};
+use peenpose::problem::render_warnings;
+use peenpose::scenario::Rejection;
+use peenpose::study::Study;
 
 /// Exit status of bad input or failure.
 pub const BAD_INPUT: u8 = 2;
@@ -67,10 +68,10 @@ pub fn note(message: &str) {
 }
 
 /// Shows on stderr what parses but can hardly be meant; tells how many warnings there are.
-pub fn warnings(scenario: &Scenario, source: &Source) -> usize {
-    let found = peenpose::warnings::of(scenario, source);
+pub fn warnings(study: &Study) -> usize {
+    let found = study.check();
     tell(&render_warnings(
-        source,
+        study.source(),
         &found,
         is_colorful(&std::io::stderr()),
     ));
@@ -110,16 +111,6 @@ pub fn limited_text(path: &Path, most_bytes: u64) -> Result<String, String> {
         return Err(format!("{shown} is too large; expected at most {most} MB"));
     }
     String::from_utf8(bytes).map_err(|_| format!("cannot read {shown}: it is not UTF-8 text"))
-}
-
-/// A word of a command that a shell reads as one.
-pub fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
 }
 
 /// Whether colours make sense on a stream.

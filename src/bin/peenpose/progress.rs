@@ -6,9 +6,8 @@ use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use peenpose::chart::Step;
+use peenpose::control::{Cancel, Control, Progress};
 use peenpose::digits::significant;
-use peenpose::solve::Progress;
 
 use crate::output;
 
@@ -26,10 +25,9 @@ const GRACE: Duration = Duration::from_millis(400);
 /// Shows how far a search is, and notices Ctrl-C.
 pub struct Watcher {
     bar: ProgressBar,
-    /// Set when the user asks for an end.
-    pub stop: Arc<AtomicBool>,
-    /// Set a moment later: what makes an answer complete has so long.
-    pub late: Arc<AtomicBool>,
+    /// Set when the user asks for an end, and once more a moment later: what makes an answer complete
+    /// has so long.
+    cancel: Cancel,
     is_writing: Arc<AtomicBool>,
 }
 
@@ -46,24 +44,22 @@ impl Watcher {
         }
         bar.set_message("screening");
         bar.enable_steady_tick(Duration::from_millis(100));
-        let stop = Arc::new(AtomicBool::new(false));
+        let cancel = Cancel::default();
         let is_writing = Arc::new(AtomicBool::new(false));
-        let (asked, found) = (Arc::clone(&stop), Arc::clone(&is_writing));
-        let late = Arc::new(AtomicBool::new(false));
-        let grace_is_over = Arc::clone(&late);
+        let (asked, found) = (cancel.clone(), Arc::clone(&is_writing));
         let mut first: Option<Instant> = None;
         let handler = ctrlc::set_handler(move || {
-            asked.store(true, Ordering::SeqCst);
+            asked.end();
             match first {
                 None => {
                     first = Some(Instant::now());
-                    let late = Arc::clone(&grace_is_over);
+                    let late = asked.clone();
                     let wait = move || {
                         sleep(GRACE);
-                        late.store(true, Ordering::SeqCst);
+                        late.hurry();
                     };
                     if Builder::new().spawn(wait).is_err() {
-                        grace_is_over.store(true, Ordering::SeqCst);
+                        asked.hurry();
                     }
                 }
                 Some(first) if first.elapsed() < SAME_REQUEST => return,
@@ -84,33 +80,19 @@ impl Watcher {
         }
         Self {
             bar,
-            stop,
-            late,
+            cancel,
             is_writing,
         }
     }
 
-    /// Takes a step of the search to the bar.
-    pub fn show(&self, progress: Progress) {
-        self.bar.set_message(match progress.best {
-            Some(best) => format!(
-                "{} poses, best J so far {}",
-                progress.poses,
-                significant(best, 4)
-            ),
-            None => format!(
-                "{} poses, the nozzle has fitted nowhere yet",
-                progress.poses
-            ),
-        });
-    }
-
-    /// Takes a step of a chart to the bar.
-    pub fn show_step(&self, step: Step) {
-        self.bar.set_message(match step.of {
-            1 => step.name,
-            of => format!("{}, {} of {of}", step.name, step.number + 1),
-        });
+    /// What runs are watched and ended by.
+    pub fn control(&self) -> Control {
+        let bar = self.bar.clone();
+        Control {
+            cancel: self.cancel.clone(),
+            observer: Some(Arc::new(move |progress| bar.set_message(message(progress)))),
+            ..Control::default()
+        }
     }
 
     /// Takes the bar away when the answer is found: Ctrl-C lets it be written, asked twice it ends
@@ -123,5 +105,19 @@ impl Watcher {
     /// Takes the drawing of a map to the bar.
     pub fn show_drawing(&self) {
         self.bar.set_message("drawing the map");
+    }
+}
+
+fn message(progress: Progress) -> String {
+    match progress {
+        Progress::Search {
+            poses,
+            best: Some(best),
+        } => format!("{poses} poses, best J so far {}", significant(best, 4)),
+        Progress::Search { poses, best: None } => {
+            format!("{poses} poses, the nozzle has fitted nowhere yet")
+        }
+        Progress::Step { name, of: 1, .. } => name,
+        Progress::Step { name, number, of } => format!("{name}, {} of {of}", number + 1),
     }
 }

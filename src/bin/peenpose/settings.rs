@@ -8,6 +8,7 @@ use peenpose::problem::setting::{Setting, Settings};
 use peenpose::problem::{Problem, Source, given};
 use peenpose::record::{Record, mesh_sha256};
 use peenpose::scenario::Scenario;
+use peenpose::study::Study;
 
 use crate::output::{self, Failure};
 use crate::result;
@@ -69,16 +70,11 @@ pub struct Earlier<'a> {
 impl<'a> Earlier<'a> {
     /// Reads it. Unless `quiet`, warns when it answers another problem, or the same before its files were
     /// changed: settings that fit there may be nonsense here.
-    pub fn read(
-        path: &'a Path,
-        scenario: &Scenario,
-        source: &Source,
-        quiet: bool,
-    ) -> Result<Self, Failure> {
+    pub fn read(path: &'a Path, study: &Study, quiet: bool) -> Result<Self, Failure> {
         let record = result::read(path)?;
         if !quiet {
             let shown = path.display();
-            for difference in differences(&record, scenario, source) {
+            for difference in differences(&record, study.scenario(), study.source()) {
                 output::warn(&format!(
                     "{shown} {difference}: its settings are taken all the same"
                 ));

@@ -3,10 +3,10 @@
 use std::num::NonZero;
 use std::path::Path;
 use std::thread::{available_parallelism, sleep};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use peenpose::problem::Source;
-use peenpose::scenario::Scenario;
+use peenpose::control::Clock;
+use peenpose::study::Study;
 
 use crate::folder;
 use crate::output::{self, Failure};
@@ -26,24 +26,26 @@ pub struct StartArgs {
 }
 
 /// Reads a problem file and shows its warnings, after it is known that results can be written.
-pub fn load(
-    args: &StartArgs,
-    file: &Path,
-    out: Option<&Path>,
-) -> Result<(Scenario, Source), Failure> {
+pub fn open(args: &StartArgs, file: &Path, out: Option<&Path>) -> Result<Study, Failure> {
     use_threads(args.threads)?;
     folder::prepare(out)?;
-    let (mut scenario, source) = Scenario::load(file)?;
+    let study = Study::open(file)?;
     if !args.quiet {
-        output::warnings(&scenario, &source);
-        for warning in scenario.scene.warnings() {
+        output::warnings(&study);
+        for warning in study.scenario().scene.warnings() {
             output::warn(warning);
         }
     }
-    if let Some(seed) = args.seed {
-        scenario.problem.seed = seed;
-    }
-    Ok((scenario, source))
+    Ok(match args.seed {
+        Some(seed) => study.with_seed(seed),
+        None => study,
+    })
+}
+
+/// A clock that begins now.
+pub fn clock() -> Clock {
+    let started = Instant::now();
+    Clock::new(move || started.elapsed().as_secs_f64())
 }
 
 /// Starts the threads that compute, one for each core unless told otherwise. Where none are to be had it

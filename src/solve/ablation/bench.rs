@@ -5,13 +5,13 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::{Ablation, SHOTS};
+use crate::control::Control;
 use crate::evaluate::evaluate;
 use crate::jet::{ImportanceDensity, Replicates, Samples, ShotSample, Stream, purpose};
 use crate::objective::Tally;
 use crate::problem::model::Effect;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use crate::solve::control::Control;
 use crate::solve::evaluator::{Effort, Evaluator};
 use crate::solve::polish::{Candidate, polish};
 use crate::solve::search::Search;
@@ -67,7 +67,7 @@ pub(super) struct Bench<'a> {
     /// J of the whole model there.
     whole: Vec<f64>,
     effort: &'a Effort,
-    control: &'a Control<'a>,
+    control: &'a Control,
 }
 
 impl<'a> Bench<'a> {

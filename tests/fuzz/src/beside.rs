@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use peenpose::chart::{
-    BesideFault, BesidePoint, Chart, Control, LONGEST_NAME, MOST_METHODS, MOST_RUNS, measure,
+    BesideFault, BesidePoint, Chart, LONGEST_NAME, MOST_METHODS, MOST_RUNS, Plan, measure,
 };
 use peenpose::report;
 use peenpose::report::figure::Figure;
@@ -19,13 +19,13 @@ const LONGEST_COMPLAINT: usize = 200;
 /// what has nothing to do with them.
 static CHART: LazyLock<Chart> = LazyLock::new(|| {
     let (scenario, source) = sound(include_str!("../../../problems/plate.yaml"));
-    let control = Control {
+    let plan = Plan {
         most_shots: 64,
         seeds: 1,
-        ..Control::default()
+        ..Plan::default()
     };
     let command = "peenpose chart any.yaml".into();
-    let chart = measure(&scenario, &source, command, Vec::new(), &control);
+    let chart = measure(&scenario, &source, command, Vec::new(), &plan);
     Chart {
         poses: Vec::new(),
         effects: Vec::new(),

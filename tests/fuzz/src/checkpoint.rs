@@ -3,15 +3,16 @@
 //! with settings that are legal.
 
 use std::fs;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use peenpose::checkpoint::{Checkpoint, Trouble};
-use peenpose::map::{self, Axis, Map};
+use peenpose::control::Control;
+use peenpose::map::{Axis, Map};
 use peenpose::problem::Source;
 use peenpose::problem::setting::Setting;
 use peenpose::record::{MapRecord, Record};
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, Solution, solve};
+use peenpose::solve::{Solution, solve};
 use tempfile::TempDir;
 
 use super::bytes::Bytes;
@@ -72,6 +73,7 @@ static WHOLE: LazyLock<Uninterrupted> = LazyLock::new(|| {
     let outcome = outcome(&scenario, None);
     let folder = folder();
     let kept = Checkpoint::open(folder.path(), &scenario).expect("there is no file yet");
+    let kept = Arc::new(kept);
     assert!(outcome.is_that_of(&self::outcome(&scenario, Some(&kept))));
     kept.finish().expect("there is room");
     let file = fs::read(folder.path().join("checkpoint.txt")).expect("it was written");
@@ -99,7 +101,7 @@ fn is_refused_or_the_same(file: &[u8]) {
     fs::write(&path, file).expect("there is room for a file");
     let whole = &*WHOLE;
     let kept = match Checkpoint::open(folder.path(), &whole.scenario) {
-        Ok(kept) => kept,
+        Ok(kept) => Arc::new(kept),
         Err(trouble) => {
             is_told(&trouble, file);
             // It may be somebody's only copy of something else.
@@ -122,6 +124,7 @@ fn is_refused_or_the_same(file: &[u8]) {
 fn nothing_is_left_to_do(folder: &TempDir) {
     let whole = &*WHOLE;
     let kept = Checkpoint::open(folder.path(), &whole.scenario).expect("it is our own");
+    let kept = Arc::new(kept);
     let again = outcome(&whole.scenario, Some(&kept));
     assert!(again.is_that_of(&whole.outcome));
     assert_eq!(kept.added(), 0);
@@ -148,6 +151,7 @@ fn ends_legally(file: &[u8]) {
     fs::write(&path, file).expect("there is room for a file");
     let whole = &*WHOLE;
     let kept = Checkpoint::open(folder.path(), &whole.scenario).expect("its checksums are right");
+    let kept = Arc::new(kept);
     let outcome = outcome(&whole.scenario, Some(&kept));
     let scenario = whole.scenario.as_asked();
     for answer in &outcome.solution.answers {
@@ -171,11 +175,11 @@ fn ends_legally(file: &[u8]) {
 }
 
 /// A search, and a map with each of the ways to share paths between its places.
-fn outcome(scenario: &Scenario, checkpoint: Option<&Checkpoint>) -> Outcome {
+fn outcome(scenario: &Scenario, checkpoint: Option<&Arc<Checkpoint>>) -> Outcome {
     let control = Control {
         most_shots: 64,
         validation_shots: 128,
-        checkpoint,
+        checkpoint: checkpoint.cloned(),
         ..Control::default()
     };
     let solution = solve(scenario, &control);
@@ -188,10 +192,6 @@ fn outcome(scenario: &Scenario, checkpoint: Option<&Checkpoint>) -> Outcome {
             .expect("it is of the nozzle");
         Axis::over(setting, range, 3)
     };
-    let drawing = map::Control {
-        checkpoint,
-        ..map::Control::default()
-    };
     let map = |x, y| {
         Map::of(
             &scenario,
@@ -199,7 +199,7 @@ fn outcome(scenario: &Scenario, checkpoint: Option<&Checkpoint>) -> Outcome {
             axis(x),
             axis(y),
             64,
-            &drawing,
+            &control,
         )
     };
     let maps = [

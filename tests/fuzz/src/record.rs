@@ -2,12 +2,13 @@
 
 use std::sync::LazyLock;
 
+use peenpose::control::Control;
 use peenpose::record::Record;
 use peenpose::report::export::{Format, export};
 use peenpose::report::figure::Figure;
 use peenpose::report::table::Table;
 use peenpose::report::{page, sheet};
-use peenpose::solve::{Control, solve};
+use peenpose::solve::solve;
 use serde_json::Value;
 
 use super::bytes::Bytes;
@@ -28,7 +29,11 @@ static WHOLE: LazyLock<Value> = LazyLock::new(|| {
     let solution = solve(&scenario, &control);
     let scenario = scenario.as_asked();
     let record = recorded(&scenario, &source, &solution);
-    let record = record.with_evidence(&scenario, &solution.answers[0]);
+    let record = record.with_evidence(
+        &scenario,
+        &solution.answers[0],
+        &peenpose::control::Control::default(),
+    );
     let mut whole = serde_json::to_value(record).expect("every number is finite");
     for list in ["/evidence/hits", "/evidence/rebounds"] {
         if let Some(columns) = whole.pointer_mut(list).and_then(Value::as_object_mut) {

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use peenpose::control::Control;
 use peenpose::problem::{self, Source};
 use peenpose::record::{FrontRecord, Record, RunInfo, WorkRecord};
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Answer, Control, Solution, front, passing_windows, solve};
+use peenpose::solve::{Answer, Solution, front, passing_windows, solve};
 use peenpose::unknowns::Unknowns;
 use peenpose::{report, validity, warnings};
 
@@ -50,7 +51,13 @@ pub fn run(data: &[u8]) {
             let front = front(&scenario, &solution.answers, &control);
             record.front = FrontRecord::all(&scenario, &front);
         }
-        20..40 => record = record.with_evidence(&scenario, &solution.answers[0]),
+        20..40 => {
+            record = record.with_evidence(
+                &scenario,
+                &solution.answers[0],
+                &peenpose::control::Control::default(),
+            )
+        }
         _ => {}
     }
     let text = record
@@ -125,7 +132,7 @@ pub fn recorded(scenario: &Scenario, source: &Source, solution: &Solution) -> Re
             seconds: 0.0,
         },
     };
-    let windows = passing_windows(scenario, solution);
+    let windows = passing_windows(scenario, solution, &peenpose::control::Cancel::default());
     Record::new(scenario, &solution.answers, &windows, notes, unknowns, run)
         .expect("there is an answer")
 }

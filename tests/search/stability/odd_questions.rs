@@ -1,11 +1,12 @@
 //! Questions that leave little to choose, or weigh strangely.
 
 use nalgebra::{Point3, Vector3};
+use peenpose::control::Control;
 use peenpose::evaluate::evaluate;
 use peenpose::jet::{Replicates, Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::scenario::Scenario;
-use peenpose::solve::{Control, Status, solve};
+use peenpose::solve::{Status, solve};
 use peenpose::trace::Tracer;
 use peenpose::verdict::{Subject, Verdict};
 

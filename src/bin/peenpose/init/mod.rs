@@ -9,7 +9,9 @@ use peenpose::problem;
 
 use crate::args::InitArgs;
 use crate::folder::{Staged, folder_of};
-use crate::output::{Failure, aside as note, quoted, text};
+use peenpose::study::quoted;
+
+use crate::output::{Failure, aside as note, text};
 
 /// What editors look for beside the file; its first line says so.
 const SCHEMA: &str = "peenpose.schema.json";

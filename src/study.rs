@@ -1,0 +1,198 @@
+//! One door to all that can be asked about a problem.
+
+mod command;
+
+use std::path::Path;
+
+use crate::chart::{BesidePoint, Chart, Plan, Refusal, measure};
+use crate::control::Control;
+use crate::jet::{Draw, purpose};
+use crate::map::{Axis, Map};
+use crate::problem::setting::Settings;
+use crate::problem::warning::Warning;
+use crate::problem::{self, Problem, Source};
+use crate::record::{FrontRecord, Record, RunInfo, StatusRecord, WorkRecord};
+use crate::scenario::{Rejection, Scenario};
+use crate::solve::{Answer, front, passing_windows, solve};
+use crate::unknowns::Unknowns;
+use crate::{evaluate, validity, warnings};
+pub use command::quoted;
+
+/// A problem file, checked, with its scene: what there is to solve.
+#[derive(Clone)]
+pub struct Study {
+    scenario: Scenario,
+    source: Source,
+}
+
+/// What a result holds besides the answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extras {
+    /// The trade-off between target error, tangential risk and rebound.
+    pub pareto: bool,
+    /// What pictures are drawn from.
+    pub evidence: bool,
+}
+
+impl Study {
+    /// Reads a problem file and its meshes and builds the scene.
+    ///
+    /// # Errors
+    /// All faults of the file and of the geometry at once, in the order of the text.
+    pub fn open(path: &Path) -> Result<Self, Box<Rejection>> {
+        let (scenario, source) = Scenario::load(path)?;
+        Ok(Self { scenario, source })
+    }
+
+    /// The same for a text that stands in no file; `path` is what messages call it and whose folder its
+    /// meshes are in.
+    ///
+    /// # Errors
+    /// See [`Self::open`].
+    pub fn from_text(text: &str, path: &Path) -> Result<Self, Box<Rejection>> {
+        let (scenario, source) = Scenario::from_reading(problem::read_text(text, path))?;
+        Ok(Self { scenario, source })
+    }
+
+    /// The problem.
+    pub fn problem(&self) -> &Problem {
+        &self.scenario.problem
+    }
+
+    /// The problem together with its scene.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// The text that was read.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The same with another seed of all samples.
+    #[must_use]
+    pub fn with_seed(mut self, seed: u64) -> Self {
+        self.scenario.problem.seed = seed;
+        self
+    }
+
+    /// The same with another accuracy, relative to J.
+    #[must_use]
+    pub fn with_accuracy(mut self, accuracy: f64) -> Self {
+        self.scenario.problem.accuracy = accuracy;
+        self
+    }
+
+    /// The same with one contact to choose from, by its index in the problem.
+    #[must_use]
+    pub fn with_contact(mut self, contact: usize) -> Self {
+        self.scenario.problem.ranges.contact = vec![contact];
+        self
+    }
+
+    /// Valid input that is probably a mistake, in the order of the text.
+    pub fn check(&self) -> Vec<Warning> {
+        warnings::of(&self.scenario, &self.source)
+    }
+
+    /// Finds the best settings; `None` where the problem has no contact to choose.
+    pub fn solve(&self, extras: Extras, control: &Control) -> Option<Record> {
+        let began = control.clock.seconds();
+        let solution = solve(&self.scenario, control);
+        let asked = self.scenario.as_asked();
+        let front = extras
+            .pareto
+            .then(|| front(&asked, &solution.answers, control));
+        let status = match control.is_stopped() {
+            true => StatusRecord::Interrupted,
+            false => solution.status.into(),
+        };
+        let finishing = control.of_finishing();
+        let windows = passing_windows(&asked, &solution, &finishing.cancel);
+        let best = solution.answers.first()?;
+        let notes = validity::notes(&asked, &best.settings, best.evaluation.as_ref());
+        let unknowns = (best.evaluation.is_some() && !finishing.is_stopped())
+            .then(|| Unknowns::of(&asked, &best.settings))
+            .flatten();
+        let run = RunInfo {
+            source: &self.source,
+            status,
+            command: command::solve(self, extras),
+            ablations: &solution.ablations,
+            work: WorkRecord {
+                poses: solution.poses + front.as_ref().map_or(0, |front| front.poses),
+                shots_per_pose: solution.shots_per_pose,
+                rays: solution.rays + front.as_ref().map_or(0, |front| front.rays),
+                seconds: control.clock.seconds() - began,
+            },
+        };
+        let mut record = Record::new(&asked, &solution.answers, &windows, notes, unknowns, run)?;
+        if let Some(front) = &front {
+            record.front = FrontRecord::all(&asked, front);
+        }
+        Some(match extras.evidence {
+            true => record.with_evidence(&asked, best, &finishing),
+            false => record,
+        })
+    }
+
+    /// What given settings do, on so many validation shots.
+    pub fn evaluate(
+        &self,
+        settings: &Settings,
+        shots: usize,
+        extras: Extras,
+        control: &Control,
+    ) -> Option<Record> {
+        let began = control.clock.seconds();
+        let asked = self.scenario.as_asked();
+        let draw = Draw::new(&asked.problem, purpose::ANSWERS, shots);
+        let evaluation = evaluate::evaluate_streamed(&asked, settings, &draw);
+        let (fired, rays) = (evaluation.shots, evaluation.rays);
+        let answers = [Answer::evaluated(&asked, settings, Some(evaluation))];
+        let notes = validity::notes(&asked, settings, answers[0].evaluation.as_ref());
+        let unknowns = Unknowns::of(&asked, settings);
+        let run = RunInfo {
+            source: &self.source,
+            status: StatusRecord::Evaluated,
+            command: command::evaluate(self, settings, shots),
+            ablations: &[],
+            work: WorkRecord {
+                poses: 1,
+                shots_per_pose: fired,
+                rays,
+                seconds: control.clock.seconds() - began,
+            },
+        };
+        let record = Record::new(&asked, &answers, &[], notes, unknowns, run)?;
+        Some(match extras.evidence {
+            true => record.with_evidence(&asked, &answers[0], &control.of_finishing()),
+            false => record,
+        })
+    }
+
+    /// The objective and the verdicts over two settings, the others held, on so many shots at each place.
+    pub fn map(
+        &self,
+        settings: &Settings,
+        [x, y]: [Axis; 2],
+        shots: usize,
+        control: &Control,
+    ) -> Map {
+        Map::of(&self.scenario.as_asked(), settings, x, y, shots, control)
+    }
+
+    /// Speed against accuracy, measured on this problem; `command` makes it again.
+    ///
+    /// # Errors
+    /// When there is nothing to measure.
+    pub fn chart(
+        &self,
+        command: String,
+        beside: Vec<BesidePoint>,
+        plan: &Plan,
+    ) -> Result<Chart, Refusal> {
+        let asked = self.scenario.as_asked();
+        measure(&asked, &self.source, command, beside, plan)
+    }
+}

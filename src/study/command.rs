@@ -1,0 +1,57 @@
+//! Commands that give the same figures again.
+
+use super::{Extras, Study};
+use crate::problem::setting::{Setting, Settings};
+use crate::units;
+
+/// A word of a command that a shell reads as one.
+pub fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+fn file(study: &Study) -> String {
+    quoted(&study.source.path.display().to_string())
+}
+
+/// The search of a study.
+pub(super) fn solve(study: &Study, extras: Extras) -> String {
+    let pareto = if extras.pareto { " --pareto" } else { "" };
+    format!(
+        "peenpose solve {} --accuracy '{} %' --seed {}{pareto}",
+        file(study),
+        study.problem().accuracy * 100.0,
+        study.problem().seed
+    )
+}
+
+/// The evaluation of given settings.
+pub(super) fn evaluate(study: &Study, settings: &Settings, shots: usize) -> String {
+    let contact = &study.problem().contacts[settings.contact];
+    let mut command = format!(
+        "peenpose evaluate {} --set incidence={}deg --set azimuth={}deg --set standoff={}m --set speed={}m/s",
+        file(study),
+        units::degrees(settings.incidence),
+        units::degrees(settings.azimuth),
+        settings.standoff,
+        settings.speed,
+    );
+    for setting in [Setting::AimAlong, Setting::AimAcross, Setting::AimAbove] {
+        if setting.of(settings) != 0.0 {
+            command += &format!(" --set {}={}m", setting.name(), setting.of(settings));
+        }
+    }
+    if !contact.static_friction.is_held() {
+        command += &format!(" --set mu_s={}", settings.static_friction);
+    }
+    command
+        + &format!(
+            " --set {} --shots {shots} --seed {}",
+            quoted(&format!("contact={}", contact.name)),
+            study.problem().seed
+        )
+}
