@@ -20,4 +20,4 @@ pub use files::{files, names};
 pub use library::library;
 pub use map::{MapView, map};
 pub use page::{PageFault, page};
-pub use sheet::sheet;
+pub use sheet::{LINES, brief, sheet};

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
+use std::time::Instant;
 
 use assert_cmd::Command;
 use peenpose::chart::{BesidePoint, Chart, Plan, Refusal, Sampling, measure};
-use peenpose::control::{Cancel, Control, Progress};
+use peenpose::control::{Cancel, Clock, Control, Progress};
 use peenpose::report;
 use peenpose::report::figure::Figure;
 use peenpose::scenario::Scenario;
@@ -406,6 +407,7 @@ fn a_chart_that_is_stopped_later_keeps_what_it_has() {
     let (_folder, scenario, source) = scenario();
     let cancel = Cancel::default();
     let asked = cancel.clone();
+    let started = Instant::now();
     let observer = move |progress| {
         if matches!(progress, Progress::Step { name, number: 2, .. } if name == "searches") {
             asked.end();
@@ -418,6 +420,7 @@ fn a_chart_that_is_stopped_later_keeps_what_it_has() {
         control: Control {
             cancel,
             observer: Some(Arc::new(observer)),
+            clock: Clock::new(move || started.elapsed().as_secs_f64()),
             ..Control::default()
         },
     };

@@ -5,7 +5,7 @@ use peenpose::record::{
     AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, DentedRecord, EstimateRecord,
     NoteRecord, Record, StatusRecord,
 };
-use peenpose::report::sheet;
+use peenpose::report::{self, sheet};
 
 use crate::common::kept::{NAMES, file, record};
 
@@ -390,4 +390,26 @@ fn strong_interference_stands_in_the_head() {
         !text.contains("beware  ") && text.contains("  - at 5 kg/min"),
         "{text}"
     );
+}
+
+#[test]
+fn a_terminal_shows_the_head_of_every_sheet() {
+    for name in NAMES {
+        let record = record(name);
+        let (brief, whole) = (report::brief(&record), sheet(&record));
+        let lines: Vec<&str> = brief.lines().collect();
+        assert!(lines.len() <= report::LINES, "{name}:\n{brief}");
+        let is_next = |line: &&str| line.starts_with("  next  ");
+        let next = lines.iter().position(is_next).expect("it says what next");
+        // Up to there it is the sheet itself, but for the blocks between.
+        assert!(
+            whole.starts_with(&lines[..8].join("\n")),
+            "{name}:\n{brief}"
+        );
+        for line in &lines[..next] {
+            assert!(line.is_empty() || whole.contains(line), "{name}: {line}");
+        }
+        assert!(brief.contains("\n  incidence "), "{name}:\n{brief}");
+        assert!(brief.contains("--full"), "{name}:\n{brief}");
+    }
 }

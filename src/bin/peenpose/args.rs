@@ -175,6 +175,9 @@ pub struct SolveArgs {
     /// Print result.json instead of the technique sheet
     #[arg(long)]
     pub json: bool,
+    /// Print the whole sheet on a terminal, too, not just its head
+    #[arg(long)]
+    pub full: bool,
     /// Accuracy of J, such as `1 %`; the file's by default
     #[arg(long, value_name = "PERCENT")]
     pub accuracy: Option<String>,
@@ -207,6 +210,9 @@ pub struct EvaluateArgs {
     /// Print JSON instead of the sheet
     #[arg(long)]
     pub json: bool,
+    /// Print the whole sheet on a terminal, too, not just its head
+    #[arg(long)]
+    pub full: bool,
     /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -7,7 +7,7 @@ use peenpose::study::Extras;
 
 use crate::args::EvaluateArgs;
 use crate::output::Failure;
-use crate::result;
+use crate::result::{self, Form};
 use crate::settings::{self, Earlier};
 use crate::start;
 
@@ -30,5 +30,6 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     };
     let record = study.evaluate(&settings, args.shots as usize, extras, &control);
     let record = record.ok_or("there is nothing to report".to_owned())?;
-    result::report(&record, args.json, args.out.as_deref())
+    let form = Form::new(args.json, args.full);
+    result::report(&record, form, args.out.as_deref())
 }

@@ -88,6 +88,39 @@ pub fn text(text: impl AsRef<str>) -> Result<ExitCode, Failure> {
     bytes(printable::lines(text.as_ref()).as_bytes())
 }
 
+/// Prints a sheet to a terminal: headings in bold, verdicts in green or red.
+pub fn highlighted(sheet: &str) -> Result<ExitCode, Failure> {
+    let plain = printable::lines(sheet);
+    if !is_colorful(&std::io::stdout()) {
+        return bytes(plain.as_bytes());
+    }
+    let mut colored = String::with_capacity(plain.len());
+    for line in plain.lines() {
+        let words = WORDS.iter().find(|(word, _)| line.contains(word));
+        match words {
+            Some((word, color)) => {
+                colored += &line.replacen(word, &format!("\x1b[{color}m{word}\x1b[0m"), 1);
+            }
+            None if line.starts_with(|c: char| c.is_ascii_uppercase()) => {
+                colored += &format!("\x1b[1m{line}\x1b[0m");
+            }
+            None => colored += line,
+        }
+        colored.push('\n');
+    }
+    bytes(colored.as_bytes())
+}
+
+/// Words of a sheet that catch the eye, with their colours: green, red and yellow, in bold.
+const WORDS: [(&str, &str); 6] = [
+    ("PASS", "1;32"),
+    ("FAIL", "1;31"),
+    ("NO FEASIBLE POSE", "1;31"),
+    ("BUDGET SPENT", "1;33"),
+    ("INTERRUPTED", "1;33"),
+    ("beware", "1;33"),
+];
+
 /// Prints bytes to stdout. A reader that has gone away is not a failure.
 pub fn bytes(bytes: &[u8]) -> Result<ExitCode, Failure> {
     let mut stdout = std::io::stdout();

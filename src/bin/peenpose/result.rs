@@ -1,10 +1,11 @@
 //! A result: printed, written into a folder with all reports on it, and read back.
 
+use std::io::IsTerminal;
 use std::path::Path;
 use std::process::ExitCode;
 
 use peenpose::record::{LARGEST_FILE, Record};
-use peenpose::report::{files, names, sheet};
+use peenpose::report::{brief, files, names, sheet};
 
 use crate::folder::Staged;
 use crate::output::{self, Failure, both, limited_text};
@@ -14,16 +15,38 @@ const FAILS: u8 = 1;
 /// The file of a result in its folder.
 pub const RESULT: &str = "result.json";
 
+/// How a result is printed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// As JSON.
+    Json,
+    /// As the whole sheet.
+    Sheet,
+    /// As the head of the sheet.
+    Brief,
+}
+
+impl Form {
+    /// What was asked for; a terminal is shown the head of the sheet, pipes and files get all of it.
+    pub fn new(json: bool, full: bool) -> Self {
+        match (json, full || !std::io::stdout().is_terminal()) {
+            (true, _) => Self::Json,
+            (false, true) => Self::Sheet,
+            (false, false) => Self::Brief,
+        }
+    }
+}
+
 /// Prints a record as a sheet or as JSON, then writes it with all reports into a folder if there is
 /// one: what is printed is not lost whatever becomes of the folder.
-pub fn report(record: &Record, json: bool, out: Option<&Path>) -> Result<ExitCode, Failure> {
+pub fn report(record: &Record, form: Form, out: Option<&Path>) -> Result<ExitCode, Failure> {
     let as_json = record
         .to_json()
         .map_err(|error| format!("cannot write the result as JSON: {error}"))?;
-    let printed = if json {
-        output::text(&as_json)
-    } else {
-        output::text(sheet(record))
+    let printed = match form {
+        Form::Json => output::text(&as_json),
+        Form::Sheet => output::text(sheet(record)),
+        Form::Brief => output::highlighted(&brief(record)),
     };
     let written = out.map_or(Ok(()), |folder| write(record, &as_json, folder));
     both(printed, written)?;

@@ -11,7 +11,7 @@ use crate::args::SolveArgs;
 use crate::checkpoint;
 use crate::output::{self, Failure};
 use crate::progress::Watcher;
-use crate::result;
+use crate::result::{self, Form};
 use crate::start;
 
 /// Solves a problem file and reports the answer.
@@ -40,5 +40,6 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
         output::note("stopped: this is the best answer so far");
     }
     let record = record.ok_or("there is no contact to choose".to_owned())?;
-    result::report(&record, args.json, args.out.as_deref())
+    let form = Form::new(args.json, args.full);
+    result::report(&record, form, args.out.as_deref())
 }

@@ -1,6 +1,7 @@
 //! The technique sheet: what to set, whether it passes, what limits it; then the proof.
 
 pub(super) mod blocked;
+mod brief;
 pub(super) mod cause;
 pub(super) mod closing;
 pub(super) mod contacts;
@@ -17,6 +18,8 @@ pub(super) mod settings;
 mod subject;
 pub(super) mod unknowns;
 pub(super) mod verdicts;
+
+pub use brief::{LINES, brief};
 
 use super::layout::Block;
 use crate::record::Record;

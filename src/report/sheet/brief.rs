@@ -1,0 +1,45 @@
+//! The sheet as a terminal shows it at once: the verdict, what to set, what the target gets, what next.
+
+use super::{headline, received, settings};
+use crate::record::{Record, StatusRecord};
+use crate::report::layout::Block;
+
+/// Lines that a terminal shows at once.
+pub const LINES: usize = 25;
+
+/// The head of the sheet in at most [`LINES`] lines; the whole of it is [`sheet`](super::sheet).
+pub fn brief(record: &Record) -> String {
+    let blocks = [
+        Some(headline::block(record)),
+        Some(settings::settings(record)),
+        received::target(record),
+    ];
+    let texts: Vec<String> = blocks.into_iter().flatten().map(Block::into_text).collect();
+    let mut next = Block::default();
+    next.hanging("next         ", next_step(record));
+    let next = next.into_text();
+    let texts = texts.join("\n");
+    let room = LINES - 1 - next.lines().count();
+    let shown = texts.lines().take(room);
+    shown.chain([""]).chain(next.lines()).fold(
+        String::with_capacity(texts.len()),
+        |mut all, line| {
+            all.push_str(line);
+            all.push('\n');
+            all
+        },
+    )
+}
+
+fn next_step(record: &Record) -> &'static str {
+    match record.status {
+        StatusRecord::NoFeasiblePose => "`--full` says what is in the way and what would make room",
+        StatusRecord::BudgetSpent | StatusRecord::Interrupted => {
+            "`--full` shows the whole sheet; another run with `--checkpoint DIR` goes on from where it ends"
+        }
+        _ if record.passes() => {
+            "`--full` shows the proof; `--out DIR` writes report.html, the pose for a robot and all tables"
+        }
+        _ => "`--full` says what limits it and what would help",
+    }
+}
