@@ -112,7 +112,7 @@ pub mod study;
 #[cfg(feature = "report")]
 pub mod report;
 
-/// The example of the README, which must run as well.
+/// The example of the library's chapter, which must run as well.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
+#[doc = include_str!("../docs/library.md")]
+struct Chapter;

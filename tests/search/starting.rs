@@ -5,8 +5,11 @@ use std::path::Path;
 use std::process::Output;
 
 use assert_cmd::Command;
+use peenpose::control::Control;
 use peenpose::problem;
 use peenpose::problem::media;
+use peenpose::report::brief;
+use peenpose::study::{Extras, Study};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -161,21 +164,32 @@ fn the_library_is_listed_with_every_source() {
     }
 }
 
+/// What stands between two marks of a document.
+fn between<'a>(document: &'a str, start: &str, end: &str) -> &'a str {
+    let rest = document.split_once(start).unwrap().1;
+    rest.split_once(end).unwrap().0
+}
+
 #[test]
-fn the_readme_shows_the_keyway_as_it_is() {
+fn the_readme_shows_what_its_problem_gives() {
     let readme = include_str!("../../README.md");
-    let file = include_str!("../../problems/keyway.yaml");
-    let between = |start: &str, end: &str| {
-        let rest = readme.split_once(start).unwrap().1;
-        rest.split_once(end).unwrap().0
-    };
-    assert_eq!(
-        between("<!-- problem -->\n```yaml\n", "```\n<!-- /problem -->"),
-        file
+    assert!(readme.lines().count() <= 150);
+    let text = between(
+        readme,
+        "<!-- problem -->\n```yaml\n",
+        "```\n<!-- /problem -->",
     );
-    let reading = problem::read_text(file, Path::new("keyway.yaml")).unwrap();
-    let sheet = between("<!-- sheet -->\n```text\n", "```\n<!-- /sheet -->");
-    assert!(sheet.contains(&reading.source.sha256));
+    assert!(text.lines().count() <= 16);
+    let study = Study::from_text(text, Path::new("floor.yaml")).unwrap();
+    let record = study.solve(Extras::default(), &Control::default()).unwrap();
+    let shown = between(readme, "<!-- brief -->\n```text\n", "```\n<!-- /brief -->");
+    assert_eq!(shown, brief(&record));
+}
+
+#[test]
+fn the_chapter_on_the_sheet_shows_the_keyway_as_it_is() {
+    let chapter = include_str!("../../docs/sheet.md");
+    let sheet = between(chapter, "<!-- sheet -->\n```text\n", "```\n<!-- /sheet -->");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let output = peenpose(root, &["solve", "problems/keyway.yaml", "--quiet"]);
     let timeless = |text: &str| {

@@ -56,13 +56,13 @@ pub(in crate::problem) struct JetEntry {
     #[schemars(example = &"5 %", extend("default" = "0 %"))]
     pub speed_spread: Field<Percentage>,
     /// Mass of shot per time, above 0 kg/min. Changes no figure; with it the sheet says whether
-    /// shots get into each other's way, see [model.md](model.md#what-is-left-out); unknown where
+    /// shots get into each other's way, see [model.md](model.md#what-the-model-leaves-out); unknown where
     /// absent.
     #[schemars(example = &"5 kg/min")]
     pub mass_flow: Field<MassFlow>,
     /// Speed of the air between exit and target, 1 um/s to 10000 m/s; that of an air nozzle is 200 to 300
     /// m/s. Changes no figure; with it the sheet says how much faster the shot gets on its way, see
-    /// [model.md](model.md#what-is-left-out); taken to be at rest where absent.
+    /// [model.md](model.md#what-the-model-leaves-out); taken to be at rest where absent.
     #[schemars(example = &"250 m/s")]
     pub air_speed: Field<Speed>,
     /// The machine's calibration, measured with this shot and nozzle: at least two pressures, each
