@@ -24,10 +24,11 @@ pub fn schema() -> Value {
         .with_transform(RecursiveTransform(finish))
         .into_generator()
         .into_root_schema_for::<ProblemFile>();
+    schema.insert("$id".into(), ID.into());
     let all = schema.ensure_object().clone();
     // What it is comes first, for those who read it.
     let mut ordered = Map::new();
-    for key in ["$schema", "title", "description"] {
+    for key in ["$schema", "$id", "title", "description"] {
         ordered.extend(
             all.get_key_value(key)
                 .map(|(key, value)| (key.clone(), value.clone())),
@@ -36,6 +37,9 @@ pub fn schema() -> Value {
     ordered.extend(all);
     Value::Object(ordered)
 }
+
+/// The name of the schema: with the version of the format.
+const ID: &str = "urn:peenpose:problem:1";
 
 /// What the derived schemas do not know: which keys must be there, that no others may, and that
 /// lines of comments are one paragraph.
