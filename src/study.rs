@@ -8,11 +8,13 @@ use crate::chart::{BesidePoint, Chart, Plan, Refusal, measure};
 use crate::control::Control;
 use crate::jet::{Draw, purpose};
 use crate::map::{Axis, Map};
+use crate::problem::fault::Fault;
 use crate::problem::setting::Settings;
 use crate::problem::warning::Warning;
 use crate::problem::{self, Problem, Source};
 use crate::record::{FrontRecord, Record, RunInfo, StatusRecord, WorkRecord};
 use crate::scenario::{Rejection, Scenario};
+use crate::scene::Walls;
 use crate::solve::{Answer, front, passing_windows, solve};
 use crate::unknowns::Unknowns;
 use crate::{evaluate, validity, warnings};
@@ -33,6 +35,9 @@ pub struct Extras {
     /// What pictures are drawn from.
     pub evidence: bool,
 }
+
+/// Chords that stand in for arcs turn by at most this angle, rad.
+const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
 impl Study {
     /// Reads a problem file and its meshes and builds the scene.
@@ -88,6 +93,28 @@ impl Study {
     pub fn with_contact(mut self, contact: usize) -> Self {
         self.scenario.problem.ranges.contact = vec![contact];
         self
+    }
+
+    /// The same with every ray cast by parry at meshes, for shots that fly as points: the reference for the
+    /// casts of this crate. Exact walls become triangles whose chords turn by a degree at most.
+    ///
+    /// # Errors
+    /// Where a part cannot be turned into triangles.
+    pub fn with_parry_rays(self) -> Result<Self, Vec<Fault>> {
+        let mut problem = self.scenario.problem;
+        problem.paths.shot_size = false;
+        let walls = Walls::Parry {
+            chord_angle: CHORD_ANGLE,
+        };
+        Ok(Self {
+            scenario: Scenario::new(problem, walls)?,
+            source: self.source,
+        })
+    }
+
+    /// Whether parry casts the rays.
+    pub fn has_parry_rays(&self) -> bool {
+        self.scenario.scene.has_parry_rays()
     }
 
     /// Valid input that is probably a mistake, in the order of the text.

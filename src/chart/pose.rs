@@ -60,10 +60,16 @@ pub enum Walls {
         /// Angle by which their chords turn at most, deg.
         chord_angle_deg: f64,
     },
+    /// Triangles, for shots that fly as points.
+    Points,
+    /// The same, with rays cast by parry.
+    Parry,
 }
 
 /// Chord angles of the meshes that exact walls are compared with, deg.
 const CHORD_ANGLES: [f64; 3] = [4.0, 1.0, 0.25];
+/// The same of the mesh at which both engines cast rays of points, deg.
+const POINTS_CHORD_ANGLE: f64 = 1.0;
 /// Fewest shots, and by how much they rise from point to point.
 const FEWEST_SHOTS: usize = 16;
 const RISE: usize = 4;
@@ -119,26 +125,28 @@ fn models(scenario: &Scenario) -> Vec<Walls> {
         .iter()
         .all(|part| is_mesh(&part.shape))
     {
-        return vec![Walls::Mesh];
+        return vec![Walls::Mesh, Walls::Points, Walls::Parry];
     }
     let facets = |chord_angle_deg| Walls::Facets { chord_angle_deg };
     std::iter::once(Walls::Exact)
         .chain(CHORD_ANGLES.map(facets))
+        .chain([Walls::Points, Walls::Parry])
         .collect()
 }
 
 fn built(scenario: &Scenario, walls: Walls) -> Result<Cow<'_, Scenario>, Vec<Fault>> {
-    match walls {
-        Walls::Exact | Walls::Mesh => Ok(Cow::Borrowed(scenario)),
-        Walls::Facets { chord_angle_deg } => {
-            let chord_angle = chord_angle_deg.to_radians();
-            Scenario::new(
-                scenario.problem.clone(),
-                scene::Walls::TriangleMesh { chord_angle },
-            )
-            .map(Cow::Owned)
-        }
-    }
+    let chord_angle = match walls {
+        Walls::Exact | Walls::Mesh => return Ok(Cow::Borrowed(scenario)),
+        Walls::Facets { chord_angle_deg } => chord_angle_deg.to_radians(),
+        Walls::Points | Walls::Parry => POINTS_CHORD_ANGLE.to_radians(),
+    };
+    let mut problem = scenario.problem.clone();
+    problem.paths.shot_size &= !matches!(walls, Walls::Points | Walls::Parry);
+    let walls = match walls {
+        Walls::Parry => scene::Walls::Parry { chord_angle },
+        _ => scene::Walls::TriangleMesh { chord_angle },
+    };
+    Scenario::new(problem, walls).map(Cow::Owned)
 }
 
 /// What one set of shots tells about one way.

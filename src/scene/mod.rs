@@ -14,6 +14,7 @@ pub mod mesh_file;
 mod moving;
 mod nearest;
 pub mod nozzle_frame;
+mod parry_rays;
 mod part;
 pub mod patch;
 mod primitive;
@@ -73,6 +74,11 @@ pub enum Walls {
         /// rad.
         chord_angle: f64,
     },
+    /// As such triangles, at which parry casts the rays of points: the reference.
+    Parry {
+        /// rad.
+        chord_angle: f64,
+    },
 }
 
 impl Scene {
@@ -116,6 +122,11 @@ impl Scene {
     /// Whether no ray is cast at a mesh.
     pub fn has_exact_walls(&self) -> bool {
         self.parts.iter().all(BuiltPart::has_exact_walls)
+    }
+
+    /// Whether parry casts its rays.
+    pub fn has_parry_rays(&self) -> bool {
+        self.parts.iter().any(BuiltPart::has_parry_rays)
     }
 
     /// Number of triangles of all parts.

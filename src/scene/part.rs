@@ -8,6 +8,7 @@ use nalgebra::{Point3, Vector3};
 use super::Walls;
 use super::mesh::{Mesh, Shell, Shells};
 use super::mesh_file;
+use super::parry_rays::ParryMesh;
 use super::prism::Prism;
 use super::profile::Profile;
 use super::ray::{Crossing, HitId, Ray};
@@ -35,6 +36,8 @@ pub(super) struct BuiltPart {
     /// Whether its frame is the nozzle's.
     pub on_nozzle: bool,
     prism: Option<Prism>,
+    /// What parry casts rays at, where it is to.
+    parry: Option<ParryMesh>,
     /// Whether it is a block, all of whose sides belong to one volume.
     is_block: bool,
     /// The cylinder of a bore.
@@ -81,6 +84,8 @@ pub(super) struct Geometry {
     free: FreeSide,
     shells: Option<Shells>,
     prism: Option<(Profile, f64, Ends)>,
+    /// Whether parry casts the rays.
+    by_parry: bool,
 }
 
 /// Chords that stand in for arcs where distances are measured turn by at most this angle.
@@ -152,13 +157,21 @@ impl Geometry {
             warnings: warnings.iter().map(named).collect(),
             file,
             prism,
+            by_parry: matches!(walls, Walls::Parry { .. }),
         })
     }
 
     /// Makes it ready for rays.
     pub fn build(self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
+        let facets = TriangleMesh::new(self.mesh, surface_base, slack);
+        // A part without a triangle is refused before.
+        let parry = self
+            .by_parry
+            .then(|| ParryMesh::new(&facets).ok())
+            .flatten();
         BuiltPart {
-            facets: TriangleMesh::new(self.mesh, surface_base, slack),
+            facets,
+            parry,
             free: self.free,
             shells: self.shells,
             solid: OnceLock::new(),
@@ -190,7 +203,7 @@ fn prismatic(profile: Profile, length: f64, ends: Ends, walls: Walls) -> Built {
             let mesh = tessellate::prism(&profile, length, ends, CHORD_ANGLE);
             (mesh, Some((profile, length, ends)))
         }
-        Walls::TriangleMesh { chord_angle } => {
+        Walls::TriangleMesh { chord_angle } | Walls::Parry { chord_angle } => {
             let mesh = tessellate::prism(&profile, length, ends, chord_angle);
             (mesh, None)
         }
@@ -302,6 +315,11 @@ impl BuiltPart {
         }
     }
 
+    /// Whether parry casts its rays.
+    pub fn has_parry_rays(&self) -> bool {
+        self.parry.is_some()
+    }
+
     /// Whether rays meet its planes and cylinders instead of triangles.
     pub fn has_exact_walls(&self) -> bool {
         self.prism.is_some()
@@ -316,9 +334,10 @@ impl BuiltPart {
         on_this_part: bool,
         limit: f64,
     ) -> Option<(Crossing, Vector3<f64>)> {
-        match &self.prism {
-            Some(prism) => prism.first_crossing(ray, leaving, on_this_part, limit),
-            None => self
+        match (&self.prism, &self.parry) {
+            (Some(prism), _) => prism.first_crossing(ray, leaving, on_this_part, limit),
+            (None, Some(parry)) => parry.first_crossing(&self.facets, ray, limit),
+            (None, None) => self
                 .facets
                 .first_crossing(ray, leaving, on_this_part, limit),
         }
@@ -328,10 +347,15 @@ impl BuiltPart {
     /// that of this part. Normals are those on the fronts.
     #[inline(always)]
     pub fn cross(&self, index: u32, rays: &Rays, hits: &mut Hits) {
-        match &self.prism {
-            Some(prism) => prism.cross(index, rays, hits),
-            None if rays.are_spheres => triangle_mesh::touch(&self.facets, index, rays, hits),
-            None => triangle_mesh::cross(&self.facets, index, rays, hits),
+        match (&self.prism, &self.parry) {
+            (Some(prism), _) => prism.cross(index, rays, hits),
+            (None, Some(parry)) if !rays.are_spheres => {
+                parry.cross(&self.facets, index, rays, hits);
+            }
+            (None, _) if rays.are_spheres => {
+                triangle_mesh::touch(&self.facets, index, rays, hits);
+            }
+            (None, _) => triangle_mesh::cross(&self.facets, index, rays, hits),
         }
     }
 }

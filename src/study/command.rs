@@ -18,11 +18,20 @@ fn file(study: &Study) -> String {
     quoted(&study.source.path.display().to_string())
 }
 
+fn rays(study: &Study) -> &'static str {
+    if study.has_parry_rays() {
+        " --rays parry"
+    } else {
+        ""
+    }
+}
+
 /// The search of a study.
 pub(super) fn solve(study: &Study, extras: Extras) -> String {
     let pareto = if extras.pareto { " --pareto" } else { "" };
+    let rays = rays(study);
     format!(
-        "peenpose solve {} --accuracy '{} %' --seed {}{pareto}",
+        "peenpose solve {} --accuracy '{} %' --seed {}{pareto}{rays}",
         file(study),
         study.problem().accuracy * 100.0,
         study.problem().seed
@@ -50,8 +59,9 @@ pub(super) fn evaluate(study: &Study, settings: &Settings, shots: usize) -> Stri
     }
     command
         + &format!(
-            " --set {} --shots {shots} --seed {}",
+            " --set {} --shots {shots} --seed {}{}",
             quoted(&format!("contact={}", contact.name)),
-            study.problem().seed
+            study.problem().seed,
+            rays(study)
         )
 }

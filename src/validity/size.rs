@@ -24,11 +24,18 @@ const CHORD_ANGLE: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 /// Shots that fly as points.
 pub(super) fn point_shots(scenario: &Scenario) -> Option<Note> {
     let radius = scenario.problem.shot.radius;
+    let (name, why) = match scenario.scene.has_parry_rays() {
+        true => (
+            "parry_rays",
+            "rays are cast by parry at triangles, for shots that fly as points",
+        ),
+        false => ("point_shots", "shots fly as points, as the file asks"),
+    };
     (!scenario.problem.paths.shot_size).then(|| Note {
-        name: "point_shots",
+        name,
         value: radius,
         text: format!(
-            "shots fly as points, as the file asks: a real one touches a wall {} mm before its centre \
+            "{why}: a real one touches a wall {} mm before its centre \
              would, which matters where that is not small against the groove",
             significant(radius * 1e3, 3)
         ),

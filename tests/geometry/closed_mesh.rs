@@ -153,7 +153,9 @@ impl Room {
             root,
             chord_angle: match walls {
                 Walls::Exact => None,
-                Walls::TriangleMesh { chord_angle } => Some(chord_angle),
+                Walls::TriangleMesh { chord_angle } | Walls::Parry { chord_angle } => {
+                    Some(chord_angle)
+                }
             },
         };
         let shape = keyway.shape(floor_pieces);

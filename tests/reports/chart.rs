@@ -139,8 +139,8 @@ fn numbers(csv: &str, name: &str) -> Vec<f64> {
 #[test]
 fn tables_can_be_read() {
     let poses = RUN.text("pose.csv");
-    // 3 ways to draw shots; exact walls and 3 meshes; 16 to 16384 shots in steps of 4.
-    assert_eq!(numbers(&poses, "shots").len(), 3 * 4 * 6);
+    // 3 ways to draw shots; exact walls, 3 meshes, points by both engines; 16 to 16384 shots in steps of 4.
+    assert_eq!(numbers(&poses, "shots").len(), 3 * 6 * 6);
     assert!(
         numbers(&poses, "seconds")
             .iter()
@@ -426,7 +426,7 @@ fn a_chart_that_is_stopped_later_keeps_what_it_has() {
     };
     let chart = measure(&scenario, &source, String::new(), Vec::new(), &plan).unwrap();
     assert!(chart.interrupted);
-    assert_eq!(chart.poses.len(), 3 * 4);
+    assert_eq!(chart.poses.len(), 3 * 6);
     assert_eq!(chart.searches.as_ref().unwrap().runs.len(), 2);
     assert!(chart.effects.is_empty());
     assert!(report::chart(&chart).contains("interrupted"));

@@ -9,6 +9,7 @@ mod best_known;
 mod deflector;
 mod determinism;
 mod effects;
+mod engines;
 mod map;
 mod pareto;
 mod shortcuts;

@@ -6,6 +6,7 @@ use std::thread::{available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
 use peenpose::control::Clock;
+use peenpose::problem::fault::Fault;
 use peenpose::study::Study;
 
 use crate::folder;
@@ -20,9 +21,21 @@ pub struct StartArgs {
     /// Threads; all cores by default. Only times depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
+    /// Who casts the rays: this program, or parry as the reference, for shots as points at meshes
+    #[arg(long, value_name = "ENGINE", default_value = "own")]
+    pub rays: Engine,
     /// No progress bar, no warnings
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// Who casts the rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Engine {
+    /// This program: exact walls, trees of triangles, shots of finite size
+    Own,
+    /// The casts of the parry library
+    Parry,
 }
 
 /// Reads a problem file and shows its warnings, after it is known that results can be written.
@@ -36,6 +49,12 @@ pub fn open(args: &StartArgs, file: &Path, out: Option<&Path>) -> Result<Study, 
             output::warn(warning);
         }
     }
+    let study = match args.rays {
+        Engine::Own => study,
+        Engine::Parry => study.with_parry_rays().map_err(|faults| {
+            Failure::all(&faults.iter().map(Fault::to_string).collect::<Vec<_>>())
+        })?,
+    };
     Ok(match args.seed {
         Some(seed) => study.with_seed(seed),
         None => study,

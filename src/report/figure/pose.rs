@@ -51,7 +51,10 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
 
 /// Whether there is more than rounding.
 fn scatters(chart: &Chart) -> bool {
-    let mut points = chart.poses.iter().flat_map(|curve| &curve.points);
+    // Points have another J.
+    let is_of_shots = |curve: &&PoseCurve| !matches!(curve.walls, Walls::Points | Walls::Parry);
+    let curves = chart.poses.iter().filter(is_of_shots);
+    let mut points = curves.flat_map(|curve| &curve.points);
     points.any(|point| point.error > LEAST_ERROR)
 }
 
@@ -196,6 +199,8 @@ pub fn curve_name(curve: &PoseCurve) -> String {
     match curve.walls {
         Walls::Exact => "exact walls".into(),
         Walls::Mesh => format!("the mesh as it is, {triangles} triangles"),
+        Walls::Points => format!("points, {triangles} triangles"),
+        Walls::Parry => "the same, rays cast by parry".into(),
         Walls::Facets { chord_angle_deg } => {
             format!("mesh, chords turn {chord_angle_deg}°, {triangles} triangles")
         }

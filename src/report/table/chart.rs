@@ -34,6 +34,8 @@ fn poses(chart: &Chart) -> io::Result<Table> {
         let (walls, chord_angle) = match curve.walls {
             Walls::Exact => ("exact", String::new()),
             Walls::Mesh => ("mesh", String::new()),
+            Walls::Points => ("points", String::new()),
+            Walls::Parry => ("parry", String::new()),
             Walls::Facets { chord_angle_deg } => ("facets", plain(chord_angle_deg)),
         };
         for point in &curve.points {
