@@ -10,7 +10,7 @@ use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 
 /// Evaluates `settings` on fresh shots, half of those on the rim drawn [from where harm comes
-/// from](super::focus_on_harm) with these settings.
+/// from](super::importance_of) with these settings.
 pub fn evaluate_adaptively(
     scenario: &Scenario,
     settings: &Settings,
