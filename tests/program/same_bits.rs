@@ -84,7 +84,8 @@ fn assert_same(problem: &str, on: &On) {
 /// What one of the tests below, run by itself on something else, prints.
 fn told(test: &str, on: &On) -> String {
     let program = env::current_exe().unwrap();
-    let arguments = [test, "--exact", "--ignored", "--nocapture"];
+    let test = format!("same_bits::{test}");
+    let arguments = [&*test, "--exact", "--ignored", "--nocapture"];
     let text = output(program.to_str().unwrap(), &arguments, on);
     let line = text.lines().find(|line| line.contains("told "));
     let line = line.unwrap_or_else(|| panic!("{text}"));
