@@ -8,7 +8,7 @@ pub const LANES: usize = 128;
 pub const WIDEST: usize = 16;
 
 /// One quantity of all rays.
-pub type Lane<T = f64> = [T; LANES];
+pub type Lane = [f64; LANES];
 
 /// The number of lanes to work on so that no vector is left half full.
 #[inline(always)]
@@ -18,13 +18,13 @@ pub fn padded(count: usize) -> usize {
 
 /// The components of one vector.
 #[inline(always)]
-pub fn components<R: Copy>(lanes: &[Lane<R>; 3], index: usize) -> [R; 3] {
+pub fn components(lanes: &[Lane; 3], index: usize) -> [f64; 3] {
     [lanes[0][index], lanes[1][index], lanes[2][index]]
 }
 
 /// Sets the components of one vector.
 #[inline(always)]
-pub fn put<R: Copy>(lanes: &mut [Lane<R>; 3], index: usize, value: [R; 3]) {
+pub fn put(lanes: &mut [Lane; 3], index: usize, value: [f64; 3]) {
     lanes[0][index] = value[0];
     lanes[1][index] = value[1];
     lanes[2][index] = value[2];
@@ -44,7 +44,7 @@ pub fn smaller<R: PartialOrd>(a: R, b: R) -> R {
 
 /// Whether something holds for any of some numbers, which are all looked at.
 #[inline(always)]
-pub fn any<R: Copy>(numbers: &[R], holds: impl Fn(R) -> bool) -> bool {
+pub fn any(numbers: &[f64], holds: impl Fn(f64) -> bool) -> bool {
     let holding = numbers.iter().map(|&number| u32::from(holds(number)));
     holding.sum::<u32>() > 0
 }

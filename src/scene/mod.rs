@@ -211,7 +211,7 @@ impl Scene {
         hit
     }
 
-    /// What many rays meet first; the same as [`Self::first_contact`] for each of them in f64.
+    /// What many rays meet first; the same as [`Self::first_contact`] for each of them.
     #[inline(always)]
     pub fn first_hits(&self, rays: &Rays, hits: &mut Hits) {
         let count = padded(rays.count);

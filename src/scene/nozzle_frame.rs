@@ -43,9 +43,7 @@ impl NozzleFrame {
             direction: self.vector_there(ray.direction.into()).into(),
         }
     }
-}
 
-impl NozzleFrame {
     #[inline(always)]
     pub(super) fn point_there(&self, point: Triple) -> Triple {
         self.vector_there(along(point, self.origin, -1.0))
@@ -77,11 +75,10 @@ impl NozzleFrames {
 
     /// Sets one of them.
     pub fn set(&mut self, index: usize, nozzle_frame: &NozzleFrame) {
-        let narrow = |vector: Triple| vector;
         for (lanes, axis) in self.axes.iter_mut().zip(nozzle_frame.axes) {
-            put(lanes, index, narrow(axis));
+            put(lanes, index, axis);
         }
-        put(&mut self.origin, index, narrow(nozzle_frame.origin));
+        put(&mut self.origin, index, nozzle_frame.origin);
     }
 
     /// Every number of theirs.

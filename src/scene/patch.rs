@@ -22,7 +22,7 @@ pub struct Patch {
     pub in_material: bool,
     /// How far outside its box a place may be by rounding, m.
     slack: f64,
-    /// What paths in f64 may be off by rounding, m.
+    /// What paths may be off by rounding, m.
     rounding: f64,
     /// Where the settings are measured from.
     pub frame: Frame,

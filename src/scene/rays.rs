@@ -94,7 +94,7 @@ impl Rays {
         }
     }
 
-    /// One of them, in f64.
+    /// One of them.
     pub fn at(&self, index: usize) -> Ray {
         Ray {
             origin: Point3::from(components(&self.origin, index)),

@@ -1,12 +1,11 @@
 //! Shots that fly side by side, impact after impact.
 //!
-//! The same paths as [`Tracer`](super::Tracer) follows one by one, to the last bit in f64, many
+//! The same paths as [`Tracer`](super::Tracer) follows one by one, to the last bit, many
 //! times faster.
 
 mod impacts;
 
 use multiversion::multiversion;
-use nalgebra::Vector3;
 
 use super::compaction::Compaction;
 use super::{End, MOST_DEFLECTIONS, Tracer, energy};
@@ -14,7 +13,7 @@ use crate::jet::ShotSample;
 use crate::scene::lanes::{LANES, Lane, any, components, padded, put};
 use crate::scene::nozzle_frame::NozzleFrames;
 use crate::scene::rays::{Hits, Rays};
-use crate::triple::{Triple, along, unit};
+use crate::triple::{along, unit};
 use impacts::{Impacts, Rules, path_state};
 
 /// Up to [`LANES`] shots in flight, side by side.
@@ -131,10 +130,10 @@ impl RayPacket {
             } else {
                 tracer.aim.shot(frame, sample)
             };
-            put(&mut self.rays.origin, i, narrow(&ray.origin.coords));
-            put(&mut self.rays.direction, i, narrow(&ray.direction));
+            put(&mut self.rays.origin, i, ray.origin.into());
+            put(&mut self.rays.direction, i, ray.direction.into());
             let velocity = ray.direction * (tracer.speed * sample.speed);
-            put(&mut self.velocity, i, narrow(&velocity));
+            put(&mut self.velocity, i, velocity.into());
             put(&mut self.rolling, i, [0.0; 3]);
             self.rays.radius[i] = tracer.radius * sample.size;
             self.shot[i] = i as u32;
@@ -173,7 +172,7 @@ impl RayPacket {
             flights += 1;
             let rules = Rules {
                 most_impacts,
-                too_few_impacts: (f64::from(flights) - f64::from(MOST_DEFLECTIONS)),
+                too_few_impacts: f64::from(flights) - f64::from(MOST_DEFLECTIONS),
             };
             tracer.scenario.scene.first_hits(&self.rays, &mut self.hits);
             if tracer.has_deflectors {
@@ -284,10 +283,4 @@ fn nozzle_frames(tracer: &Tracer, shots: &[ShotSample]) -> Box<NozzleFrames> {
 #[inline(always)]
 pub(crate) fn mask(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
-}
-
-/// A vector in the precision of the flight.
-#[inline(always)]
-fn narrow(vector: &Vector3<f64>) -> Triple {
-    [vector.x, vector.y, vector.z]
 }

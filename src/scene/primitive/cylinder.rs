@@ -15,17 +15,6 @@ pub struct Cylinder {
 }
 
 impl Cylinder {
-    /// The same wall in another precision.
-    pub fn with(&self) -> Cylinder {
-        Cylinder {
-            centre: self.centre.map(|x| x),
-            radius: self.radius,
-            side: self.side,
-            towards: self.towards.map(|x| x),
-            reach: self.reach,
-        }
-    }
-
     #[inline(always)]
     pub fn relative(&self, point: [f64; 2]) -> [f64; 2] {
         minus(point, self.centre)

@@ -11,14 +11,6 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// The same edge in another precision.
-    pub fn with(&self) -> Edge {
-        Edge {
-            point: self.point.map(|x| x),
-            towards_second: self.towards_second.map(|x| x),
-        }
-    }
-
     /// Whether a shot with this normal of contact touches the second of its walls.
     pub fn is_of_second(&self, normal: [f64; 2]) -> bool {
         dot(normal, self.towards_second) > 0.0

@@ -11,15 +11,6 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The same wall in another precision.
-    pub fn with(&self) -> Plane {
-        Plane {
-            from: self.from.map(|x| x),
-            tangent: self.tangent.map(|x| x),
-            length: self.length,
-        }
-    }
-
     /// A quarter turn counter-clockwise from the tangent.
     #[inline(always)]
     pub(super) fn front(&self) -> [f64; 2] {

@@ -103,15 +103,14 @@ impl Prism {
 
     #[inline(always)]
     fn cross_walls<const LEAVES: bool>(&self, flights: &Flights, best: &mut Best) {
-        let extent = self.extent_in();
         for (index, wall) in self.walls.iter().enumerate() {
             let piece = self.piece(index);
             match wall {
                 Primitive::Plane(plane) => {
-                    best.take::<_, LEAVES, false>(flights, piece, &plane.with(), &extent);
+                    best.take::<_, LEAVES, false>(flights, piece, plane, &self.extent);
                 }
                 Primitive::Cylinder(cylinder) => {
-                    best.take::<_, LEAVES, false>(flights, piece, &cylinder.with(), &extent);
+                    best.take::<_, LEAVES, false>(flights, piece, cylinder, &self.extent);
                 }
             }
         }
@@ -119,15 +118,14 @@ impl Prism {
 
     #[inline(always)]
     fn touch_walls(&self, flights: &Flights, best: &mut Best) {
-        let extent = self.extent_in();
         for (index, wall) in self.walls.iter().enumerate() {
             let piece = self.piece(index);
             match wall {
                 Primitive::Plane(plane) => {
-                    best.take::<_, true, true>(flights, piece, &plane.with(), &extent);
+                    best.take::<_, true, true>(flights, piece, plane, &self.extent);
                 }
                 Primitive::Cylinder(cylinder) => {
-                    best.take::<_, true, true>(flights, piece, &cylinder.with(), &extent);
+                    best.take::<_, true, true>(flights, piece, cylinder, &self.extent);
                 }
             }
         }
@@ -136,14 +134,14 @@ impl Prism {
                 index: f64::from(index),
                 surface: 0.0,
             };
-            best.take::<_, true, true>(flights, piece, &edge.with(), &extent);
+            best.take::<_, true, true>(flights, piece, edge, &self.extent);
         }
     }
 
     #[inline(always)]
     fn piece(&self, wall: usize) -> Piece {
         Piece {
-            index: (wall as f64),
+            index: wall as f64,
             surface: f64::from(self.surfaces[wall] - self.first_surface),
         }
     }
@@ -157,14 +155,6 @@ impl Prism {
             let mut nearest = Nearest::within(best.rank[i]);
             self.touch_ends(&ray, flights.radius[i], &start, &mut nearest);
             self.take_one(i, &nearest, best);
-        }
-    }
-
-    #[inline(always)]
-    fn extent_in(&self) -> Extent {
-        Extent {
-            length: self.extent.length,
-            slack: self.extent.slack,
         }
     }
 
@@ -227,8 +217,7 @@ impl Prism {
         } else {
             self.rotation
         };
-        let element = |row: usize, column: usize| matrix[(row, column)];
-        let row = |row: usize| [element(row, 0), element(row, 1), element(row, 2)];
+        let row = |row: usize| [matrix[(row, 0)], matrix[(row, 1)], matrix[(row, 2)]];
         let (first, second, third) = (row(0), row(1), row(2));
         let mut turned = [[0.0; LANES]; 3];
         for i in 0..padded(count) {
@@ -253,7 +242,7 @@ fn shifted(points: &[Lane; 3], shift: &Vector3<f64>, count: usize) -> [Lane; 3] 
 }
 
 impl Flights<'_> {
-    /// One of them, in f64, and what is known about its start.
+    /// One of them, and what is known about its start.
     fn one(&self, i: usize, leaves: bool) -> (Ray, Departure) {
         let ray = Ray {
             origin: components(self.origin, i).into(),

@@ -22,7 +22,6 @@ impl Prism {
     pub(super) fn near_ends(&self, flights: &Flights, best: &Best) -> [bool; LANES] {
         let mut near = [false; LANES];
         let has_caps = !self.caps.is_empty();
-        let extent = self.extent_in();
         let farthest = f64::from(f32::MAX).sqrt();
         for (i, near) in near.iter_mut().enumerate().take(padded(flights.count)) {
             let from = flights.origin[2][i];
@@ -31,8 +30,8 @@ impl Prism {
             let to = from + flights.direction[2][i] * ahead;
             let (low, high) = if from < to { (from, to) } else { (to, from) };
             let radius = if has_caps { flights.radius[i] } else { 0.0 };
-            let margin = extent.slack + radius;
-            *near = (low <= margin) | (high >= extent.length - margin);
+            let margin = self.extent.slack + radius;
+            *near = (low <= margin) | (high >= self.extent.length - margin);
         }
         if !has_caps {
             let groups = near.chunks_exact_mut(GROUP).enumerate();
@@ -51,14 +50,12 @@ impl Prism {
         for wall in &self.walls {
             match wall {
                 Primitive::Plane(plane) => {
-                    let plane = plane.with();
                     for (i, least) in least.iter_mut().enumerate() {
                         let square = plane.squared_distance([exits.x[i], exits.y[i]]);
                         *least = if square < *least { square } else { *least };
                     }
                 }
                 Primitive::Cylinder(cylinder) => {
-                    let cylinder = cylinder.with();
                     for (i, least) in least.iter_mut().enumerate() {
                         let apart = cylinder.distance_to_whole([exits.x[i], exits.y[i]]);
                         let square = apart * apart;
@@ -81,19 +78,18 @@ impl Prism {
             y: zeros,
             reach: zeros,
         };
-        let extent = self.extent_in();
         for i in 0..GROUP {
             let [x, y, z] = components(flights.origin, first + i);
             let [u, v, w] = components(flights.direction, first + i);
             let outwards = w > 0.0;
-            let end = if outwards { extent.length } else { 0.0 };
+            let end = if outwards { self.extent.length } else { 0.0 };
             let distance = (end - z) / w;
             exits.x[i] = x + u * distance;
             exits.y[i] = y + v * distance;
             // What lies in the end's plane at a distance D from where the shot passes it is nowhere nearer
             // than D |w| to its path.
-            let is_inside = (z >= 0.0) & (z <= extent.length) & (w != 0.0);
-            let reach = (flights.radius[first + i] + extent.slack) / w.abs();
+            let is_inside = (z >= 0.0) & (z <= self.extent.length) & (w != 0.0);
+            let reach = (flights.radius[first + i] + self.extent.slack) / w.abs();
             exits.reach[i] = if is_inside { reach } else { f64::INFINITY };
         }
         exits
