@@ -6,6 +6,7 @@ mod tally;
 
 pub use hits::{Hits, Impulses};
 pub(crate) use score::Score;
+pub(crate) use tally::Rest;
 pub use tally::Tally;
 
 use serde::{Deserialize, Serialize};

@@ -30,6 +30,25 @@ pub struct Tally {
     pub rays: usize,
 }
 
+/// Shots that are not traced yet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rest {
+    /// The sum of their weights.
+    weight: f64,
+    /// How many of them the jet fires.
+    of_jet: f64,
+}
+
+impl Rest {
+    /// Of these shots.
+    pub fn of(shots: &[ShotSample]) -> Self {
+        Self {
+            weight: shots.iter().map(|shot| shot.weight).sum(),
+            of_jet: shots.iter().filter(|shot| shot.of_jet).count() as f64,
+        }
+    }
+}
+
 impl Tally {
     /// The tally of several sets of shots together.
     pub fn join(parts: Vec<Self>) -> Self {
@@ -50,7 +69,7 @@ impl Tally {
 
     /// The least share of J of these shots that J of them and the rest can be, at any speed: no term is
     /// below what it is when the rest hit the target just as they should and harm nothing.
-    pub(crate) fn least_share_with(&self, rest: &[ShotSample]) -> f64 {
+    pub(crate) fn least_share_with(&self, rest: &Rest) -> f64 {
         let share = |here: f64, there: f64| {
             if here > 0.0 {
                 here / (here + there)
@@ -58,12 +77,10 @@ impl Tally {
                 1.0
             }
         };
-        let weight: f64 = rest.iter().map(|shot| shot.weight).sum();
-        let of_jet = rest.iter().filter(|shot| shot.of_jet).count() as f64;
         let shares = [
-            share(self.weight, weight),
-            share(self.weight - self.missed, weight),
-            share(self.hits.of_jet(), of_jet),
+            share(self.weight, rest.weight),
+            share(self.weight - self.missed, rest.weight),
+            share(self.hits.of_jet(), rest.of_jet),
         ];
         shares.into_iter().fold(1.0, f64::min)
     }

@@ -11,7 +11,7 @@ use crate::checkpoint::{Checkpoint, Page};
 use crate::control::Control;
 use crate::feasibility::infeasibility;
 use crate::jet::ShotSample;
-use crate::objective::{Tally, Terms};
+use crate::objective::{Rest, Tally, Terms};
 use crate::problem::model::Model;
 use crate::problem::setting::{Range, Settings};
 use crate::scenario::Scenario;
@@ -110,6 +110,8 @@ const MOST_RAYS: usize = u32::MAX as usize;
 pub struct Evaluator<'a> {
     scenario: &'a Scenario,
     shots: &'a [ShotSample],
+    /// When J is looked at before all shots are traced.
+    looks: Vec<Look>,
     effort: &'a Effort,
     control: &'a Control,
     /// Where what was judged is written down.
@@ -130,6 +132,7 @@ impl<'a> Evaluator<'a> {
         Self {
             scenario,
             shots,
+            looks: Look::all(shots),
             effort,
             control,
             page: control.checkpoint.as_deref().map(page),
@@ -211,28 +214,23 @@ impl<'a> Evaluator<'a> {
             };
         }
         let mut tally = Tally::default();
-        for end in self.looks() {
-            let (seen, rest) = self.shots.split_at(end);
-            let next = self.trace(settings, &seen[tally.shots..]);
-            tally = Tally::join(vec![tally, next]);
-            if rest.is_empty() || cut == f64::INFINITY {
-                continue;
-            }
-            let evaluated = self.evaluated(settings, &tally);
-            if evaluated.fitness.rank() * tally.least_share_with(rest) > cut {
-                return evaluated;
+        for look in &self.looks {
+            tally = self.traced_up_to(look.end, settings, tally);
+            if cut < f64::INFINITY {
+                let evaluated = self.evaluated(settings, &tally);
+                if evaluated.fitness.rank() * tally.least_share_with(&look.rest) > cut {
+                    return evaluated;
+                }
             }
         }
-        self.evaluated(settings, &tally)
+        let all = self.traced_up_to(self.shots.len(), settings, tally);
+        self.evaluated(settings, &all)
     }
 
-    /// After how many shots J is looked at, all of them last. They do not depend on the cut, on which the
-    /// order of sums and so their last bits must not.
-    fn looks(&self) -> impl Iterator<Item = usize> {
-        let all = self.shots.len();
-        let some = LOOKS.map(|share| (all as f64 * share) as usize);
-        let worthwhile = move |&end: &usize| end >= FEWEST && end < all;
-        some.into_iter().filter(worthwhile).chain([all])
+    /// What some of the first shots did, and those up to `end`.
+    fn traced_up_to(&self, end: usize, settings: &Settings, tally: Tally) -> Tally {
+        let next = self.trace(settings, &self.shots[tally.shots..end]);
+        Tally::join(vec![tally, next])
     }
 
     fn evaluated(&self, settings: &Settings, tally: &Tally) -> Evaluated {
@@ -264,6 +262,26 @@ impl<'a> Evaluator<'a> {
         let chunks = shots.par_chunks(CHUNK).enumerate();
         let wanted = chunks.filter(|(number, _)| *number == 0 || !self.is_stopped());
         Tally::join(wanted.map(|(_, shots)| tally(shots)).collect())
+    }
+}
+
+/// A moment at which J of the first shots may prove that J of all is too high.
+struct Look {
+    /// Shots until then.
+    end: usize,
+    rest: Rest,
+}
+
+impl Look {
+    /// All of them: they do not depend on the cut, on which the order of sums and so their last bits must not.
+    fn all(shots: &[ShotSample]) -> Vec<Self> {
+        let ends = LOOKS.map(|share| (shots.len() as f64 * share) as usize);
+        let worthwhile = ends.into_iter().filter(|&end| end >= FEWEST);
+        let look = |end| Self {
+            end,
+            rest: Rest::of(&shots[end..]),
+        };
+        worthwhile.map(look).collect()
     }
 }
 

@@ -16,7 +16,6 @@ use crate::verdict::Verdict;
 pub(super) struct Figures<'a> {
     scenario: &'a Scenario,
     effort: &'a Effort,
-    most_shots: usize,
     control: &'a Control,
     validation: ValidationSample,
 }
@@ -28,7 +27,6 @@ impl<'a> Figures<'a> {
         Self {
             scenario,
             effort,
-            most_shots: control.validation_shots,
             control,
             validation: ValidationSample::new(&scenario.problem, purpose::ANSWERS, first),
         }
@@ -65,14 +63,16 @@ impl<'a> Figures<'a> {
     /// J of a contact that could win, or about a verdict on the best one.
     fn sharpened(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
         let problem = &self.scenario.problem;
-        let has_all = problem.has_one_ray() || self.validation.shots() >= self.most_shots;
+        let has_all =
+            problem.has_one_ray() || self.validation.shots() >= self.control.validation_shots;
         if has_all
             || self.control.is_stopped()
             || !(is_noisy(&answers, problem) || is_open(&answers, problem))
         {
             return answers;
         }
-        self.validation = ValidationSample::new(problem, purpose::ANSWERS, self.most_shots);
+        self.validation =
+            ValidationSample::new(problem, purpose::ANSWERS, self.control.validation_shots);
         self.of(searches)
     }
 

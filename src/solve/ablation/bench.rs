@@ -105,16 +105,11 @@ impl<'a> Bench<'a> {
         })
     }
 
-    fn reduced(&self, left_out: &[Effect]) -> Scenario {
-        self.scenario.without(left_out, &self.leading[0])
-    }
-
-    /// Changes of J, relative, at every leading choice.
-    fn changes(&self, reduced: &Scenario) -> Vec<f64> {
-        let shots = reduced_shots(self.scenario, reduced, &self.shots, self.importance);
+    /// Changes of J, relative, at every leading choice, with the shots of a reduced scenario.
+    fn changes(&self, reduced: &Scenario, shots: &[ShotSample]) -> Vec<f64> {
         let pairs = self.leading.par_iter().zip(&self.whole);
         let change = |(settings, whole): (&Settings, &f64)| {
-            self.relative(objective(reduced, settings, &shots) - whole, *whole)
+            self.relative(objective(reduced, settings, shots) - whole, *whole)
         };
         pairs.map(change).collect()
     }
@@ -141,11 +136,6 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Shots for descents.
-    fn few_shots(&self) -> &[ShotSample] {
-        &self.shots[..DESCENT_SHOTS.min(self.shots.len())]
-    }
-
     /// The whole model at the first leading choice.
     pub(super) fn start(&self) -> Start {
         let validation = draw_validation(self.scenario);
@@ -153,18 +143,18 @@ impl<'a> Bench<'a> {
         Start {
             passes: verdicts.map(|(_, pass)| pass).collect(),
             validation,
-            best: self.descend(self.scenario, self.few_shots()),
+            best: self.descend(self.scenario, few(&self.shots)),
         }
     }
 
     pub(super) fn ablation(&self, effect: Effect, start: &Start, left_out: bool) -> Ablation {
-        let reduced = self.reduced(&[effect]);
-        let changes = self.changes(&reduced);
-        let whole = self.few_shots();
-        let fewer = reduced_shots(self.scenario, &reduced, whole, self.importance);
+        let reduced = self.scenario.without(&[effect], &self.leading[0]);
+        let shots = reduced_shots(self.scenario, &reduced, &self.shots, self.importance);
+        let changes = self.changes(&reduced, &shots);
+        let (whole, fewer) = (few(&self.shots), few(&shots));
         let best_with = start.best;
         // An effect that does nothing here may be the cliff that the best settings keep away from.
-        let best_without = self.descend(&reduced, &fewer);
+        let best_without = self.descend(&reduced, fewer);
         let [without, with] =
             [&best_without, &best_with].map(|settings| objective(self.scenario, settings, whole));
         let before = start.passes.iter();
@@ -183,7 +173,7 @@ impl<'a> Bench<'a> {
             best_without,
             best_with,
             regret: self.relative(without - with, with).max(0.0),
-            relative_rays: self.relative_rays(&reduced, &fewer),
+            relative_rays: self.relative_rays(&reduced, fewer),
             left_out,
         }
     }
@@ -195,7 +185,7 @@ impl<'a> Bench<'a> {
         let rays = |scenario: &Scenario, shots: &[ShotSample]| {
             Tally::trace(scenario, settings, settings.speed, shots).rays as f64
         };
-        rays(reduced, fewer) / rays(self.scenario, self.few_shots()).max(1.0)
+        rays(reduced, fewer) / rays(self.scenario, few(&self.shots)).max(1.0)
     }
 }
 
@@ -213,6 +203,11 @@ pub(super) struct Start {
     validation: Replicates,
     /// The best settings nearby.
     best: Settings,
+}
+
+/// Those of some shots that descents take: of each stream the first ones.
+fn few(shots: &[ShotSample]) -> &[ShotSample] {
+    &shots[..DESCENT_SHOTS.min(shots.len())]
 }
 
 const DESCENT_SHOTS: usize = 128;
