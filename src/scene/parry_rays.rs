@@ -39,8 +39,7 @@ impl ParryMesh {
             return None;
         };
         let piece = face % facets.count() as u32;
-        let [a, b, c] = facets.corners(piece);
-        let normal = (b - a).cross(&(c - a)).normalize();
+        let normal = facets.normal(piece);
         let crossing = Crossing {
             distance: hit.time_of_impact,
             above: 0.0,

@@ -12,7 +12,7 @@ mod touch;
 
 use std::sync::OnceLock;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use rayon::prelude::*;
@@ -115,6 +115,11 @@ impl TriangleMesh {
     /// The corner points of a triangle.
     pub fn corners(&self, index: u32) -> [Point3<f64>; 3] {
         self.corners[index as usize].map(|corner| self.vertices[corner as usize])
+    }
+
+    /// The unit normal on the front of a triangle.
+    pub fn normal(&self, index: u32) -> Vector3<f64> {
+        plane::normal(&self.corners(index))
     }
 
     /// The surface of a triangle.

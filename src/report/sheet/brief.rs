@@ -20,15 +20,8 @@ pub fn brief(record: &Record) -> String {
     let next = next.into_text();
     let texts = texts.join("\n");
     let room = LINES - 1 - next.lines().count();
-    let shown = texts.lines().take(room);
-    shown.chain([""]).chain(next.lines()).fold(
-        String::with_capacity(texts.len()),
-        |mut all, line| {
-            all.push_str(line);
-            all.push('\n');
-            all
-        },
-    )
+    let shown = texts.lines().take(room).chain([""]).chain(next.lines());
+    shown.flat_map(|line| [line, "\n"]).collect()
 }
 
 fn next_step(record: &Record) -> &'static str {

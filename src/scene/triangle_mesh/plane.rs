@@ -10,7 +10,7 @@ pub(super) const GRAZING: f64 = 1e-3;
 
 /// The unit normal on the front of a triangle. Its two shorter edges tell it best: in a sliver the two
 /// longer ones differ by no more than their rounding.
-pub(super) fn normal(corners: &[Point3<f64>; 3]) -> Vector3<f64> {
+pub(in crate::scene) fn normal(corners: &[Point3<f64>; 3]) -> Vector3<f64> {
     let [a, b, c] = *corners;
     let [ab, bc, ca] = [b - a, c - b, a - c];
     let [opposite_a, opposite_b, opposite_c] = [bc, ca, ab].map(|edge| edge.norm_squared());
