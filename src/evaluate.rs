@@ -1,16 +1,16 @@
 //! What a choice of settings does, measured on shots that nothing was tuned on.
 
-mod counts;
-mod focused;
-mod harm;
+mod adaptive;
 mod impulses;
-mod ledger;
-mod survey;
+mod largest_impulses;
+mod replicate_stats;
+mod violation_counts;
+mod violations;
 
-pub use counts::Counts;
-pub use focused::{evaluate_adaptively, evaluate_each_adaptively, evaluate_streamed};
-pub use harm::importance_of;
-pub(crate) use survey::Survey;
+pub use adaptive::{evaluate_adaptively, evaluate_each_adaptively, evaluate_streamed};
+pub(crate) use largest_impulses::LargestImpulses;
+pub use violation_counts::ViolationCounts;
+pub use violations::importance_of;
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::trace::End;
 use impulses::Impulses;
-use ledger::{Ledger, SurfaceSums};
+use replicate_stats::{ReplicateStats, SurfaceSums};
 
 /// What a choice of settings does, with its statistical errors.
 #[derive(Clone, Debug)]
@@ -101,13 +101,17 @@ pub struct Spread {
 /// Evaluates `settings` on shots as they are.
 pub fn evaluate(scenario: &Scenario, settings: &Settings, shots: &Replicates) -> Evaluation {
     let sets = shots.sets.par_iter();
-    let ledgers = sets
-        .map(|set| Ledger::of(scenario, settings, set))
+    let stats = sets
+        .map(|set| ReplicateStats::of(scenario, settings, set))
         .collect();
-    summed_up(scenario, settings, ledgers)
+    summed_up(scenario, settings, stats)
 }
 
-fn summed_up(scenario: &Scenario, settings: &Settings, replicates: Vec<Ledger>) -> Evaluation {
+fn summed_up(
+    scenario: &Scenario,
+    settings: &Settings,
+    replicates: Vec<ReplicateStats>,
+) -> Evaluation {
     let shots: usize = replicates.iter().map(|r| r.tally.shots).sum();
     let boundary_shots = replicates.iter().map(|r| r.boundary.shots).sum();
     let is_exact = replicates.len() == 1;
@@ -234,15 +238,14 @@ fn receipt<'a>(parts: impl Iterator<Item = &'a SurfaceSums>) -> SurfaceReceipt {
     receipt
 }
 
-fn target_receipt(goals: &Goals, speed: f64, replicates: &[Ledger]) -> TargetReceipt {
+fn target_receipt(goals: &Goals, speed: f64, replicates: &[ReplicateStats]) -> TargetReceipt {
     let at_speed = |of: fn(&Hits) -> &Vec<f64>| -> Vec<f64> {
-        let all = replicates.iter().flat_map(|ledger| of(&ledger.tally.hits));
+        let all = replicates.iter().flat_map(|stats| of(&stats.tally.hits));
         all.map(|impulse| impulse * speed).collect()
     };
     let count = |of: fn(&Hits, &Goals, f64) -> usize| {
         let each = replicates.iter();
-        each.map(|ledger| of(&ledger.tally.hits, goals, speed))
-            .sum()
+        each.map(|stats| of(&stats.tally.hits, goals, speed)).sum()
     };
     TargetReceipt {
         hits: replicates.iter().map(|r| r.tally.hits.len()).sum(),

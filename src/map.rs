@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::control::Control;
-use crate::evaluate::{Counts, Survey};
+use crate::evaluate::{LargestImpulses, ViolationCounts};
 use crate::feasibility::infeasibility;
 use crate::jet::{Replicates, Samples, ShotSample, purpose};
 use crate::objective::Terms;
@@ -178,19 +178,19 @@ fn cells_on_one_path(
     if infeasibility(scenario, &settings).is_some() {
         return vec![None; group.len()];
     }
-    let survey = Survey::of(scenario, &settings, shots);
-    let cell = |&index: &usize| Some(cell(scenario, &survey, place(index).speed));
+    let largest_impulses = LargestImpulses::of(scenario, &settings, shots);
+    let cell = |&index: &usize| Some(cell(scenario, &largest_impulses, place(index).speed));
     group.iter().map(cell).collect()
 }
 
 /// What the shots of a survey do at a launch speed, m/s.
-fn cell(scenario: &Scenario, survey: &Survey, speed: f64) -> Cell {
-    let verdicts = Verdict::on(scenario, &survey.counts(scenario, speed));
+fn cell(scenario: &Scenario, largest_impulses: &LargestImpulses, speed: f64) -> Cell {
+    let verdicts = Verdict::on(scenario, &largest_impulses.counts(scenario, speed));
     let failing = verdicts.iter().filter(|verdict| !verdict.passes());
     Cell {
-        terms: survey.terms(scenario, speed),
+        terms: largest_impulses.terms(scenario, speed),
         failing: failing.map(|verdict| verdict.subject).collect(),
-        share_sticking: survey.share_sticking(),
+        share_sticking: largest_impulses.share_sticking(),
     }
 }
 
@@ -203,6 +203,6 @@ fn common_shots(problem: &Problem, shots: usize) -> Vec<ShotSample> {
 
 /// What verdicts are given on in a problem.
 fn subjects(scenario: &Scenario) -> Vec<Subject> {
-    let verdicts = Verdict::on(scenario, &Counts::none(scenario));
+    let verdicts = Verdict::on(scenario, &ViolationCounts::none(scenario));
     verdicts.iter().map(|verdict| verdict.subject).collect()
 }

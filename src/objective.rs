@@ -1,11 +1,11 @@
 //! From impacts to named terms, to J, and to the speed that makes J least.
 
+mod accumulator;
 mod hits;
-mod score;
 mod tally;
 
+pub(crate) use accumulator::ObjectiveAccumulator;
 pub use hits::{Hits, Impulses};
-pub(crate) use score::Score;
 pub(crate) use tally::Rest;
 pub use tally::Tally;
 

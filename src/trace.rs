@@ -235,8 +235,8 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Fires shots in volleys and tells the witness about them; `end_packet` is told the shots of
-    /// each volley and the rays that they took together.
+    /// Fires shots in packets and tells the observer about them; `end_packet` is told the shots of
+    /// each packet and the rays that they took together.
     pub(crate) fn fire<W: Observer>(
         &self,
         shots: &[ShotSample],

@@ -4,7 +4,7 @@ mod interval;
 
 use serde::{Deserialize, Serialize};
 
-use crate::evaluate::{Counts, Evaluation};
+use crate::evaluate::{Evaluation, ViolationCounts};
 use crate::feasibility::{Infeasible, Obstacle, gap_within_tolerance};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
@@ -45,11 +45,11 @@ pub struct Verdict {
 impl Verdict {
     /// All verdicts on an evaluation: the goals, then every surface that has a limit.
     pub fn all(scenario: &Scenario, evaluation: &Evaluation) -> Vec<Self> {
-        Self::on(scenario, &Counts::of(evaluation))
+        Self::on(scenario, &ViolationCounts::of(evaluation))
     }
 
     /// The same on what was counted.
-    pub fn on(scenario: &Scenario, counts: &Counts) -> Vec<Self> {
+    pub fn on(scenario: &Scenario, counts: &ViolationCounts) -> Vec<Self> {
         let goals = &scenario.problem.goals;
         let is_exact = counts.is_exact;
         let mut verdicts = vec![

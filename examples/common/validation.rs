@@ -31,7 +31,7 @@ pub fn objectives(
     (first..first + sets)
         .into_par_iter()
         .map(|number| {
-            let samples = Samples::new(&problem, Stream::ValidationSample(number), SHOTS_PER_SET);
+            let samples = Samples::new(&problem, Stream::Validation(number), SHOTS_PER_SET);
             let objective = |settings: &Settings| {
                 Tally::trace(scenario, settings, settings.speed, &samples.shots)
                     .terms(goals, settings.speed)

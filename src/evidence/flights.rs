@@ -29,7 +29,7 @@ pub struct Flight {
 const MARGIN: f64 = 0.05;
 
 /// Shots that are fired before it is asked whether there is time for more.
-const VOLLEY: usize = 1024;
+const BATCH: usize = 1024;
 
 /// The flights of some shots, in their order, or of the first ones after a request to end.
 pub(super) fn fire(
@@ -60,7 +60,7 @@ pub(super) fn fire(
             gone,
         }
     };
-    let packets = jet.shots.chunks(VOLLEY).enumerate();
+    let packets = jet.shots.chunks(BATCH).enumerate();
     let packets = packets.take_while(|(number, _)| *number == 0 || !cancel.is_set());
     let mut flights = Vec::with_capacity(jet.shots.len());
     for (_, packet) in packets {

@@ -12,15 +12,15 @@ pub(super) struct Parts {
     pub jet: usize,
     /// Towards the rim.
     pub boundary: usize,
-    /// Towards the rim, and there by a focus.
-    pub focused: usize,
+    /// Towards the boundary, and there by an importance density.
+    pub by_importance: usize,
 }
 
 impl Parts {
     pub const NONE: Self = Self {
         jet: 0,
         boundary: 0,
-        focused: 0,
+        by_importance: 0,
     };
 
     pub const JET_ALONE: Self = Self {
@@ -29,7 +29,7 @@ impl Parts {
     };
 
     pub fn count(self) -> usize {
-        self.jet + self.boundary + self.focused
+        self.jet + self.boundary + self.by_importance
     }
 }
 
@@ -38,7 +38,7 @@ impl Parts {
 pub(super) struct Origin {
     pub cells: Cells,
     /// Density of the rim's distribution over that of the jet.
-    rim_density: f64,
+    boundary_density: f64,
 }
 
 /// Shots of which certain shares are drawn by each density.
@@ -60,13 +60,13 @@ impl<'a> Mixture<'a> {
         let Parts {
             jet,
             boundary,
-            focused,
+            by_importance,
         } = self.parts;
-        let on_rim = match focused {
+        let on_boundary = match by_importance {
             0 => boundary as f64,
-            _ => boundary as f64 + focused as f64 * self.importance.density(&origin.cells),
+            _ => boundary as f64 + by_importance as f64 * self.importance.density(&origin.cells),
         };
-        self.parts.count() as f64 / (jet as f64 + origin.rim_density * on_rim)
+        self.parts.count() as f64 / (jet as f64 + origin.boundary_density * on_boundary)
     }
 
     /// One of the shots that are drawn by a density.
@@ -77,7 +77,7 @@ impl<'a> Mixture<'a> {
         index: u32,
         by: Proposal,
     ) -> (ShotSample, Origin) {
-        let mut point = if self.parts.boundary + self.parts.focused == 0 {
+        let mut point = if self.parts.boundary + self.parts.by_importance == 0 {
             QmcPoint::of_jet(problem.seed, stream, index)
         } else {
             QmcPoint::new(problem.seed, stream, index, by, self.importance)
@@ -85,19 +85,19 @@ impl<'a> Mixture<'a> {
         let mut shot = ShotSample::at(problem, &mut point);
         let origin = Origin {
             cells: point.cells,
-            rim_density: point.rim_density,
+            boundary_density: point.boundary_density,
         };
         shot.weight = self.weight(&origin);
-        shot.of_jet = by == Proposal::Jet;
+        shot.of_jet = by == Proposal::Nominal;
         (shot, origin)
     }
 
     /// One of the shots that follow each other in rounds, in each of which every density has its part.
     pub fn in_rounds(&self, problem: &Problem, stream: Stream, index: u32) -> (ShotSample, Origin) {
         let parts = [
-            (Proposal::Jet, self.parts.jet as u32),
+            (Proposal::Nominal, self.parts.jet as u32),
             (Proposal::Boundary, self.parts.boundary as u32),
-            (Proposal::ImportanceDensity, self.parts.focused as u32),
+            (Proposal::Importance, self.parts.by_importance as u32),
         ];
         let round = index / self.parts.count() as u32;
         let mut place = index % self.parts.count() as u32;

@@ -1,4 +1,4 @@
-//! Shots that are sent ahead to find out where harm comes from.
+//! Pilot runs, which find out where violations come from.
 
 use rayon::prelude::*;
 
@@ -16,7 +16,7 @@ pub struct PilotRun {
 }
 
 impl PilotRun {
-    /// Shots of a jet `stretch` times as wide; a part of them is drawn by a focus.
+    /// Shots of a jet `stretch` times as wide; a part of them is drawn by an importance density.
     pub fn new(
         problem: &Problem,
         stretch: f64,
@@ -32,8 +32,8 @@ impl PilotRun {
         Self { shots, origins }
     }
 
-    /// A focus on what they did: `harm` of each, with what it stands for.
-    pub fn importance(&self, before: &ImportanceDensity, harm: &[f64]) -> ImportanceDensity {
+    /// The importance density for what they did: `harm` of each, times its importance weight.
+    pub fn adapted(&self, before: &ImportanceDensity, harm: &[f64]) -> ImportanceDensity {
         let cells: Vec<Cells> = self.origins.iter().map(|origin| origin.cells).collect();
         before.on(&cells, harm)
     }
@@ -42,7 +42,7 @@ impl PilotRun {
 const PARTS: Parts = Parts {
     jet: 1,
     boundary: 1,
-    focused: 2,
+    by_importance: 2,
 };
 
 /// A problem whose directions scatter so many times as far. What scatters in other ways is left as it

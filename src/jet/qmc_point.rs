@@ -10,7 +10,7 @@ pub enum Stream {
     /// The shots that a search decides on.
     Search,
     /// Shots that the search has not seen; one scrambling for each number.
-    ValidationSample(u32),
+    Validation(u32),
 }
 
 impl Stream {
@@ -18,7 +18,7 @@ impl Stream {
     fn seed(self, seed: u64) -> u64 {
         let number = match self {
             Self::Search => 0,
-            Self::ValidationSample(number) => 1 + u64::from(number),
+            Self::Validation(number) => 1 + u64::from(number),
         };
         mix(mix(seed) ^ number)
     }
@@ -52,11 +52,11 @@ pub(super) const DIMENSIONS: usize = 16;
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Proposal {
     /// As the jet fires shots.
-    Jet,
+    Nominal,
     /// Towards the rim.
     Boundary,
-    /// Towards the rim, and there by a focus.
-    ImportanceDensity,
+    /// Towards the boundary, and there by an importance density.
+    Importance,
 }
 
 /// Points of one scrambling before it repeats itself.
@@ -73,7 +73,7 @@ pub(super) struct QmcPoint<'a> {
     /// Whether the next fields are kept up.
     keeps_account: bool,
     /// Density of the rim's distribution over that of the jet, so far.
-    pub rim_density: f64,
+    pub boundary_density: f64,
     /// Where it lies in what the rim's distribution has uniform.
     pub cells: Cells,
 }
@@ -104,9 +104,9 @@ impl<'a> QmcPoint<'a> {
     ) -> Self {
         let block = u64::from(index / POINTS_PER_SEED);
         let set = match by {
-            Proposal::Jet => 0,
+            Proposal::Nominal => 0,
             Proposal::Boundary => 1,
-            Proposal::ImportanceDensity => 2,
+            Proposal::Importance => 2,
         };
         let mixed = mix(mix(stream.seed(seed) ^ block) ^ set);
         let sequence = Sequence::Sobol {
@@ -126,7 +126,13 @@ impl<'a> QmcPoint<'a> {
     pub fn of_jet(seed: u64, stream: Stream, index: u32) -> Self {
         Self {
             keeps_account: false,
-            ..Self::new(seed, stream, index, Proposal::Jet, &ImportanceDensity::NONE)
+            ..Self::new(
+                seed,
+                stream,
+                index,
+                Proposal::Nominal,
+                &ImportanceDensity::NONE,
+            )
         }
     }
 
@@ -140,20 +146,20 @@ impl<'a> QmcPoint<'a> {
     fn of(sequence: Sequence) -> Self {
         Self {
             sequence,
-            by: Proposal::Jet,
+            by: Proposal::Nominal,
             importance: &ImportanceDensity::NONE,
             keeps_account: false,
-            rim_density: 1.0,
+            boundary_density: 1.0,
             cells: [NO_CELL; DIMENSIONS],
         }
     }
 
-    /// Uniform in 0 to 1, but for a focus.
+    /// Uniform in 0 to 1, but for an importance density.
     pub fn uniform(&mut self, dimension: Dimension) -> f64 {
         let uniform = self.sequence.coordinate(dimension as u32);
         let drawn = match self.by {
-            Proposal::ImportanceDensity => self.importance.drawn(dimension, uniform),
-            Proposal::Jet | Proposal::Boundary => uniform,
+            Proposal::Importance => self.importance.drawn(dimension, uniform),
+            Proposal::Nominal | Proposal::Boundary => uniform,
         };
         self.cells[dimension as usize] = ImportanceDensity::cell(drawn);
         drawn
@@ -162,7 +168,7 @@ impl<'a> QmcPoint<'a> {
     /// In 0 to 1, with the rim at 1.
     pub fn inwards(&mut self, dimension: Dimension) -> f64 {
         let depth = 1.0 - self.uniform(dimension);
-        1.0 - self.towards_rim(depth, |root| 1.0 - root, dimension)
+        1.0 - self.towards_boundary(depth, |root| 1.0 - root, dimension)
     }
 
     /// Within +- `half_width`, with the rim at both ends.
@@ -172,14 +178,14 @@ impl<'a> QmcPoint<'a> {
         }
         let signed = 2.0 * self.uniform(dimension) - 1.0;
         let coordinate = |root: f64| 0.5 + 0.5 * (1.0 - root).copysign(signed);
-        let depth = self.towards_rim(1.0 - signed.abs(), coordinate, dimension);
+        let depth = self.towards_boundary(1.0 - signed.abs(), coordinate, dimension);
         half_width * (1.0 - depth).copysign(signed)
     }
 
     /// The distance from the rim of this point, when that of the jet's own points is uniform in
     /// 0 to 1; keeps account of the density, and of the cell by the coordinate that a root of the distance
     /// belongs to.
-    fn towards_rim(
+    fn towards_boundary(
         &mut self,
         depth: f64,
         coordinate: impl Fn(f64) -> f64,
@@ -187,11 +193,11 @@ impl<'a> QmcPoint<'a> {
     ) -> f64 {
         // The square of a uniform variable crowds at 0, with density depth^(-1/2) / 2.
         let (depth, root) = match (self.by, self.keeps_account) {
-            (Proposal::Boundary | Proposal::ImportanceDensity, _) => (depth * depth, depth),
-            (Proposal::Jet, true) => (depth, depth.sqrt()),
-            (Proposal::Jet, false) => return depth,
+            (Proposal::Boundary | Proposal::Importance, _) => (depth * depth, depth),
+            (Proposal::Nominal, true) => (depth, depth.sqrt()),
+            (Proposal::Nominal, false) => return depth,
         };
-        self.rim_density /= 2.0 * root.max(LEAST_ROOT);
+        self.boundary_density /= 2.0 * root.max(LEAST_ROOT);
         self.cells[dimension as usize] = ImportanceDensity::cell(coordinate(root));
         depth
     }

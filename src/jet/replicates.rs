@@ -19,8 +19,8 @@ pub struct Replicates {
 pub struct Replicate {
     /// Shots as the jet fires them.
     pub jet: Samples,
-    /// Shots drawn towards the rim, half of them by a focus; weighted averages over both estimate the
-    /// same as those over the jet alone, and see what harms rarely.
+    /// Shots drawn towards the rim, half of them by an importance density; weighted averages over both
+    /// estimate the same as those over the jet alone, and see what harms rarely.
     pub boundary: Samples,
 }
 
@@ -30,7 +30,7 @@ impl Replicates {
 
     /// One of the streams of fresh shots for a [`purpose`](super::purpose).
     pub fn stream(purpose: u32, number: u32) -> Stream {
-        Stream::ValidationSample(purpose * Self::COUNT as u32 + number)
+        Stream::Validation(purpose * Self::COUNT as u32 + number)
     }
 
     /// Fresh shots of the jet, rounded up to a multiple of [`Self::COUNT`], and half as many on the

@@ -56,9 +56,9 @@ impl Samples {
         )
     }
 
-    /// The same with half of the shots on the rim drawn by a focus, of many two thirds; without one
-    /// they are those of [`Samples::with_boundary`].
-    pub fn focused(
+    /// The same with half of the shots on the rim drawn by an importance density, of many two thirds; without
+    /// one they are those of [`Samples::with_boundary`].
+    pub fn with_importance(
         problem: &Problem,
         stream: Stream,
         count: usize,
@@ -67,11 +67,11 @@ impl Samples {
         let Some(importance) = importance else {
             return Self::with_boundary(problem, stream, count);
         };
-        let [jet, focused] = if count < MANY { [2, 1] } else { [1, 2] };
+        let [jet, by_importance] = if count < MANY { [2, 1] } else { [1, 2] };
         let parts = Parts {
             jet,
             boundary: 1,
-            focused,
+            by_importance,
         };
         Self::mixed(problem, stream, count, &Mixture::new(parts, importance))
     }

@@ -12,14 +12,14 @@ use super::samples::Samples;
 use super::shot_sample::ShotSample;
 use crate::problem::Problem;
 
-/// Fresh shots in independent scramblings, but for those that a focus decides about.
+/// Fresh shots in independent scramblings, but for those that an importance density decides on.
 #[derive(Clone, Debug)]
 pub struct ValidationSample {
     /// One for each scrambling.
     pub sets: Vec<PendingReplicate>,
 }
 
-/// The shots of one scrambling, but for those that a focus decides about.
+/// The shots of one scrambling, but for those that an importance density decides on.
 #[derive(Clone, Debug)]
 pub struct PendingReplicate {
     jet: Vec<ShotSample>,
@@ -36,7 +36,7 @@ impl ValidationSample {
         let draw = Draw::new(problem, purpose, shots);
         let numbers = (0..draw.sets()).into_par_iter();
         Self {
-            sets: numbers.map(|number| draw.unfocused(number)).collect(),
+            sets: numbers.map(|number| draw.pending(number)).collect(),
         }
     }
 
@@ -53,9 +53,9 @@ impl PendingReplicate {
             let shots = (0..count as u32).map(|index| mixture.shot(problem, stream, index, by));
             shots.unzip::<_, _, Vec<_>, Vec<_>>()
         };
-        let (jet, mut origins) = draw(parts.jet, Proposal::Jet);
-        let (boundary, of_rim) = draw(parts.boundary, Proposal::Boundary);
-        origins.extend(of_rim);
+        let (jet, mut origins) = draw(parts.jet, Proposal::Nominal);
+        let (boundary, of_boundary) = draw(parts.boundary, Proposal::Boundary);
+        origins.extend(of_boundary);
         Self {
             jet,
             boundary,
@@ -65,25 +65,25 @@ impl PendingReplicate {
         }
     }
 
-    /// These shots and those that a focus draws, each with what it stands for among all of them.
-    pub fn focused(&self, problem: &Problem, importance: &ImportanceDensity) -> Replicate {
+    /// These shots and those that an importance density draws, each with its importance weight.
+    pub fn with_importance(&self, problem: &Problem, importance: &ImportanceDensity) -> Replicate {
         let mut replicate = self.open();
-        self.importance(&mut replicate, problem, importance);
+        self.draw_by(&mut replicate, problem, importance);
         replicate
     }
 
     /// The same without a copy of them.
-    fn into_focused(mut self, problem: &Problem, importance: &ImportanceDensity) -> Replicate {
+    fn into_replicate(mut self, problem: &Problem, importance: &ImportanceDensity) -> Replicate {
         let [jet, boundary] =
             [&mut self.jet, &mut self.boundary].map(|shots| Samples { shots: take(shots) });
         let mut replicate = Replicate { jet, boundary };
-        self.importance(&mut replicate, problem, importance);
+        self.draw_by(&mut replicate, problem, importance);
         replicate
     }
 
-    /// These shots, and space for those that a focus will draw.
+    /// These shots, and space for those that an importance density will draw.
     pub(crate) fn open(&self) -> Replicate {
-        let mut boundary = Vec::with_capacity(self.parts.boundary + self.parts.focused);
+        let mut boundary = Vec::with_capacity(self.parts.boundary + self.parts.by_importance);
         boundary.extend_from_slice(&self.boundary);
         Replicate {
             jet: Samples {
@@ -93,8 +93,8 @@ impl PendingReplicate {
         }
     }
 
-    /// Makes [open](Self::open) shots, or those of another focus, what [`Self::focused`] gives.
-    pub(crate) fn importance(
+    /// Makes [open](Self::open) shots, or those of another importance density, what [`Self::with_importance`] gives.
+    pub(crate) fn draw_by(
         &self,
         replicate: &mut Replicate,
         problem: &Problem,
@@ -107,10 +107,10 @@ impl PendingReplicate {
         for (shot, origin) in jet.iter_mut().chain(&mut *boundary).zip(&self.origins) {
             shot.weight = mixture.weight(origin);
         }
-        let numbers = 0..self.parts.focused as u32;
+        let numbers = 0..self.parts.by_importance as u32;
         boundary.extend(numbers.map(|index| {
             mixture
-                .shot(problem, self.stream, index, Proposal::ImportanceDensity)
+                .shot(problem, self.stream, index, Proposal::Importance)
                 .0
         }));
     }
@@ -130,16 +130,16 @@ impl<'a> Draw<'a> {
     /// The shots of [`Replicates::new`].
     pub fn new(problem: &'a Problem, purpose: u32, shots: usize) -> Self {
         let jet = shots.div_ceil(Replicates::COUNT).max(1);
-        let on_rim = jet.div_ceil(2);
-        let focused = on_rim / 2;
-        let boundary = on_rim - focused;
+        let on_boundary = jet.div_ceil(2);
+        let by_importance = on_boundary / 2;
+        let boundary = on_boundary - by_importance;
         Self {
             problem,
             purpose,
             parts: Parts {
                 jet,
                 boundary,
-                focused,
+                by_importance,
             },
             importance: &ImportanceDensity::NONE,
         }
@@ -154,9 +154,9 @@ impl<'a> Draw<'a> {
         Self { parts, ..self }
     }
 
-    /// The same with other shots where a focus decides about them.
+    /// The same with other shots where the importance density decides on them.
     #[must_use]
-    pub fn focused(self, importance: &'a ImportanceDensity) -> Self {
+    pub fn with_importance(self, importance: &'a ImportanceDensity) -> Self {
         Self { importance, ..self }
     }
 
@@ -171,17 +171,13 @@ impl<'a> Draw<'a> {
 
     /// The shots of one scrambling; one shot, when all shots of the problem are the same.
     pub fn set(&self, number: u32) -> Replicate {
-        let unfocused = self.unfocused(number);
-        unfocused.into_focused(self.problem, self.importance)
+        let pending = self.pending(number);
+        pending.into_replicate(self.problem, self.importance)
     }
 
-    fn unfocused(&self, number: u32) -> PendingReplicate {
+    fn pending(&self, number: u32) -> PendingReplicate {
         if self.problem.has_one_ray() {
-            return PendingReplicate::new(
-                self.problem,
-                Stream::ValidationSample(0),
-                Parts::JET_ALONE,
-            );
+            return PendingReplicate::new(self.problem, Stream::Validation(0), Parts::JET_ALONE);
         }
         let stream = Replicates::stream(self.purpose, number);
         PendingReplicate::new(self.problem, stream, self.parts)

@@ -2,7 +2,7 @@
 
 use super::{Axis, Control, Map, common_shots};
 use crate::elementary::power;
-use crate::evaluate::Survey;
+use crate::evaluate::LargestImpulses;
 use crate::problem::part::Shape;
 use crate::problem::setting::{Range, Setting, Settings};
 use crate::scenario::Scenario;
@@ -102,7 +102,7 @@ fn pairs(free: &[(Setting, Range)]) -> Vec<[(Setting, Range); 2]> {
 fn rays_at_one_place(scenario: &Scenario, settings: &Settings) -> f64 {
     let probes = common_shots(&scenario.problem, PROBES);
     let shots = if probes.len() < PROBES { 1 } else { SHOTS };
-    let rays = Survey::of(scenario, settings, &probes).rays_per_shot() * shots as f64;
+    let rays = LargestImpulses::of(scenario, settings, &probes).rays_per_shot() * shots as f64;
     let has_triangles = |shape: &Shape| matches!(shape, Shape::Mesh { .. } | Shape::Box { .. });
     if scenario
         .problem

@@ -1,6 +1,6 @@
 //! Terms worked out by hand.
 
-use super::score::largest;
+use super::accumulator::largest;
 use super::*;
 use crate::problem::goal::{Miss, NormalImpulse, TangentialImpulse};
 use crate::problem::setting::Range;

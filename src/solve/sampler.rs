@@ -51,7 +51,7 @@ impl<'a> Sampler<'a> {
     }
 
     fn draw_from(&self, stream: Stream, shots: usize) -> Samples {
-        Samples::focused(&self.scenario.problem, stream, shots, self.importance())
+        Samples::with_importance(&self.scenario.problem, stream, shots, self.importance())
     }
 
     /// Whether J of the leading candidate is much the same on other samples of this size.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::Solution;
 use crate::control::Cancel;
 use crate::elementary::whole_power;
-use crate::evaluate::{Counts, Survey};
+use crate::evaluate::{LargestImpulses, ViolationCounts};
 use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::setting::{Range, Setting, Settings};
@@ -111,28 +111,35 @@ pub fn windows(
 /// Shots that tell what turns at a choice, some sets after the other.
 trait Shots {
     /// What some of them do; `None` beyond the last.
-    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Counts>;
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts>;
 }
 
 /// Scramblings that are fired together.
 const SETS: usize = 2;
 
 /// Surveys of some of the sets, those that are fired together; `None` beyond the last.
-fn surveys(
+fn largest_impulses(
     scenario: &Scenario,
     settings: &Settings,
     validation: &Replicates,
     part: usize,
-) -> Option<Vec<Survey>> {
+) -> Option<Vec<LargestImpulses>> {
     let sets = validation.sets.chunks(SETS).nth(part)?.par_iter();
-    let survey = |set: &Replicate| Survey::of(scenario, settings, &set.jet.shots);
-    Some(sets.map(survey).collect())
+    let largest_impulses =
+        |set: &Replicate| LargestImpulses::of(scenario, settings, &set.jet.shots);
+    Some(sets.map(largest_impulses).collect())
 }
 
 /// What is seen in them with shots of some speed, m/s.
-fn counts(scenario: &Scenario, surveys: &[Survey], speed: f64) -> Counts {
-    let each = surveys.iter().map(|survey| survey.counts(scenario, speed));
-    Counts::together(scenario, each)
+fn counts(
+    scenario: &Scenario,
+    largest_impulses: &[LargestImpulses],
+    speed: f64,
+) -> ViolationCounts {
+    let each = largest_impulses
+        .iter()
+        .map(|largest_impulses| largest_impulses.counts(scenario, speed));
+    ViolationCounts::together(scenario, each)
 }
 
 /// Shots that are traced at every choice.
@@ -142,9 +149,9 @@ struct Traced<'a> {
 }
 
 impl Shots for Traced<'_> {
-    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Counts> {
-        let surveys = surveys(self.scenario, settings, self.validation, part)?;
-        Some(counts(self.scenario, &surveys, settings.speed))
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts> {
+        let largest_impulses = largest_impulses(self.scenario, settings, self.validation, part)?;
+        Some(counts(self.scenario, &largest_impulses, settings.speed))
     }
 }
 
@@ -154,7 +161,7 @@ struct Recorded<'a> {
     settings: &'a Settings,
     validation: &'a Replicates,
     /// Those that were asked for.
-    seen: Vec<Vec<Survey>>,
+    seen: Vec<Vec<LargestImpulses>>,
 }
 
 impl<'a> Recorded<'a> {
@@ -169,10 +176,11 @@ impl<'a> Recorded<'a> {
 }
 
 impl Shots for Recorded<'_> {
-    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Counts> {
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts> {
         if part == self.seen.len() {
-            let surveys = surveys(self.scenario, self.settings, self.validation, part)?;
-            self.seen.push(surveys);
+            let largest_impulses =
+                largest_impulses(self.scenario, self.settings, self.validation, part)?;
+            self.seen.push(largest_impulses);
         }
         Some(counts(self.scenario, self.seen.get(part)?, settings.speed))
     }
@@ -253,7 +261,7 @@ fn turned(
             Obstacle::Material(_) | Obstacle::Body => Turn::FreeSpace,
         });
     }
-    let mut all = Counts::none(scenario);
+    let mut all = ViolationCounts::none(scenario);
     let mut turn = None;
     for part in 0.. {
         let Some(counts) = shots.counts(settings, part) else {

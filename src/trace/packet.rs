@@ -46,7 +46,7 @@ pub(crate) struct RayPacket {
     slides: Lane,
 }
 
-/// Is told what happens to the shots of a volley.
+/// Is told what happens to the shots of a packet.
 pub(crate) trait Observer {
     /// All shots in flight have come to their next impact, or left.
     fn impacts(&mut self, packet: &RayPacket);

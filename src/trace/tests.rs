@@ -1,4 +1,4 @@
-//! Volleys are the paths that are followed one by one, to the last bit.
+//! Packets take the paths that are followed one by one, to the last bit.
 
 use std::path::Path;
 

@@ -249,7 +249,7 @@ fn check_terms(
     let goals = &problem.goals;
     let limit = goals.tangential_impulse.unwrap();
     let rebound = goals.rebound.unwrap();
-    let mut samples = Samples::new(problem, Stream::ValidationSample(3), 500);
+    let mut samples = Samples::new(problem, Stream::Validation(3), 500);
     // As if drawn towards the rim.
     for sample in samples.shots.iter_mut().step_by(3) {
         (sample.weight, sample.of_jet) = (0.5, false);
@@ -463,10 +463,10 @@ fn rim_shots_estimate_the_same_objective() {
         ] {
             let problem = &scenario.problem;
             let (plain, plain_error) = mean_objective(&scenario, &settings, |number| {
-                Samples::new(problem, Stream::ValidationSample(number), 2048)
+                Samples::new(problem, Stream::Validation(number), 2048)
             });
             let (boundary, rim_error) = mean_objective(&scenario, &settings, |number| {
-                Samples::with_boundary(problem, Stream::ValidationSample(number), 2048)
+                Samples::with_boundary(problem, Stream::Validation(number), 2048)
             });
             let error = plain_error.hypot(rim_error);
             assert!(
@@ -513,13 +513,10 @@ fn weights_of(samples: &Samples) -> Vec<f64> {
 fn samples_are_pure_functions_of_their_number() {
     let problem = crate::common::keyway(40e-3);
     for draw in [Samples::new, Samples::with_boundary] {
-        let long = draw(&problem, Stream::ValidationSample(5), 70_000).shots;
-        let short = draw(&problem, Stream::ValidationSample(5), 3000).shots;
+        let long = draw(&problem, Stream::Validation(5), 70_000).shots;
+        let short = draw(&problem, Stream::Validation(5), 3000).shots;
         assert_eq!(long[..3000], short);
-        assert_ne!(
-            draw(&problem, Stream::ValidationSample(6), 3000).shots,
-            short
-        );
+        assert_ne!(draw(&problem, Stream::Validation(6), 3000).shots, short);
         assert_ne!(draw(&problem, Stream::Search, 3000).shots, short);
         // The sequence does not start again after 2^16 points.
         assert_ne!(long[1 << 16..][..1000], long[..1000]);
@@ -537,10 +534,10 @@ fn mean(samples: &Samples, value: impl Fn(&ShotSample) -> f64) -> f64 {
 
 /// Both kinds of samples must have these moments, the second kind by its weights.
 fn with_both(problem: &Problem, check: impl Fn(&Samples)) {
-    check(&Samples::new(problem, Stream::ValidationSample(0), 1 << 14));
+    check(&Samples::new(problem, Stream::Validation(0), 1 << 14));
     check(&Samples::with_boundary(
         problem,
-        Stream::ValidationSample(0),
+        Stream::Validation(0),
         1 << 16,
     ));
 }

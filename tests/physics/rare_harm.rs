@@ -112,8 +112,8 @@ fn a_focus_leaves_the_shots_of_the_jet_as_they_are_but_for_what_they_stand_for()
     let plain = Replicates::new(&scenario.problem, purpose::ANSWERS, 1 << 14);
     let validation = ValidationSample::new(&scenario.problem, purpose::ANSWERS, 1 << 14);
     let mut weights = Vec::new();
-    for (set, unfocused) in plain.sets.iter().zip(&validation.sets) {
-        let focused = unfocused.focused(&scenario.problem, &importance);
+    for (set, pending) in plain.sets.iter().zip(&validation.sets) {
+        let focused = pending.with_importance(&scenario.problem, &importance);
         assert_eq!(focused.jet.shots.len(), set.jet.shots.len());
         assert_eq!(focused.boundary.shots.len(), set.boundary.shots.len());
         for (shot, of_jet) in focused.jet.shots.iter().zip(&set.jet.shots) {
@@ -126,8 +126,8 @@ fn a_focus_leaves_the_shots_of_the_jet_as_they_are_but_for_what_they_stand_for()
         assert_eq!(changed.count(), set.boundary.shots.len() / 2);
         let shots = focused.jet.shots.iter().chain(&focused.boundary.shots);
         weights.extend(shots.map(|shot| shot.weight));
-        // Without a focus they are the shots that anybody gets.
-        let back = unfocused.focused(&scenario.problem, &ImportanceDensity::NONE);
+        // Without an importance density they are the shots that anybody gets.
+        let back = pending.with_importance(&scenario.problem, &ImportanceDensity::NONE);
         assert_eq!(back.jet.shots, set.jet.shots);
         assert_eq!(back.boundary.shots, set.boundary.shots);
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use peenpose::evaluate::{Counts, evaluate};
+use peenpose::evaluate::{ViolationCounts, evaluate};
 use peenpose::jet::{Replicates, purpose};
 use peenpose::problem;
 use peenpose::scenario::Scenario;
@@ -36,7 +36,7 @@ fn hits_on_a_rim_in_a_face_of_the_box_are_on_target() {
     let (exact, wider) = (mouth(0.0), mouth(-0.1));
     let settings = exact.problem.ranges.middle();
     let shots = Replicates::without_boundary(&exact.problem, purpose::ANSWERS, 16_384);
-    let counts = |scenario: &Scenario| Counts::of(&evaluate(scenario, &settings, &shots));
+    let counts = |scenario: &Scenario| ViolationCounts::of(&evaluate(scenario, &settings, &shots));
     let found = counts(&exact);
     // There is no floor beyond its end, so a box that goes on holds no more of it.
     assert_eq!(found, counts(&wider));

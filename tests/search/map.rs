@@ -49,7 +49,7 @@ fn axis(setting: Setting, min: f64, max: f64, steps: usize) -> Axis {
 fn agrees_with_evaluations(scenario: &Scenario, map: &Map) {
     let same_shots = Samples::new(
         &scenario.problem,
-        Stream::ValidationSample(Replicates::COUNT as u32),
+        Stream::Validation(Replicates::COUNT as u32),
         SHOTS,
     );
     let shots = Replicates {

@@ -30,7 +30,8 @@ fn reduced_shots<'a>(
     if draw_alike(scenario, reduced) {
         return whole.into();
     }
-    let samples = Samples::focused(&reduced.problem, Stream::Search, whole.len(), importance);
+    let samples =
+        Samples::with_importance(&reduced.problem, Stream::Search, whole.len(), importance);
     let mut shots = samples.shots;
     if shots.len() == whole.len() {
         for (shot, with) in shots.iter_mut().zip(whole) {
@@ -89,7 +90,8 @@ impl<'a> Bench<'a> {
         leading.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
         let leading: Vec<Settings> = leading.into_iter().map(|best| best.settings).collect();
         leading.first()?;
-        let shots = Samples::focused(&scenario.problem, Stream::Search, SHOTS, importance).shots;
+        let shots =
+            Samples::with_importance(&scenario.problem, Stream::Search, SHOTS, importance).shots;
         let whole = leading
             .par_iter()
             .map(|settings| objective(scenario, settings, &shots))

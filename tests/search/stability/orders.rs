@@ -25,7 +25,7 @@ fn errors(
     };
     let most = 4096;
     let sets: Vec<Samples> = (0..SCRAMBLINGS)
-        .map(|number| draw(Stream::ValidationSample(1000 + number), most))
+        .map(|number| draw(Stream::Validation(1000 + number), most))
         .collect();
     (6..=12)
         .map(|power| {
@@ -57,7 +57,7 @@ fn rate(errors: &[(usize, f64)]) -> f64 {
 /// J on very many shots.
 fn converged(scenario: &Scenario) -> f64 {
     let settings = held(scenario);
-    let samples = Samples::new(&scenario.problem, Stream::ValidationSample(999), 1 << 17);
+    let samples = Samples::new(&scenario.problem, Stream::Validation(999), 1 << 17);
     let tally = Tally::trace(scenario, &settings, settings.speed, &samples.shots);
     tally.terms(&scenario.problem.goals, settings.speed).total()
 }

@@ -5,7 +5,7 @@ use crate::scenario::Scenario;
 
 /// How many shots break what: all that verdicts are given on.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Counts {
+pub struct ViolationCounts {
     /// Shots of the jet.
     pub shots: usize,
     /// Whether all of them are the same.
@@ -20,7 +20,7 @@ pub struct Counts {
     pub over: Vec<usize>,
 }
 
-impl Counts {
+impl ViolationCounts {
     /// What was counted in both sets of shots.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {

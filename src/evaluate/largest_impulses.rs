@@ -1,15 +1,15 @@
 //! What the shots of one pose do, kept so that verdicts can be given at any launch speed.
 
-use super::Counts;
+use super::ViolationCounts;
 use crate::jet::ShotSample;
-use crate::objective::{Score, Tally, Terms};
+use crate::objective::{ObjectiveAccumulator, Tally, Terms};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
 use crate::trace::{End, Observer, RayPacket, Tracer};
 
 /// The impacts of some shots, per unit of launch speed.
-pub(crate) struct Survey {
+pub(crate) struct LargestImpulses {
     tally: Tally,
     /// First hits on target that stick.
     sticking: usize,
@@ -17,12 +17,17 @@ pub(crate) struct Survey {
     largest: Vec<Vec<f64>>,
 }
 
-impl Survey {
+impl LargestImpulses {
     /// Traces the shots of a choice of settings.
     pub fn of(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> Self {
         let surfaces = scenario.surfaces.len();
-        let mut surveyor = Surveyor {
-            score: Score::new(scenario, settings.contact, settings.speed, shots.len()),
+        let mut accumulator = LargestAccumulator {
+            objective: ObjectiveAccumulator::new(
+                scenario,
+                settings.contact,
+                settings.speed,
+                shots.len(),
+            ),
             sticking: 0,
             per_speed: 1.0 / settings.speed,
             largest: vec![Vec::new(); surfaces],
@@ -30,14 +35,14 @@ impl Survey {
             touched: Vec::new(),
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
-        tracer.fire(shots, &mut surveyor, |surveyor, shots, rays| {
-            surveyor.score.end_packet(shots, rays);
-            surveyor.end_packet();
+        tracer.fire(shots, &mut accumulator, |accumulator, shots, rays| {
+            accumulator.objective.end_packet(shots, rays);
+            accumulator.end_packet();
         });
         Self {
-            tally: surveyor.score.finish(),
-            sticking: surveyor.sticking,
-            largest: surveyor.largest,
+            tally: accumulator.objective.finish(),
+            sticking: accumulator.sticking,
+            largest: accumulator.largest,
         }
     }
 
@@ -58,7 +63,7 @@ impl Survey {
     }
 
     /// How many of them break what at a launch speed, m/s.
-    pub fn counts(&self, scenario: &Scenario, speed: f64) -> Counts {
+    pub fn counts(&self, scenario: &Scenario, speed: f64) -> ViolationCounts {
         let goals = &scenario.problem.goals;
         let hits = &self.tally.hits;
         let mut over = vec![0; scenario.surfaces.len()];
@@ -68,7 +73,7 @@ impl Survey {
                 *over = largest.iter().filter(|n| **n * speed > allow).count();
             }
         }
-        Counts {
+        ViolationCounts {
             shots: self.tally.shots,
             is_exact: scenario.problem.has_one_ray(),
             hits: hits.len(),
@@ -80,18 +85,18 @@ impl Survey {
 }
 
 /// Makes a survey.
-struct Surveyor {
-    score: Score,
+struct LargestAccumulator {
+    objective: ObjectiveAccumulator,
     sticking: usize,
     per_speed: f64,
     largest: Vec<Vec<f64>>,
-    /// The largest N* per launch speed of each shot of the volley on each surface.
+    /// The largest N* per launch speed of each shot of the packet on each surface.
     in_packet: Vec<f64>,
     /// Where that is not 0.
     touched: Vec<usize>,
 }
 
-impl Surveyor {
+impl LargestAccumulator {
     fn end_packet(&mut self) {
         let surfaces = self.largest.len();
         for place in self.touched.drain(..) {
@@ -101,11 +106,11 @@ impl Surveyor {
     }
 }
 
-impl Observer for Surveyor {
+impl Observer for LargestAccumulator {
     fn impacts(&mut self, packet: &RayPacket) {
-        self.score.impacts(packet);
+        self.objective.impacts(packet);
         for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
-            if self.score.is_on_target(i) {
+            if self.objective.is_on_target(i) {
                 let is_first = packet.number[i] == 1.0;
                 self.sticking += usize::from(is_first && packet.impacts.sticks[i] != 0.0);
                 continue;

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::harm::importance_of;
-use super::ledger::Ledger;
+use super::replicate_stats::ReplicateStats;
+use super::violations::importance_of;
 use super::{Evaluation, summed_up};
 use crate::jet::{Draw, ImportanceDensity, PendingReplicate, ValidationSample};
 use crate::problem::setting::Settings;
@@ -16,14 +16,14 @@ pub fn evaluate_adaptively(
     settings: &Settings,
     validation: &ValidationSample,
 ) -> Evaluation {
-    on_focus(scenario, settings, |importance| {
+    with_importance_of(scenario, settings, |importance| {
         let sets = validation.sets.par_iter();
         // Each set is copied when it is fired: all of them together do not fit into a cache.
         sets.map(|set| {
-            Ledger::of(
+            ReplicateStats::of(
                 scenario,
                 settings,
-                &set.focused(&scenario.problem, importance),
+                &set.with_importance(&scenario.problem, importance),
             )
         })
         .collect()
@@ -49,54 +49,55 @@ fn evaluate_few_adaptively(
     choices: &[Settings],
     validation: &ValidationSample,
 ) -> Vec<Evaluation> {
-    let foci = choices.par_iter().map(|it| importance_of(scenario, it));
-    let foci: Vec<(ImportanceDensity, usize)> = foci.collect();
+    let importance_densities = choices.par_iter().map(|it| importance_of(scenario, it));
+    let importance_densities: Vec<(ImportanceDensity, usize)> = importance_densities.collect();
     let on_set = |set: &PendingReplicate| {
         let mut shots = set.open();
-        let pairs = choices.iter().zip(&foci);
-        let ledger = |(settings, (importance, _)): (&Settings, &(ImportanceDensity, usize))| {
-            set.importance(&mut shots, &scenario.problem, importance);
-            Ledger::of(scenario, settings, &shots)
+        let pairs = choices.iter().zip(&importance_densities);
+        let stats = |(settings, (importance, _)): (&Settings, &(ImportanceDensity, usize))| {
+            set.draw_by(&mut shots, &scenario.problem, importance);
+            ReplicateStats::of(scenario, settings, &shots)
         };
-        pairs.map(ledger).collect()
+        pairs.map(stats).collect()
     };
-    let of_sets: Vec<Vec<Ledger>> = validation.sets.par_iter().map(on_set).collect();
-    let mut of_choices: Vec<Vec<Ledger>> = choices.iter().map(|_| Vec::new()).collect();
-    for ledgers in of_sets {
-        for (of_choice, ledger) in of_choices.iter_mut().zip(ledgers) {
-            of_choice.push(ledger);
+    let of_sets: Vec<Vec<ReplicateStats>> = validation.sets.par_iter().map(on_set).collect();
+    let mut of_choices: Vec<Vec<ReplicateStats>> = choices.iter().map(|_| Vec::new()).collect();
+    for stats in of_sets {
+        for (of_choice, stats) in of_choices.iter_mut().zip(stats) {
+            of_choice.push(stats);
         }
     }
     let pairs = of_choices
         .into_par_iter()
-        .zip(choices.par_iter().zip(&foci));
-    let found = pairs.map(|(ledgers, (settings, (_, rays)))| {
-        summed_up(scenario, settings, ledgers).with_rays(*rays)
+        .zip(choices.par_iter().zip(&importance_densities));
+    let found = pairs.map(|(stats, (settings, (_, rays)))| {
+        summed_up(scenario, settings, stats).with_rays(*rays)
     });
     found.collect()
 }
 
-/// The same as [`evaluate_adaptively`] on shots that are forgotten once they are fired, as [`ValidationSample`] ones of
-/// the same number would take 230 bytes a shot.
+/// The same as [`evaluate_adaptively`] on shots that are forgotten once they are fired, as
+/// [`ValidationSample`] ones of the same number would take 230 bytes a shot.
 pub fn evaluate_streamed(
     scenario: &Scenario,
     settings: &Settings,
     validation: &Draw,
 ) -> Evaluation {
-    on_focus(scenario, settings, |importance| {
-        let validation = validation.focused(importance);
+    with_importance_of(scenario, settings, |importance| {
+        let validation = validation.with_importance(importance);
         let numbers = (0..validation.sets()).into_par_iter();
         numbers
-            .map(|number| Ledger::of(scenario, settings, &validation.set(number)))
+            .map(|number| ReplicateStats::of(scenario, settings, &validation.set(number)))
             .collect()
     })
 }
 
-/// Sums up what shots do that are drawn by a focus on the harm of `settings`; its scouts' rays count.
-fn on_focus(
+/// Sums up what shots do that are drawn by an importance density for `settings`; the rays of its pilot run
+/// count.
+fn with_importance_of(
     scenario: &Scenario,
     settings: &Settings,
-    fire: impl FnOnce(&ImportanceDensity) -> Vec<Ledger>,
+    fire: impl FnOnce(&ImportanceDensity) -> Vec<ReplicateStats>,
 ) -> Evaluation {
     let (importance, rays) = importance_of(scenario, settings);
     summed_up(scenario, settings, fire(&importance)).with_rays(rays)

@@ -1,4 +1,4 @@
-//! Impacts of a volley, added up as they happen.
+//! Impacts of a packet, added up as they happen.
 
 use super::hits::Hits;
 use super::tally::Tally;
@@ -9,8 +9,8 @@ use crate::scene::lanes::{LANES, Lane, WIDEST, components, larger, padded};
 use crate::scene::patch::Patch;
 use crate::trace::{End, Observer, RayPacket, Tracer, mask};
 
-/// Builds a [`Tally`] from volleys of shots.
-pub(crate) struct Score {
+/// Builds a [`Tally`] from packets of shots.
+pub(crate) struct ObjectiveAccumulator {
     tally: Tally,
     /// Launch speed, m/s.
     speed: f64,
@@ -25,7 +25,7 @@ pub(crate) struct Score {
     target: Target,
     /// Whether the last impact of each shot in flight was on target.
     on_target: Lane,
-    /// Whether each shot of the volley has hit the target first.
+    /// Whether each shot of the packet has hit the target first.
     hit_target: [bool; LANES],
 }
 
@@ -61,7 +61,7 @@ impl Target {
     }
 }
 
-impl Score {
+impl ObjectiveAccumulator {
     /// For so many shots that leave with a contact at a launch speed, m/s.
     pub fn new(scenario: &Scenario, contact: usize, speed: f64, shots: usize) -> Self {
         let scales_out = scenario.speed_scales_out(contact);
@@ -97,7 +97,7 @@ impl Score {
         self.on_target[index] != 0.0
     }
 
-    /// Closes a volley of `shots` that took `rays` rays together.
+    /// Closes a packet of `shots` that took `rays` rays together.
     pub fn end_packet(&mut self, shots: &[ShotSample], rays: usize) {
         self.tally.shots += shots.len();
         self.tally.rays += rays;
@@ -114,7 +114,7 @@ impl Score {
         self.tally.worst_miss = self.tally.worst_miss.max(worst);
     }
 
-    /// The tally of all volleys.
+    /// The tally of all packets.
     pub fn finish(self) -> Tally {
         self.tally
     }
@@ -155,14 +155,15 @@ impl Tally {
         speed: f64,
         shots: &[ShotSample],
     ) -> Self {
-        let mut score = Score::new(scenario, settings.contact, speed, shots.len());
+        let mut objective =
+            ObjectiveAccumulator::new(scenario, settings.contact, speed, shots.len());
         let tracer = Tracer::new(scenario, settings, speed);
-        tracer.fire(shots, &mut score, Score::end_packet);
-        score.finish()
+        tracer.fire(shots, &mut objective, ObjectiveAccumulator::end_packet);
+        objective.finish()
     }
 }
 
-impl Observer for Score {
+impl Observer for ObjectiveAccumulator {
     #[inline(always)]
     fn impacts(&mut self, packet: &RayPacket) {
         let count = packet.rays.count;

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use super::impulses::Impulses;
 use crate::jet::Replicate;
-use crate::objective::{Score, Tally};
+use crate::objective::{ObjectiveAccumulator, Tally};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
 use crate::trace::{End, Observer, RayPacket, Tracer};
 
 /// What became of the shots of one scrambling.
-pub(super) struct Ledger {
+pub(super) struct ReplicateStats {
     /// Of the jet.
     pub tally: Tally,
     /// Of the shots on the rim, which nothing else here counts.
@@ -38,13 +38,18 @@ pub(super) struct SurfaceSums {
     pub normal_impulses: Impulses,
 }
 
-impl Ledger {
+impl ReplicateStats {
     /// Traces the shots of a choice of settings.
     pub fn of(scenario: &Scenario, settings: &Settings, replicate: &Replicate) -> Self {
         let shots = &replicate.jet.shots;
-        let mut clerk = Clerk {
+        let mut accumulator = ReplicateAccumulator {
             scenario,
-            score: Score::new(scenario, settings.contact, settings.speed, shots.len()),
+            objective: ObjectiveAccumulator::new(
+                scenario,
+                settings.contact,
+                settings.speed,
+                shots.len(),
+            ),
             sticking: 0,
             impacts: 0,
             surfaces: vec![SurfaceSums::default(); scenario.surfaces.len()],
@@ -53,46 +58,46 @@ impl Ledger {
             seen_over: Marks::new(scenario.surfaces.len()),
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
-        tracer.fire(shots, &mut clerk, |clerk, shots, rays| {
-            clerk.score.end_packet(shots, rays);
-            clerk.seen.clear();
-            clerk.seen_over.clear();
+        tracer.fire(shots, &mut accumulator, |accumulator, shots, rays| {
+            accumulator.objective.end_packet(shots, rays);
+            accumulator.seen.clear();
+            accumulator.seen_over.clear();
         });
         Self {
-            tally: clerk.score.finish(),
+            tally: accumulator.objective.finish(),
             boundary: Tally::trace(
                 scenario,
                 settings,
                 settings.speed,
                 &replicate.boundary.shots,
             ),
-            sticking: clerk.sticking,
-            impacts: clerk.impacts,
-            surfaces: clerk.surfaces,
-            ends: clerk.ends,
+            sticking: accumulator.sticking,
+            impacts: accumulator.impacts,
+            surfaces: accumulator.surfaces,
+            ends: accumulator.ends,
         }
     }
 }
 
-/// Impulses that a ledger keeps one by one, 16 MB: more than those of the 2048 shots in each set of a
+/// Impulses that are kept one by one, 16 MB: more than those of the 2048 shots in each set of a
 /// usual evaluation, however long their paths are.
 const MOST_KEPT: usize = 1 << 21;
 
-/// Writes a ledger.
-struct Clerk<'a> {
+/// Adds up what the shots of a replicate do.
+struct ReplicateAccumulator<'a> {
     scenario: &'a Scenario,
-    score: Score,
+    objective: ObjectiveAccumulator,
     sticking: usize,
     impacts: usize,
     surfaces: Vec<SurfaceSums>,
     ends: BTreeMap<End, usize>,
-    /// The surfaces that each shot of the volley has hit off target.
+    /// The surfaces that each shot of the packet has hit off target.
     seen: Marks,
     /// Those on which it has exceeded what they may take.
     seen_over: Marks,
 }
 
-impl Clerk<'_> {
+impl ReplicateAccumulator<'_> {
     #[cold]
     fn keep_no_more(&mut self) {
         for sums in &mut self.surfaces {
@@ -101,16 +106,16 @@ impl Clerk<'_> {
     }
 }
 
-impl Observer for Clerk<'_> {
+impl Observer for ReplicateAccumulator<'_> {
     fn impacts(&mut self, packet: &RayPacket) {
-        self.score.impacts(packet);
+        self.objective.impacts(packet);
         for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
             let number = packet.number[i] as usize;
             self.impacts += 1;
             if self.impacts == MOST_KEPT {
                 self.keep_no_more();
             }
-            if self.score.is_on_target(i) {
+            if self.objective.is_on_target(i) {
                 self.sticking += usize::from(number == 1 && packet.impacts.sticks[i] != 0.0);
                 continue;
             }
@@ -141,7 +146,7 @@ fn count_at(counts: &mut Vec<usize>, number: usize) {
     counts[number - 1] += 1;
 }
 
-/// A mark for each shot of a volley and each surface.
+/// A mark for each shot of a packet and each surface.
 struct Marks {
     bits: Vec<u64>,
     words: usize,

@@ -2,7 +2,7 @@
 
 use crate::elementary::square;
 use crate::jet::{ImportanceDensity, PilotRun, Replicates, ShotSample, purpose};
-use crate::objective::Score;
+use crate::objective::ObjectiveAccumulator;
 use crate::problem::goal::TangentialImpulse;
 use crate::problem::setting::Settings;
 use crate::scenario::{Scenario, SurfaceLimits};
@@ -24,9 +24,9 @@ pub fn importance_of(scenario: &Scenario, settings: &Settings) -> (ImportanceDen
     for (number, stretch) in STRETCHES.into_iter().enumerate() {
         let stream = Replicates::stream(purpose::HARM, number as u32);
         let pilot_run = PilotRun::new(&scenario.problem, stretch, stream, SHOTS, &importance);
-        let inspector = Inspector::of(scenario, settings, &pilot_run.shots);
-        importance = pilot_run.importance(&importance, &rare(&inspector.harm, &pilot_run.shots));
-        rays += inspector.rays;
+        let accumulator = ViolationAccumulator::of(scenario, settings, &pilot_run.shots);
+        importance = pilot_run.adapted(&importance, &rare(&accumulator.harm, &pilot_run.shots));
+        rays += accumulator.rays;
     }
     (importance, rays)
 }
@@ -56,13 +56,13 @@ fn rare(harm: &[f64], shots: &[ShotSample]) -> Vec<f64> {
 const RARE: f64 = 10.0;
 
 /// Finds out what harm shots do.
-struct Inspector {
-    score: Score,
+struct ViolationAccumulator {
+    objective: ObjectiveAccumulator,
     /// What (N*)^2 costs on each surface.
     costs: Vec<f64>,
     tangential: Option<TangentialImpulse>,
     miss: f64,
-    /// Of each shot of the volley.
+    /// Of each shot of the packet.
     in_packet: [f64; LANES],
     /// Whether it has hit the target first.
     on_target: [bool; LANES],
@@ -71,7 +71,7 @@ struct Inspector {
     rays: usize,
 }
 
-impl Inspector {
+impl ViolationAccumulator {
     fn of(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> Self {
         let goals = &scenario.problem.goals;
         let cost = |limits: &SurfaceLimits| {
@@ -79,8 +79,13 @@ impl Inspector {
             Some(limits.weight / (allow * allow))
         };
         let costs = scenario.surfaces.iter().map(|it| cost(it).unwrap_or(0.0));
-        let mut inspector = Self {
-            score: Score::new(scenario, settings.contact, settings.speed, shots.len()),
+        let mut accumulator = Self {
+            objective: ObjectiveAccumulator::new(
+                scenario,
+                settings.contact,
+                settings.speed,
+                shots.len(),
+            ),
             costs: costs.collect(),
             tangential: goals.tangential_impulse,
             miss: goals.miss.weight,
@@ -90,8 +95,8 @@ impl Inspector {
             rays: 0,
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
-        tracer.fire(shots, &mut inspector, Self::end_packet);
-        inspector
+        tracer.fire(shots, &mut accumulator, Self::end_packet);
+        accumulator
     }
 
     fn end_packet(&mut self, shots: &[ShotSample], rays: usize) {
@@ -105,12 +110,12 @@ impl Inspector {
     }
 }
 
-impl Observer for Inspector {
+impl Observer for ViolationAccumulator {
     fn impacts(&mut self, packet: &RayPacket) {
-        self.score.impacts(packet);
+        self.objective.impacts(packet);
         for i in (0..packet.rays.count).filter(|&i| packet.impacts.counts[i] != 0.0) {
             let shot = packet.shot[i] as usize;
-            if !self.score.is_on_target(i) {
+            if !self.objective.is_on_target(i) {
                 let cost = self.costs[packet.hits.surface[i] as usize];
                 self.in_packet[shot] += cost * square(packet.impacts.normal[i]);
             } else if packet.number[i] == 1.0 {
