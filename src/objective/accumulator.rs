@@ -43,7 +43,7 @@ impl Target {
     fn of(patch: &Patch) -> Self {
         let everywhere = [-f64::INFINITY, f64::INFINITY].map(|bound| [bound; 3]);
         let [low, high] = patch
-            .reach
+            .reach()
             .map_or(everywhere, |(low, high)| [low.into(), high.into()]);
         Self {
             surface: patch.surface,

@@ -22,8 +22,8 @@ pub struct Patch {
     pub in_material: bool,
     /// How far outside its box a place may be by rounding, m.
     slack: f64,
-    /// The box in which hits count: rounding must not lose those in its faces, where a part often ends.
-    pub reach: Option<(Point3<f64>, Point3<f64>)>,
+    /// What paths may be off by rounding, m.
+    rounding: f64,
     /// Where the settings are measured from.
     pub frame: Frame,
     /// Area of the patch, m2.
@@ -53,7 +53,16 @@ impl Patch {
     /// Whether a place on its surface belongs to it.
     #[inline]
     pub fn covers(&self, point: &Point3<f64>) -> bool {
-        self.reach.is_none_or(|limits| inside(point, &limits))
+        self.reach().is_none_or(|limits| inside(point, &limits))
+    }
+
+    /// The box in which hits count: rounding must not lose those in its faces, where a part often ends.
+    #[inline]
+    pub fn reach(&self) -> Option<(Point3<f64>, Point3<f64>)> {
+        self.within.map(|limits| {
+            let least = SMALL * shortest_side(&limits);
+            widened(limits, self.slack.max(self.rounding.min(least)))
+        })
     }
 
     /// The triangles of its surface, cut along the faces of its box: those that belong to it, and
@@ -154,7 +163,7 @@ impl Patch {
             front,
             in_material: !front && scene.is_solid(&foot),
             slack,
-            reach: reach_of(target.within, slack, SLACK * scene.size()),
+            rounding: SLACK * scene.size(),
             frame,
             area,
         })
@@ -238,18 +247,6 @@ fn slack(scene: &Scene, within: Option<(Point3<f64>, Point3<f64>)>) -> f64 {
     };
     let most = within.map_or(f64::INFINITY, |limits| SMALL * shortest_side(&limits));
     most.min(share * scene.size())
-}
-
-/// The box in which hits count that paths may be off by `rounding`, m.
-fn reach_of(
-    within: Option<(Point3<f64>, Point3<f64>)>,
-    slack: f64,
-    rounding: f64,
-) -> Option<(Point3<f64>, Point3<f64>)> {
-    within.map(|limits| {
-        let least = SMALL * shortest_side(&limits);
-        widened(limits, slack.max(rounding.min(least)))
-    })
 }
 
 /// Places of exact walls count as in a face of the box within this share of the scene's size.

@@ -131,7 +131,7 @@ fn hits_are_on_the_target_in_its_box_and_on_its_surface() {
         front: true,
         in_material: false,
         slack: 1e-9,
-        reach: reach_of(within, 1e-9, 1e-12),
+        rounding: 1e-12,
         frame,
         area: 1.0,
     };
