@@ -1,4 +1,4 @@
-//! Rays and CPU time of `model: auto` over those of the whole model, on the shipped problems.
+//! Rays of `model: auto`, and its time on one thread, over those of the whole model, on the shipped problems.
 //!
 //! ```sh
 //! cargo run --release --example models -- 10

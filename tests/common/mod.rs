@@ -5,6 +5,7 @@ pub mod cases;
 pub mod held;
 pub mod kept;
 pub mod program;
+pub mod shipped;
 
 use nalgebra::{Point3, Vector3};
 use peenpose::impact::Contact;

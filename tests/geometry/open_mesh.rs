@@ -9,6 +9,8 @@ use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::setting::Settings;
 use peenpose::scenario::Scenario;
 
+use crate::common::shipped;
+
 /// The keyway of the shipped problem with chords of about 1 degree, in mm.
 fn mesh(flipped: bool) -> String {
     let lip = (15.0_f64 * 15.0 - 16.0).sqrt();
@@ -63,7 +65,7 @@ fn scenario(flipped: bool, facing: &str) -> Result<Scenario, Vec<FaultCode>> {
 
 #[test]
 fn the_target_of_an_open_mesh_faces_the_enclosed_side_if_its_triangles_do() {
-    let exact = Scenario::load("problems/keyway.yaml".as_ref()).unwrap().0;
+    let exact = shipped::scenario("keyway.yaml");
     let settings = Settings {
         incidence: 60_f64.to_radians(),
         azimuth: 20_f64.to_radians(),

@@ -8,6 +8,8 @@ use peenpose::problem;
 use peenpose::scene::ray::Ray;
 use peenpose::scene::{Scene, Walls};
 
+use crate::common::shipped;
+
 /// All triangles of a scene as parry's mesh.
 fn parry_mesh(scene: &Scene) -> TriMesh {
     let surfaces = 0..scene.surfaces().len() as u32;
@@ -74,8 +76,11 @@ fn a_keyway_of_facets() {
 
 #[test]
 fn a_mesh_from_cad() {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway-blind.yaml");
-    let parts = problem::read(&path).unwrap().problem.unwrap().parts;
+    let parts = problem::read(&shipped::path("keyway-blind.yaml"))
+        .unwrap()
+        .problem
+        .unwrap()
+        .parts;
     let scene = Scene::build(&parts, Walls::Exact).unwrap();
     agrees_with_parry(&scene, 60e-3);
 }

@@ -1,7 +1,5 @@
 //! Scenes against closed forms, against each other, and the rules that surfaces may have.
 
-use std::path::Path;
-
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::impact::Contact;
@@ -16,6 +14,8 @@ use peenpose::scene::ray::Ray;
 use peenpose::scene::{Scene, Walls};
 use peenpose::trace::{PathImpact, Tracer};
 use peenpose::verdict::{Subject, Verdict};
+
+use crate::common::shipped;
 
 fn settings(incidence_deg: f64, azimuth_deg: f64, standoff: f64) -> Settings {
     Settings {
@@ -124,19 +124,9 @@ fn a_ball_and_a_lance_in_a_keyway_keep_the_distance_of_the_drawing() {
     near(gap(scene, through, at(0.0, 0.0), jet), -3e-3);
 }
 
-fn shipped(file: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("problems")
-        .join(file);
-    Scenario::load(&path)
-        .map_err(|fault| fault.render(false))
-        .unwrap()
-        .0
-}
-
 #[test]
 fn a_lance_along_a_blind_keyway_keeps_the_distance_of_the_drawing() {
-    let scenario = shipped("keyway-blind.yaml");
+    let scenario = shipped::scenario("keyway-blind.yaml");
     let mut checked = 0;
     for incidence in [42.0, 50.0, 63.0, 75.0, 85.0] {
         for azimuth in [-55.0, -20.0, 0.0, 10.0, 40.0] {

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use crate::common::held::held;
+use crate::common::shipped;
 use peenpose::evaluate::{Evaluation, evaluate};
 use peenpose::jet::Replicates;
 use peenpose::problem;
@@ -355,8 +356,7 @@ fn shots_that_stay_in_the_jet_are_not_independent() {
 
 #[test]
 fn behind_a_deflector_interference_is_not_estimated() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/deflector.yaml");
-    let (mut scenario, _) = Scenario::load(&path).unwrap();
+    let mut scenario = shipped::scenario("deflector.yaml");
     let settings = scenario.problem.ranges.middle();
     let has = |scenario: &Scenario, name| {
         validity::notes(scenario, &settings, None)
@@ -480,7 +480,7 @@ fn shots_fit_into_fillets_and_openings_of_an_outline() {
 /// The file says in a comment what ASTM B851 allows in it: fillets of 2 mm, an opening of 9.4 mm.
 #[test]
 fn the_narrowest_gap_of_a_firtree_is_between_its_lobes() {
-    let (mut scenario, _) = Scenario::load(Path::new("problems/firtree.yaml")).unwrap();
+    let mut scenario = shipped::scenario("firtree.yaml");
     let ranges = &scenario.problem.ranges;
     let middle = |range: problem::setting::Range| range.at(0.5);
     let settings = Settings {

@@ -14,6 +14,8 @@ use peenpose::trace::End;
 use peenpose::verdict::Subject;
 use tempfile::TempDir;
 
+use crate::common::shipped;
+
 /// A vertical jet of 4 mm without divergence on a plate; a mask 2 mm above it hides x > 0.5 mm.
 const MASKED: &str = "
 format: 1
@@ -47,10 +49,6 @@ fn scenario(text: &str) -> Scenario {
 /// The middle of all settings.
 fn middle(scenario: &Scenario) -> Settings {
     scenario.problem.ranges.middle()
-}
-
-fn shipped(name: &str) -> Scenario {
-    Scenario::load(&Path::new("problems").join(name)).unwrap().0
 }
 
 fn keyway_choice() -> Settings {
@@ -88,7 +86,7 @@ fn the_target_is_cut_out_of_its_surface() {
         "gear-root.yaml",
         "keyway-blind.yaml",
     ] {
-        let scenario = shipped(name);
+        let scenario = shipped::scenario(name);
         let evidence = Evidence::of(
             &scenario,
             &middle(&scenario),
@@ -135,7 +133,7 @@ fn the_target_is_cut_out_of_its_surface() {
 
 #[test]
 fn parts_on_the_nozzle_are_where_it_stands() {
-    let scenario = shipped("deflector.yaml");
+    let scenario = shipped::scenario("deflector.yaml");
     let mut settings = middle(&scenario);
     let pin = |settings: &Settings| {
         let evidence = Evidence::of(
@@ -161,7 +159,7 @@ fn parts_on_the_nozzle_are_where_it_stands() {
 
 #[test]
 fn flights_go_from_the_exit_over_every_impact_out_of_the_scene() {
-    let scenario = shipped("deflector.yaml");
+    let scenario = shipped::scenario("deflector.yaml");
     let evidence = Evidence::of(
         &scenario,
         &middle(&scenario),
@@ -252,7 +250,7 @@ fn error_function(x: f64) -> f64 {
 
 #[test]
 fn shots_that_break_a_limit_are_shown_however_rare_they_are() {
-    let scenario = shipped("gear-root.yaml");
+    let scenario = shipped::scenario("gear-root.yaml");
     let settings = Settings {
         incidence: 57.9_f64.to_radians(),
         standoff: 30.1e-3,
@@ -404,7 +402,7 @@ fn the_places_are_where_the_extremes_are() {
 
 #[test]
 fn one_ray_is_one_shot() {
-    let scenario = shipped("plate.yaml");
+    let scenario = shipped::scenario("plate.yaml");
     let evidence = Evidence::of(
         &scenario,
         &middle(&scenario),
@@ -500,7 +498,7 @@ fn fine_meshes_are_thinned_but_for_the_target() {
 
 #[test]
 fn the_record_keeps_what_pictures_need_and_no_more() {
-    let scenario = shipped("keyway.yaml");
+    let scenario = shipped::scenario("keyway.yaml");
     let settings = keyway_choice();
     let evidence = Evidence::of(
         &scenario,
@@ -543,7 +541,7 @@ fn the_record_keeps_what_pictures_need_and_no_more() {
 
 #[test]
 fn threads_make_no_difference() {
-    let scenario = shipped("deflector.yaml");
+    let scenario = shipped::scenario("deflector.yaml");
     let with = |threads: usize| {
         let pool = rayon_pool(threads);
         let settings = middle(&scenario);

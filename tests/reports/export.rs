@@ -1,18 +1,17 @@
 //! What other programs are given, read back.
 
-use std::path::Path;
-
 use peenpose::evidence::Evidence;
 use peenpose::problem::setting::Settings;
 use peenpose::record::{EvidenceRecord, Record, RoleRecord};
 use peenpose::report::export::{Format, export};
-use peenpose::scenario::Scenario;
 use peenpose::scene::mesh_file;
 use tempfile::TempDir;
 
+use crate::common::shipped;
+
 /// A record with a deflector, and with rebounds and paths that break a limit.
 fn record() -> Record {
-    let (scenario, _) = Scenario::load(Path::new("problems/deflector.yaml")).unwrap();
+    let scenario = shipped::scenario("deflector.yaml");
     let text = std::fs::read_to_string("tests/data/sheets/keyway.json").unwrap();
     let mut record = Record::from_json(&text).unwrap();
     let settings = Settings {

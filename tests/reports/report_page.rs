@@ -10,8 +10,8 @@ use peenpose::evidence::Evidence;
 use peenpose::problem::setting::Settings;
 use peenpose::record::{EvidenceRecord, Record};
 use peenpose::report::{page, sheet};
-use peenpose::scenario::Scenario;
 
+use crate::common::shipped;
 use browser::Browser;
 
 /// A page for 16 384 shots must not be larger.
@@ -24,8 +24,7 @@ const HOSTILE: &str =
 /// The kept keyway with what its pictures are drawn from.
 fn illustrated() -> Record {
     let mut record = kept::record("keyway");
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
-    let (scenario, _) = Scenario::load(&file).unwrap();
+    let scenario = shipped::scenario("keyway.yaml");
     let settings = &record.best.settings;
     let contacts = &scenario.problem.contacts;
     let contact = contacts

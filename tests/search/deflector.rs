@@ -14,6 +14,8 @@ use peenpose::scene::Walls;
 use peenpose::solve::solve;
 use peenpose::trace::{PathImpact, Tracer};
 
+use crate::common::shipped;
+
 /// A wall at z = 0, and a mirror at 45 deg on the nozzle, 10 mm in front of the exit, which turns
 /// the jet to -x of the nozzle.
 const MIRROR: &str = "
@@ -166,14 +168,6 @@ fn scenes_know_their_moving_parts() {
     assert!(faults[0].message.contains("moves with the nozzle"));
 }
 
-fn shipped() -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/deflector.yaml");
-    let loaded = Scenario::load(&path);
-    loaded
-        .unwrap_or_else(|fault| panic!("{}", fault.render(false)))
-        .0
-}
-
 /// Share of the shots whose first hit is on the target, with more than sin(45 deg) of their speed at
 /// the exit against it.
 fn useful_share(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> f64 {
@@ -215,7 +209,7 @@ fn poses() -> impl Iterator<Item = Settings> {
 
 #[test]
 fn without_the_pin_no_pose_reaches_the_wall_steeply() {
-    let with_pin = shipped();
+    let with_pin = shipped::scenario("deflector.yaml");
     let mut problem = with_pin.problem.clone();
     problem.tolerance = Tolerance::default();
     problem.parts.retain(|part| !part.on_nozzle);

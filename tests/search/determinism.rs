@@ -3,8 +3,8 @@
 use crate::common::program;
 use std::path::Path;
 
+use crate::common::shipped;
 use peenpose::jet::{Samples, Stream};
-use peenpose::scenario::Scenario;
 use serde_json::Value;
 
 fn record(file: &str, arguments: &[&str]) -> Value {
@@ -58,10 +58,7 @@ fn the_seed_of_the_file_is_the_one_of_the_argument() {
 
 #[test]
 fn other_seeds_give_other_shots_but_nearly_the_same_answer() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
-    let (mut scenario, _) = Scenario::load(&path)
-        .map_err(|fault| fault.render(false))
-        .unwrap();
+    let mut scenario = shipped::scenario("keyway.yaml");
     let mut shots = |seed| {
         scenario.problem.seed = seed;
         Samples::new(&scenario.problem, Stream::Search, 64).shots

@@ -8,11 +8,7 @@ use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
 use peenpose::solve::{Ablation, Solution, solve};
 
-fn shipped(file: &str) -> Scenario {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
-    let (scenario, _) = Scenario::load(&folder.join(file)).unwrap();
-    scenario
-}
+use crate::common::shipped;
 
 fn with_model(scenario: &Scenario, model: Model) -> Solution {
     let mut scenario = scenario.clone();
@@ -21,7 +17,7 @@ fn with_model(scenario: &Scenario, model: Model) -> Solution {
 }
 
 /// J and its standard error.
-fn objective(solution: &Solution) -> (f64, f64) {
+pub fn objective(solution: &Solution) -> (f64, f64) {
     let evaluation = solution.answers[0].evaluation.as_ref().unwrap();
     (evaluation.terms.total(), evaluation.standard_error)
 }
@@ -54,7 +50,7 @@ fn that_matter(scenario: &Scenario) -> Vec<Effect> {
 
 #[test]
 fn on_a_plate_nothing_matters_and_one_ray_is_enough() {
-    let scenario = shipped("plate.yaml");
+    let scenario = shipped::scenario("plate.yaml");
     assert_eq!(that_matter(&scenario), []);
     let solution = with_model(&scenario, Model::Auto);
     let evaluation = solution.answers[0].evaluation.as_ref().unwrap();
@@ -66,7 +62,7 @@ fn on_a_plate_nothing_matters_and_one_ray_is_enough() {
 #[test]
 fn in_a_keyway_rebounds_and_the_cone_of_the_jet_matter() {
     for file in ["keyway.yaml", "keyway-long.yaml"] {
-        let matter = that_matter(&shipped(file));
+        let matter = that_matter(&shipped::scenario(file));
         for effect in [Effect::Rebounds, Effect::Divergence] {
             assert!(matter.contains(&effect), "{file}: {matter:?}");
         }
@@ -76,7 +72,7 @@ fn in_a_keyway_rebounds_and_the_cone_of_the_jet_matter() {
 #[test]
 fn in_slots_and_between_teeth_all_but_the_spin_matters() {
     for file in ["firtree.yaml", "gear-root.yaml"] {
-        let scenario = shipped(file);
+        let scenario = shipped::scenario(file);
         let mut expected = scenario.problem.effects();
         expected.retain(|&effect| effect != Effect::Spin);
         assert_eq!(that_matter(&scenario), expected, "{file}");
@@ -85,13 +81,13 @@ fn in_slots_and_between_teeth_all_but_the_spin_matters() {
 
 #[test]
 fn in_a_blind_keyway_given_as_a_mesh() {
-    let matter = that_matter(&shipped("keyway-blind.yaml"));
+    let matter = that_matter(&shipped::scenario("keyway-blind.yaml"));
     assert!(matter.contains(&Effect::Rebounds), "{matter:?}");
 }
 
 #[test]
 fn a_list_of_effects_is_what_figures_come_from() {
-    let scenario = shipped("keyway-long.yaml");
+    let scenario = shipped::scenario("keyway-long.yaml");
     let mut points = scenario.problem.effects();
     points.retain(|&effect| effect != Effect::ShotSize);
     let asked = with_model(&scenario, Model::Only(points.clone()));

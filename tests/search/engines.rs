@@ -1,25 +1,20 @@
 //! Rays cast by parry and by this program lead to the same answers.
 
-use std::path::Path;
-
 use peenpose::control::Control;
 use peenpose::problem::model::Effect;
 use peenpose::record::Record;
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
-use peenpose::solve::{Solution, solve};
+use peenpose::solve::solve;
 use peenpose::study::{Extras, Study};
+
+use crate::common::shipped;
+use crate::effects::objective;
 
 const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
 fn study(file: &str) -> Study {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
-    Study::open(&folder.join(file)).unwrap()
-}
-
-fn objective(solution: &Solution) -> (f64, f64) {
-    let evaluation = solution.answers[0].evaluation.as_ref().unwrap();
-    (evaluation.terms.total(), evaluation.standard_error)
+    Study::open(&shipped::path(file)).unwrap()
 }
 
 #[test]

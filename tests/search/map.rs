@@ -19,6 +19,8 @@ use peenpose::scene::Walls;
 use peenpose::verdict::Verdict;
 use tempfile::TempDir;
 
+use crate::common::shipped;
+
 const SHOTS: usize = 512;
 
 fn keyway() -> Scenario {
@@ -244,7 +246,7 @@ fn records_keep_seven_digits_and_name_what_fails() {
 #[test]
 fn a_report_has_maps_of_what_is_free() {
     let axes = |file: &str| -> Vec<(Setting, Setting)> {
-        let (scenario, _) = Scenario::load(&Path::new("problems").join(file)).unwrap();
+        let scenario = shipped::scenario(file);
         let middle = scenario.problem.ranges.middle();
         let maps = standard_maps(&scenario, &middle, &peenpose::control::Control::default());
         for map in &maps {

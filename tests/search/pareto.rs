@@ -1,7 +1,5 @@
 //! The trade-off between target error, tangential risk and rebound.
 
-use std::path::Path;
-
 use peenpose::control::Control;
 use peenpose::feasibility::infeasibility;
 use peenpose::problem::Problem;
@@ -10,6 +8,8 @@ use peenpose::record::FrontRecord;
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
 use peenpose::solve::{Front, Objectives, front, objectives, solve};
+
+use crate::common::shipped;
 
 fn control() -> Control {
     Control {
@@ -41,7 +41,7 @@ fn all_risks(front: &Front) -> Vec<(Objectives, Objectives)> {
 
 /// One shot on a plate at 60 deg, sliding: only the speed is free.
 fn plate(limit_share: f64) -> Scenario {
-    let (scenario, _) = Scenario::load(Path::new("problems/plate.yaml")).unwrap();
+    let scenario = shipped::scenario("plate.yaml");
     let mut problem: Problem = scenario.problem;
     problem.ranges.contact = vec![4];
     problem.ranges.speed.min = 1.0;

@@ -13,13 +13,7 @@ use peenpose::solve::{Solution, Status, solve};
 use serde_json::Value;
 use tempfile::TempDir;
 
-fn shipped(file: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("problems")
-        .join(file);
-    let loaded = Scenario::load(&path).map_err(|fault| fault.render(false));
-    loaded.unwrap().0
-}
+use crate::common::shipped;
 
 fn searched(scenario: &Scenario, shortcuts: Shortcuts) -> Solution {
     let control = Control {
@@ -45,7 +39,7 @@ fn hopeless_poses_that_are_given_up_save_rays_and_change_no_answer() {
         ..Shortcuts::default()
     };
     for file in ["keyway.yaml", "keyway-long.yaml"] {
-        let scenario = shipped(file).as_asked();
+        let scenario = shipped::scenario(file).as_asked();
         let (early, late) = (
             searched(&scenario, Shortcuts::default()),
             searched(&scenario, to_the_end),
@@ -68,7 +62,7 @@ fn a_search_that_looks_where_harm_comes_from_needs_fewer_shots() {
     };
     let (mut rays, mut shots) = ([0; 2], [0; 2]);
     for seed in 1..=8 {
-        let mut scenario = shipped("keyway.yaml").as_asked();
+        let mut scenario = shipped::scenario("keyway.yaml").as_asked();
         scenario.problem.seed = seed;
         for (index, shortcuts) in [Shortcuts::default(), without].into_iter().enumerate() {
             let solution = searched(&scenario, shortcuts);
