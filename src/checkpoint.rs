@@ -37,7 +37,7 @@ pub struct Checkpoint {
 type Key = [u8; 16];
 
 impl Checkpoint {
-    /// Opens the file in a folder, or makes both, for runs on the scene of a setup.
+    /// Opens the file in a folder, or makes both, for runs on the scene of a scenario.
     ///
     /// # Errors
     /// The file cannot be read or written, another run uses it, it has more than [`LARGEST_FILE`]
@@ -71,7 +71,7 @@ impl Checkpoint {
         self.log().finish()
     }
 
-    /// A page for work with a setup on given shots; `kind` tells work of different kinds apart.
+    /// A page for work with a scenario on given shots; `kind` tells work of different kinds apart.
     pub(crate) fn page(&self, kind: &str, scenario: &Scenario, shots: &[ShotSample]) -> Page<'_> {
         let mut hash = self.scene.clone();
         let problem = Problem {
@@ -120,7 +120,7 @@ pub(crate) struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// The outcome of work on a choice of settings, from the file. `beside` is what else it depends on;
+    /// The outcome of work on some settings, from the file. `beside` is what else it depends on;
     /// `is_sound` whether an outcome is one that work can come to, as anybody can write a file.
     pub fn recall<T>(
         &self,

@@ -186,5 +186,5 @@ impl Control {
     }
 }
 
-/// One of so many parts of the validation shots is fired first.
+/// One of this many parts of the validation shots is fired first.
 const PARTS: usize = 4;

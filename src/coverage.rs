@@ -29,7 +29,7 @@ const SHOTS: usize = 1 << 18;
 const CELLS: f64 = 64.0;
 /// Into how many cells it is cut at most for the mean of what is dented, whose error falls with their size.
 const MOST_CELLS: f64 = 16_384.0;
-/// But those that are hit have so many hits on the mean.
+/// Cells that are hit have this many hits on average.
 const HITS_IN_A_CELL: f64 = 32.0;
 /// Share of the area that may be hit less than what counts as the lowest density.
 const LOWEST: f64 = 0.05;
@@ -73,7 +73,7 @@ pub struct Density {
 }
 
 impl Coverage {
-    /// What a choice of settings does; `None` when the problem does not ask for it.
+    /// The coverage of some settings; `None` when the problem does not ask for it.
     pub fn of(scenario: &Scenario, settings: &Settings) -> Option<Self> {
         let wish = scenario.problem.coverage?;
         let validation = Replicates::without_boundary(&scenario.problem, purpose::COVERAGE, SHOTS);

@@ -1,4 +1,4 @@
-//! What a choice of settings does, measured on shots that nothing was tuned on.
+//! Evaluation of settings on shots that nothing was tuned on.
 
 mod adaptive;
 mod impulses;
@@ -26,14 +26,14 @@ use crate::trace::End;
 use impulses::Impulses;
 use replicate_stats::{ReplicateStats, SurfaceSums};
 
-/// What a choice of settings does, with its statistical errors.
+/// What some settings do, with standard errors.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     /// Number of shots of the jet.
     pub shots: usize,
     /// Whether all shots of the jet are the same: then the figures of one have no error.
     pub is_exact: bool,
-    /// Number of shots on its rim, which only the terms of the objective count.
+    /// Number of boundary samples, which only the terms of the objective count.
     pub boundary_shots: usize,
     /// Number of rays cast for them.
     pub rays: usize,
@@ -160,12 +160,12 @@ fn summed_up(
     }
 }
 
-/// The terms of pooled sums and their standard errors, from leaving out one of the independent
-/// scramblings at a time.
+/// The terms of pooled sums and their standard errors, by the jackknife: leaving out one replicate at a
+/// time.
 ///
-/// What harms rarely may have been seen too seldom to show how much it scatters. So a few more of the
-/// worst events are added to the variances, as two are added to the counts behind a 95 % interval
-/// of a share; the very worst may not even be among what was seen.
+/// Rare violations may have been seen too seldom to show their variance. So a few more of the worst events are
+/// added to the variances, as two are added to the counts behind a 95 % interval of a share; and there is a prior
+/// for events that were not observed at all.
 fn jackknife(sums: &[Sums], goals: &Goals, unseen: &Unseen) -> (Terms, Terms, f64) {
     let pooled = |skip: Option<usize>| {
         let kept = sums.iter().enumerate().filter(|(i, _)| skip != Some(*i));
@@ -194,10 +194,10 @@ fn jackknife(sums: &[Sums], goals: &Goals, unseen: &Unseen) -> (Terms, Terms, f6
     (terms, errors, error(Terms::total))
 }
 
-/// How many more of the worst events count as seen.
+/// Number of worst events that are added.
 const MORE: f64 = 4.0;
 
-/// The least that the worst impact on a secondary surface is taken to cost, seen or not.
+/// Prior for unobserved events: the least cost of the worst impact on a secondary surface.
 struct Unseen {
     /// Cost of an impact on a surface that has a limit; 0 where none has.
     harm: f64,
@@ -212,9 +212,9 @@ impl Unseen {
     }
 }
 
-/// It has this share of the impulse that its surface may take,
+/// Its impulse, as a share of the surface's limit,
 const UNSEEN_LOAD: f64 = 1.0 / 3.0;
-/// but costs no more than so many shots on average.
+/// unless it costs more than this many average shots.
 const MOST_UNSEEN: f64 = 16.0;
 
 fn add_counts(into: &mut Vec<usize>, counts: &[usize]) {

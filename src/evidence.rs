@@ -20,7 +20,7 @@ use crate::scenario::Scenario;
 /// Shots that a picture needs to show where they go.
 pub const SHOTS: usize = 16_384;
 
-/// What a choice of settings looks like.
+/// Plot data of some settings.
 #[derive(Clone, Debug)]
 pub struct Evidence {
     /// Every surface as triangles, the target patch first.
@@ -35,7 +35,7 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// Fires so many fresh shots; none where the nozzle does not fit. One is enough where all shots
+    /// Fires `shots` validation shots; none where the nozzle does not fit. One is enough where all shots
     /// of a problem are the same, and the first ones after a request to end.
     pub fn of(scenario: &Scenario, settings: &Settings, shots: usize, cancel: &Cancel) -> Self {
         let shots = if scenario.problem.has_one_ray() {

@@ -35,7 +35,7 @@ pub struct Map {
 /// What is known of one place of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {
-    /// The map was told to stop before.
+    /// The map was asked to stop before.
     Unknown,
     /// The nozzle does not fit.
     Blocked,
@@ -86,7 +86,7 @@ impl Axis {
 }
 
 impl Map {
-    /// The map of two settings round a choice, on `shots` shots of the jet (one where all shots
+    /// The map of two settings, all others as in `settings`, on `shots` shots of the jet (one where all shots
     /// are the same).
     ///
     /// Where the paths do not depend on the speed they are traced once for all of its values. Rows,
@@ -183,7 +183,7 @@ fn cells_on_one_path(
     group.iter().map(cell).collect()
 }
 
-/// What the shots of a survey do at a launch speed, m/s.
+/// The cell at a launch speed, m/s.
 fn cell(scenario: &Scenario, largest_impulses: &LargestImpulses, speed: f64) -> Cell {
     let verdicts = Verdict::on(scenario, &largest_impulses.counts(scenario, speed));
     let failing = verdicts.iter().filter(|verdict| !verdict.passes());

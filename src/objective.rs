@@ -78,8 +78,8 @@ impl Sums {
         }
     }
 
-    /// The terms, averaged as the objective says: what is rare over the shots on the rim as well, with
-    /// what they stand for. N* is not rare, and low-discrepancy shots of one weight average it several times better.
+    /// The terms, averaged as the objective says: rare violations over nominal and boundary samples with their
+    /// importance weights, N* over nominal samples alone, which average it several times better.
     pub fn terms(&self, goals: &Goals) -> Terms {
         let tangential_weight = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
         let mean = |sum: f64, hits: f64| if hits > 0.0 { sum / hits } else { 0.0 };

@@ -107,7 +107,7 @@ impl Scenario {
         }
     }
 
-    /// The same without some effects; what depends on the speed becomes what it is at a choice.
+    /// The same without some effects; what depends on the speed is taken at some settings.
     #[must_use]
     pub fn without(&self, effects: &[Effect], settings: &Settings) -> Self {
         let mut reduced = self.clone();
@@ -182,7 +182,7 @@ impl Scenario {
     }
 }
 
-/// Why there is no setup: the file and all its faults, each with its place.
+/// Why a file is no valid scenario: all its faults, each with its place.
 #[derive(Clone, Debug)]
 pub struct Rejection {
     /// The file; absent when it cannot be read at all.

@@ -163,7 +163,7 @@ impl Study {
         })
     }
 
-    /// What given settings do, on so many validation shots.
+    /// Evaluates given settings on `shots` validation shots.
     pub fn evaluate(
         &self,
         settings: &Settings,
@@ -198,7 +198,7 @@ impl Study {
         })
     }
 
-    /// The objective and the verdicts over two settings, the others held, on so many shots at each place.
+    /// The objective and the verdicts over two settings, the others held, on `shots` shots at each place.
     pub fn map(
         &self,
         settings: &Settings,

@@ -22,7 +22,7 @@ use crate::scene::ray::{HitId, Ray};
 use crate::triple::{Triple, dot, unit};
 use packet::fire;
 
-/// Traces the shots of one choice of settings.
+/// Traces shots of some settings.
 pub struct Tracer<'a> {
     scenario: &'a Scenario,
     aim: Aim,
@@ -235,8 +235,8 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Fires shots in packets and tells the observer about them; `end_packet` is told the shots of
-    /// each packet and the rays that they took together.
+    /// Fires shots in packets for an observer; `end_packet` gets the shots of each packet and the number of rays
+    /// that they took together.
     pub(crate) fn fire<W: Observer>(
         &self,
         shots: &[ShotSample],
@@ -254,7 +254,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Where the nozzle really stands for a shot.
+    /// The nozzle frame of a shot, with its setup errors.
     fn nozzle_frame(&self, sample: &ShotSample) -> NozzleFrame {
         let frame = &self.scenario.target.frame;
         self.aim.pose_set_for(frame, sample).nozzle_frame()

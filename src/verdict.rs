@@ -1,4 +1,4 @@
-//! Whether a choice of settings passes: one verdict for each goal and each secondary surface.
+//! Whether settings pass: one verdict for each goal and each secondary surface.
 
 mod interval;
 

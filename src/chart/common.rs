@@ -1,4 +1,4 @@
-//! Comparisons on common fresh shots: differences between choices of settings are not noise.
+//! Comparisons on common validation shots: differences between choices of settings are not noise.
 
 use rayon::prelude::*;
 
@@ -10,10 +10,10 @@ use crate::problem::goal::Goals;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 
-/// Shots towards the rim show rare harm, in which good answers differ, with less noise.
+/// Boundary samples show rare violations, in which good answers differ, with less noise.
 pub const COMPARISON: (u32, Sampling) = (purpose::CHART_COMPARISON, Sampling::SobolRim);
 
-/// The sums of each scrambling (inner) for each choice (outer), on shots common to all choices.
+/// The sums of each replicate (inner) for each choice (outer), on shots common to all choices.
 pub fn sums(
     scenario: &Scenario,
     choices: &[Settings],
@@ -38,7 +38,7 @@ pub fn sums(
     (0..choices.len()).map(of_choice).collect()
 }
 
-/// J of the scramblings that are kept.
+/// J of the replicates that are kept.
 pub fn objective(goals: &Goals, sets: &[Sums], kept: impl Fn(usize) -> bool) -> f64 {
     let kept = sets.iter().enumerate().filter(|(index, _)| kept(*index));
     kept.fold(Sums::default(), |total, (_, set)| total.plus(set))

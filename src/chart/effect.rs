@@ -101,7 +101,7 @@ fn relative_cost(plan: &Plan, without: &Scenario, with: &Scenario, settings: &Se
     )
 }
 
-/// The setup without each of the effects that it has, and without its tolerance; searches for them
+/// The scenario without each of the effects that it has, and without its tolerance; searches for them
 /// leave out nothing else.
 fn without_each_effect(scenario: &Scenario, settings: &Settings) -> Vec<(&'static str, Scenario)> {
     let effects = scenario.problem.effects().into_iter();

@@ -60,7 +60,7 @@ pub struct Chart {
     pub accuracy: f64,
     /// Threads that a search may use.
     pub threads: usize,
-    /// Whether it was told to stop before all was measured.
+    /// Whether it was asked to stop before all was measured.
     pub interrupted: bool,
     /// The settings that the search recommends, where J and the effects are looked at.
     pub recommended: Recommended,
@@ -103,7 +103,7 @@ pub enum Refusal {
     NoFeasiblePose,
     /// J is 0 at the answer, so that there is no relative error.
     NothingToImprove,
-    /// It was told to stop before anything was measured.
+    /// It was asked to stop before anything was measured.
     Interrupted,
     /// The part cannot be turned into triangles.
     TriangleMesh(Vec<Fault>),

@@ -43,7 +43,7 @@ pub struct PosePoint {
     pub shots: usize,
     /// Time that J takes on one thread, with shots drawn before, s: from a median of repeats.
     pub seconds: f64,
-    /// Root mean square of (J - reference) / reference over many sets of so many shots.
+    /// Root mean square of (J - reference) / reference over many samples of this size.
     pub error: f64,
 }
 

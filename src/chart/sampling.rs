@@ -13,7 +13,7 @@ pub enum Sampling {
     Random,
     /// As scrambled Sobol points.
     Sobol,
-    /// The same with some of the shots towards the rim, as the search draws them.
+    /// The same with some of the shots towards the boundary, as the search draws them.
     SobolRim,
 }
 
@@ -30,5 +30,5 @@ impl Sampling {
     }
 }
 
-/// Independent scramblings behind a standard error.
+/// Independent replicates behind a standard error.
 pub(super) const SCRAMBLINGS: usize = Replicates::COUNT;

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use crate::control::Clock;
 
-/// A measurement takes at least so many repeats, a comparison so many turns, and so long, s.
+/// Least repeats of a measurement, least turns of a comparison, and least time of either, s.
 const LEAST_REPEATS: usize = 5;
 const LEAST_TURNS: usize = 99;
 const LEAST_SECONDS: f64 = 0.01;

@@ -229,7 +229,7 @@ mod tests {
 
     const SAMPLES: usize = 32;
 
-    /// A target of cells of 1 m2, each with so many hits in every sample.
+    /// A target of cells of 1 m2, each with this many hits in every sample.
     fn cells(side: f64, each: &[u32]) -> Cells {
         let cell = |&hits: &u32| Cell {
             area: side * side,
@@ -241,7 +241,7 @@ mod tests {
         }
     }
 
-    /// Shots of 1 kg with dents of 1 m2; so many of them behind the hits.
+    /// Shots of 1 kg with dents of 1 m2; this many of them behind the hits.
     fn question(wanted: f64, shots: usize, cells: &Cells) -> Question {
         let area: f64 = cells.cells.iter().map(|cell| cell.area).sum();
         let hits: f64 = cells

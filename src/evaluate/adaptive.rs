@@ -1,4 +1,4 @@
-//! Evaluations on fresh shots of which a part is drawn from where harm comes from.
+//! Evaluation on validation shots, a part of them drawn with an importance density for the settings.
 
 use rayon::prelude::*;
 
@@ -9,8 +9,8 @@ use crate::jet::{Draw, ImportanceDensity, PendingReplicate, ValidationSample};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 
-/// Evaluates `settings` on fresh shots, half of those on the rim drawn [from where harm comes
-/// from](super::importance_of) with these settings.
+/// Evaluates `settings` on validation shots, half of the boundary samples drawn with the
+/// [importance density](super::importance_of) of these settings.
 pub fn evaluate_adaptively(
     scenario: &Scenario,
     settings: &Settings,
@@ -30,7 +30,7 @@ pub fn evaluate_adaptively(
     })
 }
 
-/// The same for several choices; a few of them share what it takes to fetch a set from memory.
+/// The same for several settings; a few of them share the cost of fetching a set from memory.
 pub fn evaluate_each_adaptively(
     scenario: &Scenario,
     choices: &[Settings],
@@ -41,7 +41,7 @@ pub fn evaluate_each_adaptively(
         .collect()
 }
 
-/// What more shots do than those of so many choices is not kept at the same time.
+/// Statistics of at most this many settings are in memory at the same time.
 const MOST_TOGETHER: usize = 4;
 
 fn evaluate_few_adaptively(
@@ -76,8 +76,8 @@ fn evaluate_few_adaptively(
     found.collect()
 }
 
-/// The same as [`evaluate_adaptively`] on shots that are forgotten once they are fired, as
-/// [`ValidationSample`] ones of the same number would take 230 bytes a shot.
+/// The same as [`evaluate_adaptively`] on shots that are drawn when they are fired: a [`ValidationSample`]
+/// takes 230 bytes a shot.
 pub fn evaluate_streamed(
     scenario: &Scenario,
     settings: &Settings,
@@ -92,8 +92,7 @@ pub fn evaluate_streamed(
     })
 }
 
-/// Sums up what shots do that are drawn by an importance density for `settings`; the rays of its pilot run
-/// count.
+/// Sums up shots that are drawn with an importance density for `settings`; the rays of its pilot runs count.
 fn with_importance_of(
     scenario: &Scenario,
     settings: &Settings,

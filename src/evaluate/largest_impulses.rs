@@ -1,4 +1,4 @@
-//! What the shots of one pose do, kept so that verdicts can be given at any launch speed.
+//! Impulses of the shots of one pose, kept so that verdicts follow at any launch speed.
 
 use super::ViolationCounts;
 use crate::jet::ShotSample;
@@ -18,7 +18,7 @@ pub(crate) struct LargestImpulses {
 }
 
 impl LargestImpulses {
-    /// Traces the shots of a choice of settings.
+    /// Traces the shots of some settings.
     pub fn of(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> Self {
         let surfaces = scenario.surfaces.len();
         let mut accumulator = LargestAccumulator {
@@ -62,7 +62,7 @@ impl LargestImpulses {
         self.tally.terms(&scenario.problem.goals, speed)
     }
 
-    /// How many of them break what at a launch speed, m/s.
+    /// Violations at a launch speed, m/s.
     pub fn counts(&self, scenario: &Scenario, speed: f64) -> ViolationCounts {
         let goals = &scenario.problem.goals;
         let hits = &self.tally.hits;
@@ -84,7 +84,7 @@ impl LargestImpulses {
     }
 }
 
-/// Makes a survey.
+/// Collects [`LargestImpulses`].
 struct LargestAccumulator {
     objective: ObjectiveAccumulator,
     sticking: usize,

@@ -1,4 +1,4 @@
-//! What every surface receives from one set of shots, written down impact by impact.
+//! What every surface receives from one replicate, added up impact by impact.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
 use crate::trace::{End, Observer, RayPacket, Tracer};
 
-/// What became of the shots of one scrambling.
+/// Statistics of one replicate.
 pub(super) struct ReplicateStats {
     /// Of the jet.
     pub tally: Tally,
-    /// Of the shots on the rim, which nothing else here counts.
+    /// Of the boundary samples, which nothing else here counts.
     pub boundary: Tally,
     /// First hits on target that stick.
     pub sticking: usize,
@@ -39,7 +39,7 @@ pub(super) struct SurfaceSums {
 }
 
 impl ReplicateStats {
-    /// Traces the shots of a choice of settings.
+    /// Traces the shots of some settings.
     pub fn of(scenario: &Scenario, settings: &Settings, replicate: &Replicate) -> Self {
         let shots = &replicate.jet.shots;
         let mut accumulator = ReplicateAccumulator {

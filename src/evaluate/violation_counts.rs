@@ -3,7 +3,7 @@
 use super::Evaluation;
 use crate::scenario::Scenario;
 
-/// How many shots break what: all that verdicts are given on.
+/// Counts of violating shots: all that verdicts depend on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ViolationCounts {
     /// Shots of the jet.

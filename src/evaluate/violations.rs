@@ -1,4 +1,4 @@
-//! Where the shots that do harm come from.
+//! Pilot runs that find where violating shots come from.
 
 use crate::elementary::square;
 use crate::jet::{ImportanceDensity, PilotRun, Replicates, ShotSample, purpose};
@@ -9,20 +9,19 @@ use crate::scenario::{Scenario, SurfaceLimits};
 use crate::scene::lanes::LANES;
 use crate::trace::{End, Observer, RayPacket, Tracer};
 
-/// Where the shots of a choice of settings come from that do harm, and how many rays it took to find out.
-/// Harm is a miss, a tangential impulse over its limit, an impact on a secondary surface, each as
-/// much as it costs.
+/// The importance density of some settings, and the rays that its pilot runs took. Violations are misses,
+/// tangential impulses over their limit and impacts on secondary surfaces, each with its part in J.
 ///
-/// Rare harm comes from a corner of what exit, cone and tolerance allow. The shots of a wider jet
-/// reach beyond it; what they find is where those of the next, narrower one look more closely (the
-/// cross-entropy method for rare events: Rubinstein, European Journal of Operational Research 99, 1997).
+/// Rare violations come from a corner of what exit, cone and tolerance allow. A wider jet reaches beyond that
+/// corner; the next, narrower one looks more closely where it found violations (the cross-entropy method for
+/// rare events: Rubinstein, European Journal of Operational Research 99, 1997).
 pub fn importance_of(scenario: &Scenario, settings: &Settings) -> (ImportanceDensity, usize) {
     let (mut importance, mut rays) = (ImportanceDensity::NONE, 0);
     if scenario.problem.has_one_ray() {
         return (importance, rays);
     }
     for (number, stretch) in STRETCHES.into_iter().enumerate() {
-        let stream = Replicates::stream(purpose::HARM, number as u32);
+        let stream = Replicates::stream(purpose::PILOT_RUNS, number as u32);
         let pilot_run = PilotRun::new(&scenario.problem, stretch, stream, SHOTS, &importance);
         let accumulator = ViolationAccumulator::of(scenario, settings, &pilot_run.shots);
         importance = pilot_run.adapted(&importance, &rare(&accumulator.harm, &pilot_run.shots));
@@ -31,13 +30,12 @@ pub fn importance_of(scenario: &Scenario, settings: &Settings) -> (ImportanceDen
     (importance, rays)
 }
 
-/// How many times as wide as it is the jet is made, one after the other.
+/// Widths of the pilot runs' jets, relative to the jet, in their order.
 const STRETCHES: [f64; 4] = [2.0, 1.5, 1.2, 1.0];
-/// Shots of each.
+/// Shots of each pilot run.
 const SHOTS: usize = 768;
 
-/// What shots do harm that is rare, with what they stand for: what others do alike is averaged well enough
-/// without more of them.
+/// Weighted violations of the shots whose violation is rare; others are averaged well enough as it is.
 fn rare(harm: &[f64], shots: &[ShotSample]) -> Vec<f64> {
     let pairs = || harm.iter().zip(shots);
     let weight: f64 = shots.iter().map(|shot| shot.weight).sum();
@@ -52,10 +50,10 @@ fn rare(harm: &[f64], shots: &[ShotSample]) -> Vec<f64> {
     counted.collect()
 }
 
-/// Rare is harm of more than so many times the mean.
+/// A violation is rare if it is this many times the mean.
 const RARE: f64 = 10.0;
 
-/// Finds out what harm shots do.
+/// Adds up what each shot's violations cost.
 struct ViolationAccumulator {
     objective: ObjectiveAccumulator,
     /// What (N*)^2 costs on each surface.

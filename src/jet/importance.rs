@@ -1,14 +1,13 @@
-//! Where the shots come from that do harm, as a density to draw more of them by.
+//! Importance density: where violating shots come from, so that more of them are drawn there.
 
 use super::qmc_point::{DIMENSIONS, Dimension};
 use crate::elementary::square;
 
-/// How much denser than on the rim shots are drawn, as a product over their dimensions of what is the same
-/// within each of a few cells.
+/// Density relative to the boundary proposal: a product over dimensions of histograms with a few cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportanceDensity {
     density: [[f64; CELLS]; DIMENSIONS],
-    /// A bit for each dimension in which it is not the same everywhere.
+    /// A bit for each dimension whose histogram is not flat.
     varied: u32,
 }
 
@@ -18,18 +17,18 @@ const CELLS: usize = 16;
 /// The cell of a point in each dimension.
 pub(super) type Cells = [u8; DIMENSIONS];
 
-/// In place of a cell where a dimension is not drawn from.
+/// In place of a cell in dimensions that are not drawn from.
 pub(super) const NO_CELL: u8 = u8::MAX;
 
 impl ImportanceDensity {
-    /// As dense as on the rim everywhere.
+    /// The boundary proposal itself.
     pub const NONE: Self = Self {
         density: [[1.0; CELLS]; DIMENSIONS],
         varied: 0,
     };
 
-    /// Follows where harm was found, dimension by dimension, as far as that differs from where it was
-    /// expected by more than chance: a least-squares shrinkage towards what was expected.
+    /// Adapts each dimension's histogram to where violations were found, shrunk towards the histogram before
+    /// by least squares: differences within chance change little.
     pub(super) fn on(&self, cells: &[Cells], harm: &[f64]) -> Self {
         let most = harm.iter().copied().fold(0.0, f64::max);
         if !(most > 0.0 && most.is_finite()) {
@@ -77,7 +76,7 @@ impl ImportanceDensity {
         ((coordinate * CELLS as f64) as usize).min(CELLS - 1) as u8
     }
 
-    /// A coordinate that is drawn by this density, from one that is uniform in 0 to 1.
+    /// A coordinate with this density, from one that is uniform in 0 to 1.
     pub(super) fn drawn(&self, dimension: Dimension, uniform: f64) -> f64 {
         let density = &self.density[dimension as usize];
         let mut left = uniform * CELLS as f64;
@@ -91,7 +90,7 @@ impl ImportanceDensity {
         (cell as f64 + within) / CELLS as f64
     }
 
-    /// The density at a point over that on the rim.
+    /// The density at a point relative to that of the boundary proposal.
     pub(super) fn density(&self, cells: &Cells) -> f64 {
         let (mut product, mut varied) = (1.0, self.varied);
         while varied != 0 {
@@ -104,16 +103,16 @@ impl ImportanceDensity {
     }
 }
 
-/// Dimensions whose last cell is beside the first.
+/// Periodic dimensions: their last cell is a neighbour of the first.
 const TURNS: [usize; 2] = [Dimension::ConeTurn as usize, Dimension::ExitTurn as usize];
 
-/// So many events count as much as what was expected before them, at least.
+/// The histogram before weighs at least as much as this number of events.
 const DOUBT: f64 = 4.0;
 
-/// By what share the scatter of cells is less when they are smoothed: the squares of 1/4, 1/2 and 1/4.
+/// Variance of a smoothed cell relative to a raw one: the squares of 1/4, 1/2 and 1/4.
 const SMOOTHED: f64 = 0.375;
 
-/// By how much a density is apart from an expected one: its part in chi squared, per event.
+/// Contribution of a cell to chi squared, per event.
 fn apart((found, expected): (&f64, &f64)) -> f64 {
     square(found - expected) / expected
 }
@@ -134,8 +133,7 @@ fn smooth(sums: &[f64; CELLS], is_turn: bool) -> [f64; CELLS] {
 mod tests {
     use super::*;
 
-    /// Cells of points that are uniform but for those that do harm: low in one dimension, on both sides of
-    /// the seam of another.
+    /// Cells of uniform points, of which those low in one dimension and on both sides of the seam of another violate.
     fn harmed(count: usize) -> (Vec<Cells>, Vec<f64>) {
         let coordinate = |index: usize, step: f64| (index as f64 * step).fract();
         let point = |index: usize| {

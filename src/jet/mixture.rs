@@ -1,18 +1,18 @@
-//! Shots drawn by several densities, and what each of them stands for among the others.
+//! Defensive mixture: shots of several proposals with their importance weights.
 
 use super::importance::{Cells, ImportanceDensity};
 use super::qmc_point::{Proposal, QmcPoint, Stream};
 use super::shot_sample::ShotSample;
 use crate::problem::Problem;
 
-/// How many shots are drawn by each density.
+/// Number of shots of each proposal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts {
     /// As the jet fires them.
     pub jet: usize,
-    /// Towards the rim.
+    /// Towards the boundary.
     pub boundary: usize,
-    /// Towards the boundary, and there by an importance density.
+    /// Towards the boundary, and there with an importance density.
     pub by_importance: usize,
 }
 
@@ -33,15 +33,15 @@ impl Parts {
     }
 }
 
-/// Where a shot comes from: all that must be known of it to tell what it stands for.
+/// Where a shot comes from: what its importance weight depends on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Origin {
     pub cells: Cells,
-    /// Density of the rim's distribution over that of the jet.
+    /// Density of the boundary proposal over that of the jet.
     boundary_density: f64,
 }
 
-/// Shots of which certain shares are drawn by each density.
+/// Fixed shares of shots from each proposal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mixture<'a> {
     parts: Parts,
@@ -53,9 +53,9 @@ impl<'a> Mixture<'a> {
         Self { parts, importance }
     }
 
-    /// What a shot stands for: the density of the jet over that of all these shots together, so that
-    /// weighted averages over them estimate what averages over the jet's shots do (the balance
-    /// heuristic of Veach and Guibas, SIGGRAPH 1995).
+    /// Importance weight of a shot: the density of the jet over that of the mixture, so that weighted averages
+    /// over the mixture estimate averages over the jet (the balance heuristic of Veach and Guibas, SIGGRAPH
+    /// 1995).
     pub fn weight(&self, origin: &Origin) -> f64 {
         let Parts {
             jet,
@@ -69,7 +69,7 @@ impl<'a> Mixture<'a> {
         self.parts.count() as f64 / (jet as f64 + origin.boundary_density * on_boundary)
     }
 
-    /// One of the shots that are drawn by a density.
+    /// One shot of a proposal.
     pub fn shot(
         &self,
         problem: &Problem,
@@ -92,7 +92,7 @@ impl<'a> Mixture<'a> {
         (shot, origin)
     }
 
-    /// One of the shots that follow each other in rounds, in each of which every density has its part.
+    /// One shot of a sequence that goes round the proposals, each with its share.
     pub fn in_rounds(&self, problem: &Problem, stream: Stream, index: u32) -> (ShotSample, Origin) {
         let parts = [
             (Proposal::Nominal, self.parts.jet as u32),

@@ -16,7 +16,7 @@ pub struct PilotRun {
 }
 
 impl PilotRun {
-    /// Shots of a jet `stretch` times as wide; a part of them is drawn by an importance density.
+    /// Shots of a jet `stretch` times as wide; a part of them is drawn with an importance density.
     pub fn new(
         problem: &Problem,
         stretch: f64,
@@ -32,7 +32,7 @@ impl PilotRun {
         Self { shots, origins }
     }
 
-    /// The importance density for what they did: `harm` of each, times its importance weight.
+    /// The importance density for what they did: the `violation` of each, times its importance weight.
     pub fn adapted(&self, before: &ImportanceDensity, harm: &[f64]) -> ImportanceDensity {
         let cells: Vec<Cells> = self.origins.iter().map(|origin| origin.cells).collect();
         before.on(&cells, harm)
@@ -45,8 +45,8 @@ const PARTS: Parts = Parts {
     by_importance: 2,
 };
 
-/// A problem whose directions scatter so many times as far. What scatters in other ways is left as it
-/// is: an exit may not grow into its walls, nor a standoff beyond the target.
+/// A problem whose directions scatter `times` as far. What scatters in other ways stays: an exit may not
+/// grow into its walls, nor a standoff beyond the target.
 fn stretched(problem: &Problem, times: f64) -> Problem {
     let half_angle = problem.jet.divergence;
     let mut wide = problem.clone();

@@ -1,4 +1,4 @@
-//! The pose of the nozzle that a choice of settings means.
+//! The pose of the nozzle for some settings.
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
@@ -23,7 +23,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose that a choice means: d = cos(inc) (cos(az) a + sin(az) b) - sin(inc) n, and the
+    /// The pose of some settings: d = cos(inc) (cos(az) a + sin(az) b) - sin(inc) n, and the
     /// exit at the aim point minus standoff times d.
     pub fn new(frame: &Frame, settings: &Settings) -> Self {
         Aim::new(settings).pose(frame)

@@ -1,11 +1,11 @@
-//! What fresh shots are drawn for: sets for different purposes are independent of each other and of
-//! every search.
+//! Streams of validation shots: sets for different purposes are independent of each other and of every
+//! search.
 
 /// Reported figures.
 pub const ANSWERS: u32 = 0;
 /// Windows and maps, neither of which decides on the other.
 pub const WINDOWS: u32 = 1;
-/// The ends of what is not known.
+/// Restitution and friction at the ends of their ranges.
 pub const UNKNOWNS: u32 = 2;
 /// Which effects a search needs, and how many shots.
 pub const EFFECTS: u32 = 3;
@@ -13,9 +13,9 @@ pub const EFFECTS: u32 = 3;
 pub const EVIDENCE: u32 = 4;
 /// Densities of hits.
 pub const COVERAGE: u32 = 5;
-/// Where harm comes from.
-pub const HARM: u32 = 6;
-/// What charts take as true.
+/// Pilot runs.
+pub const PILOT_RUNS: u32 = 6;
+/// References of charts.
 pub const CHART_REFERENCE: u32 = 7;
 /// Poses that charts compare.
 pub const CHART_COMPARISON: u32 = 8;

@@ -7,9 +7,9 @@ use crate::elementary::{ln, sin_cos};
 /// An independent sequence of samples under one seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {
-    /// The shots that a search decides on.
+    /// Shots of the search.
     Search,
-    /// Shots that the search has not seen; one scrambling for each number.
+    /// Shots that the search has not seen: a replicate for each number.
     Validation(u32),
 }
 
@@ -48,18 +48,18 @@ pub(super) enum Dimension {
 /// How many there are.
 pub(super) const DIMENSIONS: usize = 16;
 
-/// By what density points are drawn.
+/// The density that points are drawn with.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Proposal {
     /// As the jet fires shots.
     Nominal,
-    /// Towards the rim.
+    /// Towards the boundary.
     Boundary,
-    /// Towards the boundary, and there by an importance density.
+    /// Towards the boundary, and there with an importance density.
     Importance,
 }
 
-/// Points of one scrambling before it repeats itself.
+/// Points of one replicate before it repeats itself.
 const POINTS_PER_SEED: u32 = 1 << 16;
 
 /// Share of a normal distribution between its mean and two standard deviations.
@@ -72,9 +72,9 @@ pub(super) struct QmcPoint<'a> {
     importance: &'a ImportanceDensity,
     /// Whether the next fields are kept up.
     keeps_account: bool,
-    /// Density of the rim's distribution over that of the jet, so far.
+    /// Density of the boundary proposal over that of the jet, so far.
     pub boundary_density: f64,
-    /// Where it lies in what the rim's distribution has uniform.
+    /// Its cells in the coordinates in which the boundary proposal is uniform.
     pub cells: Cells,
 }
 
@@ -90,11 +90,11 @@ enum Sequence {
     Random { seed: u64 },
 }
 
-/// Keeps the density finite on the rim itself: the square root of a depth.
+/// Keeps the density finite on the boundary itself: the square root of a depth.
 const LEAST_ROOT: f64 = 1e-9;
 
 impl<'a> QmcPoint<'a> {
-    /// One of a mixture, drawn by a density.
+    /// A point of a proposal in a mixture.
     pub fn new(
         seed: u64,
         stream: Stream,
@@ -122,7 +122,7 @@ impl<'a> QmcPoint<'a> {
         }
     }
 
-    /// One of the jet's own.
+    /// A point of the nominal proposal.
     pub fn of_jet(seed: u64, stream: Stream, index: u32) -> Self {
         Self {
             keeps_account: false,
@@ -165,13 +165,13 @@ impl<'a> QmcPoint<'a> {
         drawn
     }
 
-    /// In 0 to 1, with the rim at 1.
+    /// In 0 to 1, with the boundary at 1.
     pub fn inwards(&mut self, dimension: Dimension) -> f64 {
         let depth = 1.0 - self.uniform(dimension);
         1.0 - self.towards_boundary(depth, |root| 1.0 - root, dimension)
     }
 
-    /// Within +- `half_width`, with the rim at both ends.
+    /// Within +- `half_width`, with the boundary at both ends.
     pub fn within(&mut self, half_width: f64, dimension: Dimension) -> f64 {
         if half_width == 0.0 {
             return 0.0;
@@ -182,9 +182,8 @@ impl<'a> QmcPoint<'a> {
         half_width * (1.0 - depth).copysign(signed)
     }
 
-    /// The distance from the rim of this point, when that of the jet's own points is uniform in
-    /// 0 to 1; keeps account of the density, and of the cell by the coordinate that a root of the distance
-    /// belongs to.
+    /// The distance of this point from the boundary, which is uniform in 0 to 1 for the jet's own points; keeps
+    /// account of the density and of the cell.
     fn towards_boundary(
         &mut self,
         depth: f64,

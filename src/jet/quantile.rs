@@ -59,7 +59,7 @@ const OUTSIDE: Quotient = Quotient {
 
 /// How far from the median the middle reaches, as a share of all.
 const CENTRAL: f64 = 0.425;
-/// Of the root of the logarithm, where the distribution is told outside the middle.
+/// Of the root of the logarithm, where the approximation outside the middle is centred.
 const OUTER: f64 = 1.6;
 
 impl Quotient {
@@ -72,8 +72,8 @@ impl Quotient {
     }
 }
 
-/// The deviation, in standard deviations, that a share of all lies between and the mean: negative for a
-/// negative share. Within +-(0.5 - 1e-11), which is six deviations.
+/// The deviation, in standard deviations, with this share of the distribution between it and the mean: negative
+/// for a negative share. The share is within +-(0.5 - 1e-11), which is six deviations.
 pub(super) fn deviation(share: f64) -> f64 {
     if share.abs() <= CENTRAL {
         return share * MIDDLE.at(CENTRAL * CENTRAL - share * share);

@@ -1,4 +1,4 @@
-//! Independent scramblings of the same jet.
+//! Randomised-QMC replicates: independent scramblings of the same jet.
 
 use rayon::prelude::*;
 
@@ -7,40 +7,40 @@ use super::samples::Samples;
 use super::validation::Draw;
 use crate::problem::Problem;
 
-/// Independent scramblings of the same jet, whose scatter tells the error of an average.
+/// Randomised-QMC replicates of the same jet; their scatter gives the standard error of an average.
 #[derive(Clone, Debug)]
 pub struct Replicates {
-    /// One for each scrambling.
+    /// One for each replicate.
     pub sets: Vec<Replicate>,
 }
 
-/// The shots of one scrambling.
+/// The shots of one replicate.
 #[derive(Clone, Debug)]
 pub struct Replicate {
     /// Shots as the jet fires them.
     pub jet: Samples,
-    /// Shots drawn towards the rim, half of them by an importance density; weighted averages over both
-    /// estimate the same as those over the jet alone, and see what harms rarely.
+    /// Shots drawn towards the boundary, half of them with an importance density. Weighted averages over both
+    /// sets estimate the same as those over the jet alone, and see rare violations.
     pub boundary: Samples,
 }
 
 impl Replicates {
-    /// Number of scramblings.
+    /// Number of replicates.
     pub const COUNT: usize = 32;
 
-    /// One of the streams of fresh shots for a [`purpose`](super::purpose).
+    /// One of the streams of validation shots for a [`purpose`](super::purpose).
     pub fn stream(purpose: u32, number: u32) -> Stream {
         Stream::Validation(purpose * Self::COUNT as u32 + number)
     }
 
-    /// Fresh shots of the jet, rounded up to a multiple of [`Self::COUNT`], and half as many on the
-    /// rim. Sets for different [purposes](super::purpose) are independent of each other and of every
+    /// Validation shots of the jet, rounded up to a multiple of [`Self::COUNT`], and half as many on the
+    /// boundary. Sets for different [purposes](super::purpose) are independent of each other and of every
     /// search.
     pub fn new(problem: &Problem, purpose: u32, shots: usize) -> Self {
         Self::of(&Draw::new(problem, purpose, shots))
     }
 
-    /// Fresh shots of the jet alone: for shares of shots.
+    /// Validation shots of the jet alone: for shares of shots.
     pub fn without_boundary(problem: &Problem, purpose: u32, shots: usize) -> Self {
         Self::of(&Draw::new(problem, purpose, shots).without_boundary())
     }

@@ -17,7 +17,7 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// The first `count` shots of a stream, each standing for itself.
+    /// The first `count` shots of a stream, all of weight 1.
     pub fn new(problem: &Problem, stream: Stream, count: usize) -> Self {
         let shot =
             |index| ShotSample::at(problem, &mut QmcPoint::of_jet(problem.seed, stream, index));
@@ -26,8 +26,8 @@ impl Samples {
         }
     }
 
-    /// The first `count` shots of a stream, drawn independently of each other: what the
-    /// low-discrepancy points of [`Samples::new`] are to be compared with.
+    /// The first `count` shots of a stream, drawn independently of each other: plain Monte Carlo, for comparison
+    /// with the low-discrepancy points of [`Samples::new`].
     pub fn random(problem: &Problem, stream: Stream, count: usize) -> Self {
         let shot =
             |index| ShotSample::at(problem, &mut QmcPoint::random(problem.seed, stream, index));
@@ -36,9 +36,8 @@ impl Samples {
         }
     }
 
-    /// Shots for a search: every second one is drawn towards the rim of the exit disc, of the cone
-    /// and of the tolerance box, where rare harm comes from, and stands for accordingly less. Of
-    /// many shots it is three out of four: few suffice for what is not rare.
+    /// Shots of a search: one in two is a boundary sample, drawn towards the boundary of the exit disc, the cone
+    /// and the tolerance box, where rare violations come from; three in four from 2048 shots on.
     ///
     /// Averages weighted with [`ShotSample::weight`] estimate the same as those over [`Samples::new`].
     /// When all shots of a problem are the same, there is one.
@@ -56,8 +55,8 @@ impl Samples {
         )
     }
 
-    /// The same with half of the shots on the rim drawn by an importance density, of many two thirds; without
-    /// one they are those of [`Samples::with_boundary`].
+    /// The same with half of the boundary samples drawn with an importance density, two thirds from 2048 shots
+    /// on; [`Samples::with_boundary`] without a density.
     pub fn with_importance(
         problem: &Problem,
         stream: Stream,
@@ -87,5 +86,5 @@ impl Samples {
     }
 }
 
-/// From so many shots of a search on most of them are drawn towards the rim.
+/// From this many shots on most of them are boundary samples.
 const MANY: usize = 2048;

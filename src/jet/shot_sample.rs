@@ -31,9 +31,9 @@ pub struct ShotSample {
     pub friction: f64,
     /// What the tilts of rough surfaces are drawn from, in 0 to 1; 0 where none is rough.
     pub tilts: f64,
-    /// What the shot stands for: 1, or less for one of the shots on the rim.
+    /// Importance weight: 1, or less for a boundary sample.
     pub weight: f64,
-    /// Whether it is drawn as the jet fires shots, and not towards the rim.
+    /// Whether it is a nominal sample, and not a boundary sample.
     pub of_jet: bool,
 }
 
@@ -119,7 +119,7 @@ impl ShotSample {
             & (above == 0.0)
     }
 
-    /// The shot that a point of the unit cube stands for.
+    /// The shot at a point of the unit cube.
     pub(super) fn at(problem: &Problem, point: &mut QmcPoint) -> Self {
         let (jet, tolerance) = (&problem.jet, &problem.tolerance);
         Self {

@@ -1,4 +1,4 @@
-//! Fresh shots, which no search has seen, some of which are drawn where settings are found to do harm.
+//! Validation sample: shots that no search has seen, some of them drawn where settings are found to violate.
 
 use std::mem::take;
 
@@ -12,14 +12,14 @@ use super::samples::Samples;
 use super::shot_sample::ShotSample;
 use crate::problem::Problem;
 
-/// Fresh shots in independent scramblings, but for those that an importance density decides on.
+/// A validation sample in replicates, without the shots that wait for an importance density.
 #[derive(Clone, Debug)]
 pub struct ValidationSample {
-    /// One for each scrambling.
+    /// One for each replicate.
     pub sets: Vec<PendingReplicate>,
 }
 
-/// The shots of one scrambling, but for those that an importance density decides on.
+/// One replicate without the shots that wait for an importance density.
 #[derive(Clone, Debug)]
 pub struct PendingReplicate {
     jet: Vec<ShotSample>,
@@ -116,12 +116,12 @@ impl PendingReplicate {
     }
 }
 
-/// Fresh shots that are too many to be kept: each scrambling is drawn when it is needed.
+/// A validation sample too large to be kept: each replicate is drawn when it is needed.
 #[derive(Clone, Copy, Debug)]
 pub struct Draw<'a> {
     problem: &'a Problem,
     purpose: u32,
-    /// Of each scrambling.
+    /// Of each replicate.
     parts: Parts,
     importance: &'a ImportanceDensity,
 }
@@ -160,7 +160,7 @@ impl<'a> Draw<'a> {
         Self { importance, ..self }
     }
 
-    /// Number of scramblings: one, when all shots of the problem are the same.
+    /// Number of replicates: one, when all shots of the problem are the same.
     pub fn sets(&self) -> u32 {
         if self.problem.has_one_ray() {
             1
@@ -169,7 +169,7 @@ impl<'a> Draw<'a> {
         }
     }
 
-    /// The shots of one scrambling; one shot, when all shots of the problem are the same.
+    /// The shots of one replicate; one shot, when all shots of the problem are the same.
     pub fn set(&self, number: u32) -> Replicate {
         let pending = self.pending(number);
         pending.into_replicate(self.problem, self.importance)

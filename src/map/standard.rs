@@ -22,7 +22,7 @@ const MOST_SPEEDS: f64 = 0.6;
 /// Shots that tell how many rays a shot takes.
 const PROBES: usize = 64;
 
-/// The maps of a report round a choice: over incidence and azimuth, over standoff and speed, or
+/// The maps of a report at some settings: over incidence and azimuth, over standoff and speed, or
 /// over others where these are held. None where fewer than two settings are free.
 ///
 /// The dearer a ray, the coarser they are.

@@ -16,11 +16,11 @@ pub(crate) struct ObjectiveAccumulator {
     speed: f64,
     /// The mean square of the shots' factors on it, where paths do not depend on them.
     mean_square: Option<f64>,
-    /// What (N*)^2 on a surface costs.
+    /// Cost of (N*)^2 on each surface.
     harm: Vec<f64>,
     /// The same on the first surface.
     usual_harm: f64,
-    /// Whether it is the same on all of them.
+    /// Whether it is the same on all surfaces.
     harms_alike: bool,
     target: Target,
     /// Whether the last impact of each shot in flight was on target.
@@ -62,7 +62,7 @@ impl Target {
 }
 
 impl ObjectiveAccumulator {
-    /// For so many shots that leave with a contact at a launch speed, m/s.
+    /// For `shots` shots that leave with a contact at a launch speed, m/s.
     pub fn new(scenario: &Scenario, contact: usize, speed: f64, shots: usize) -> Self {
         let scales_out = scenario.speed_scales_out(contact);
         let speed_variance = scales_out.then(|| speed_variance(&scenario.problem));

@@ -13,9 +13,9 @@ pub struct Impulses {
     pub normal_at_mean: f64,
     /// Tangential.
     pub tangential: f64,
-    /// What the shot stands for.
+    /// Importance weight.
     pub weight: f64,
-    /// 1 for a shot that the jet fires, 0 for one drawn towards the rim.
+    /// 1 for a nominal sample, 0 for a boundary sample.
     pub of_jet: f64,
 }
 
@@ -28,14 +28,14 @@ pub struct Hits {
     pub normal_at_mean: Vec<f64>,
     /// Tangential, N s per m/s.
     pub tangential: Vec<f64>,
-    /// What the shots stand for.
+    /// Importance weights.
     pub weight: Vec<f64>,
-    /// 1 for a shot that the jet fires, 0 for one drawn towards the rim.
+    /// 1 for a nominal sample, 0 for a boundary sample.
     pub of_jet: Vec<f64>,
 }
 
 impl Hits {
-    /// None yet, with space for so many.
+    /// None yet, with space for `count`.
     pub fn with_capacity(count: usize) -> Self {
         Self {
             normal: Vec::with_capacity(count),
@@ -71,7 +71,7 @@ impl Hits {
         self.normal.len()
     }
 
-    /// How many are of shots that the jet fires.
+    /// Number of hits of nominal samples.
     pub fn of_jet(&self) -> f64 {
         self.of_jet.iter().sum()
     }

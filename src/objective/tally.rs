@@ -11,9 +11,9 @@ use crate::problem::setting::Range;
 pub struct Tally {
     /// Number of shots.
     pub shots: usize,
-    /// What those shots stand for together.
+    /// Sum of their importance weights.
     pub weight: f64,
-    /// What those whose first hit is not on the target stand for.
+    /// The same of those whose first hit is off target.
     pub missed: f64,
     /// The first hits on target.
     pub hits: Hits,
@@ -24,7 +24,7 @@ pub struct Tally {
     /// The largest part that one impact has in `rebound`.
     pub worst_rebound: f64,
     /// Variance of the shots' factors on the speed, over which all that is quadratic in the speed is
-    /// averaged exactly; 0 where paths depend on the speed, and every shot stands for its own.
+    /// averaged exactly; 0 where paths depend on the speed, and every shot has its own.
     pub speed_variance: f64,
     /// Number of rays cast.
     pub rays: usize,
@@ -35,7 +35,7 @@ pub struct Tally {
 pub(crate) struct Rest {
     /// The sum of their weights.
     weight: f64,
-    /// How many of them the jet fires.
+    /// Number of nominal samples among them.
     of_jet: f64,
 }
 
@@ -67,8 +67,8 @@ impl Tally {
         all
     }
 
-    /// The least share of J of these shots that J of them and the rest can be, at any speed: no term is
-    /// below what it is when the rest hit the target just as they should and harm nothing.
+    /// A lower bound of J of all shots over J of these, at any speed: no term is below what it is when the rest
+    /// hit the target exactly as wanted and violate nothing.
     pub(crate) fn least_share_with(&self, rest: &Rest) -> f64 {
         let share = |here: f64, there: f64| {
             if here > 0.0 {

@@ -100,7 +100,7 @@ fn one_more_of_the_worst_adds_its_part_over_all_shots() {
     assert_eq!(OTHER.one_more_of_the_worst(&GOALS), other);
 }
 
-/// Three hits; the second one stands for half a shot and is drawn towards the rim.
+/// Three hits; the second one stands for half a shot and is drawn towards the boundary.
 fn hits() -> Hits {
     Hits {
         normal: vec![0.5, 0.25, 0.375],

@@ -159,7 +159,7 @@ impl Setting {
         }
     }
 
-    /// Its value in a choice, SI.
+    /// Its value in some settings, SI.
     pub const fn of(self, settings: &Settings) -> f64 {
         match self {
             Self::Incidence => settings.incidence,

@@ -60,9 +60,9 @@ pub struct AnswerRecord {
     /// fits, and in results of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body_radius_left_m: Option<f64>,
-    /// Fresh shots behind the figures.
+    /// Validation shots behind the figures.
     pub shots: usize,
-    /// Fresh shots from where harm may come that stand behind the objective as well.
+    /// Boundary samples, which the objective counts as well.
     #[serde(default)]
     pub rim_shots: usize,
     /// The terms of the objective with their weights; absent when the nozzle does not fit.

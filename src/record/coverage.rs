@@ -65,7 +65,7 @@ pub struct EstimateRecord {
     pub resolution: f64,
 }
 
-/// First hits per area, and what it takes until the wanted share is dented with so many.
+/// First hits per area, and what it takes until the wanted share is dented with this many.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DensityRecord {
     /// First hits per shot and area, 1/m2.

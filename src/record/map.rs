@@ -107,7 +107,7 @@ fn rounded(terms: &Terms) -> [f32; 4] {
 }
 
 impl CellRecord {
-    /// Whether anything is known of the place: it is not where a map was told to stop before.
+    /// Whether anything is known of the place: it is not where a map was asked to stop before.
     pub fn is_known(&self) -> bool {
         self.terms.is_some() || !self.fails.is_empty()
     }
@@ -124,7 +124,7 @@ impl CellRecord {
 }
 
 impl MapRecord {
-    /// Of how many places something is known: of all, unless the map was told to stop.
+    /// Of how many places something is known: of all, unless the map was asked to stop.
     pub fn known_places(&self) -> usize {
         self.cells.iter().filter(|cell| cell.is_known()).count()
     }

@@ -125,7 +125,7 @@ pub enum StatusRecord {
     BudgetSpent,
     /// The nozzle collides with the part everywhere.
     NoFeasiblePose,
-    /// The search was told to stop.
+    /// The search was asked to stop.
     Interrupted,
     /// Given settings were evaluated; nothing was searched.
     Evaluated,

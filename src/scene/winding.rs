@@ -140,7 +140,7 @@ fn grow(
     nodes
 }
 
-/// Up to so many triangles one thread sorts alone.
+/// Up to this many triangles one thread sorts alone.
 const ALONE: usize = 1 << 14;
 
 fn summed(

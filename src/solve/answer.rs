@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 pub struct Answer {
     /// The settings.
     pub settings: Settings,
-    /// What they do, on fresh shots; `None` when the nozzle does not fit.
+    /// What they do, on validation shots; `None` when the nozzle does not fit.
     pub evaluation: Option<Evaluation>,
     /// Verdicts on that.
     pub verdicts: Vec<Verdict>,
@@ -45,7 +45,7 @@ impl Answer {
             .map_or(0.0, |evaluation| evaluation.standard_error)
     }
 
-    /// The standard error that J would have on so many shots, if these are fewer.
+    /// The standard error that J would have on this many shots, if these are fewer.
     pub(super) fn standard_error_on(&self, shots: usize) -> f64 {
         self.evaluation.as_ref().map_or(0.0, |evaluation| {
             let seen = evaluation.shots + evaluation.boundary_shots;

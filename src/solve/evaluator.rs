@@ -1,4 +1,4 @@
-//! What one point of the search is worth: feasible or not, the best speed there, and J.
+//! Evaluates one point of the search: feasibility, best speed and J.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -16,7 +16,7 @@ use crate::problem::model::Model;
 use crate::problem::setting::{Range, Settings};
 use crate::scenario::Scenario;
 
-/// What a choice of settings is worth on a set of shots.
+/// Fitness of some settings on a set of shots.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Fitness {
     /// The nozzle fits.
@@ -26,8 +26,8 @@ pub enum Fitness {
 }
 
 impl Fitness {
-    /// A finite number by which standings are ordered: every feasible one before every blocked
-    /// one, by J or by how much the clearance is violated. It is J itself where the nozzle fits, so
+    /// A finite number that orders fitnesses: feasible ones first, by J; then infeasible ones, by how much they
+    /// violate the clearance. It is J itself where the nozzle fits, so
     /// that a common factor on all weights changes nothing.
     pub fn rank(&self) -> f64 {
         match self {
@@ -40,7 +40,7 @@ impl Fitness {
         }
     }
 
-    /// Whether there can be such a standing.
+    /// Whether an evaluation can give this.
     fn is_sound(&self) -> bool {
         match self {
             Self::Feasible(terms) => terms.are_sound(),
@@ -69,7 +69,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Poses judged so far.
+    /// Poses evaluated so far.
     pub fn poses(&self) -> usize {
         self.poses.load(Ordering::Relaxed)
     }
@@ -86,7 +86,7 @@ impl Effort {
     }
 }
 
-/// What was found out about a choice, and with how many rays.
+/// The outcome of an evaluation.
 #[derive(Serialize, Deserialize)]
 struct Evaluated {
     /// The best one, m/s.
@@ -96,7 +96,7 @@ struct Evaluated {
 }
 
 impl Evaluated {
-    /// Whether judging a choice can come to this: the best speed is its own, or one within the range.
+    /// Whether evaluating `settings` can give this: the best speed is theirs, or one within the range.
     fn is_sound(&self, settings: &Settings, range: Range) -> bool {
         let is_allowed = self.speed == settings.speed || range.contains(self.speed);
         is_allowed && self.fitness.is_sound() && self.rays <= MOST_RAYS
@@ -106,7 +106,7 @@ impl Evaluated {
 /// More rays than any pose takes, and few enough for those of any number of poses to be added.
 const MOST_RAYS: usize = u32::MAX as usize;
 
-/// Judges choices on common shots.
+/// Evaluates settings on common random numbers.
 pub struct Evaluator<'a> {
     scenario: &'a Scenario,
     shots: &'a [ShotSample],
@@ -114,9 +114,9 @@ pub struct Evaluator<'a> {
     looks: Vec<Look>,
     effort: &'a Effort,
     control: &'a Control,
-    /// Where what was judged is written down.
+    /// Checkpoint of evaluations.
     page: Option<Page<'a>>,
-    /// Where to keep what was judged, and the factors that are on the weights.
+    /// Archive of evaluations, and the factors on the weights.
     archive: Option<(&'a ParetoArchive, Objectives)>,
 }
 
@@ -140,7 +140,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// The same that keeps what it judges with factors on the weights.
+    /// The same with an archive and with factors on the weights.
     #[must_use]
     pub(super) fn keeping(self, archive: &'a ParetoArchive, factors: Objectives) -> Self {
         Self {
@@ -197,8 +197,8 @@ impl<'a> Evaluator<'a> {
         (settings, evaluated.fitness)
     }
 
-    /// Whether a pose that cannot become good enough is given no more shots. One that is hopeless with some
-    /// factors on the weights may be the best with others; and the whole model is whole.
+    /// Whether evaluations may end early. With an archive they may not: what is hopeless with some factors on
+    /// the weights may be the best with others. With `model: full` nothing is left out.
     fn ends_early(&self) -> bool {
         self.archive.is_none()
             && self.control.shortcuts.early_ends
@@ -289,7 +289,7 @@ impl Look {
 const LOOKS: [f64; 4] = [0.125, 0.25, 0.5, 0.75];
 /// Shots that are traced before J is looked at, at least.
 const FEWEST: usize = 64;
-/// Up to so many shots one thread traces alone.
+/// One thread traces up to this many shots alone.
 const MOST_ALONE: usize = 2048;
-/// Shots of more than those that one thread traces at a time.
+/// Shots of larger samples that one thread traces at a time.
 const CHUNK: usize = 256;

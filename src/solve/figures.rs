@@ -1,4 +1,4 @@
-//! The figures of the answers, on as many fresh shots as they need.
+//! Validates the answers on as many validation shots as they need.
 
 use super::answer::Answer;
 use super::evaluator::Effort;

@@ -2,8 +2,8 @@
 //! than another in everything.
 //!
 //! The search is run with many weightings of the three, from the one extreme to the other, and every
-//! pose that it judges on the way is kept. What is not dominated among these, spread over the whole
-//! front, is evaluated on fresh shots; what stays apart by more than its standard error is reported.
+//! pose that it evaluates on the way is kept. What is not dominated among these, spread over the whole
+//! front, is evaluated on validation shots; what stays apart by more than its standard error is reported.
 
 use rayon::prelude::*;
 
@@ -26,13 +26,13 @@ pub struct Front {
     pub answers: Vec<Answer>,
     /// Which of them is the recommended one; `None` where the nozzle fits nowhere.
     pub recommended: Option<usize>,
-    /// Poses judged.
+    /// Poses evaluated.
     pub poses: usize,
     /// Rays cast.
     pub rays: usize,
 }
 
-/// Most answers besides the recommended ones that are evaluated on fresh shots.
+/// Most answers besides the recommended ones that are evaluated on validation shots.
 const MOST_EVALUATED: usize = 32;
 /// Most answers of a front.
 const MOST_SHOWN: usize = 12;
@@ -136,7 +136,7 @@ fn weighted(scenario: &Scenario, [target, tangential, rebound]: Objectives) -> S
     weighted
 }
 
-/// One search with factors on the weights; what it judges in its last stage goes to the archive.
+/// One search with factors on the weights; what it evaluates in its last stage goes to the archive.
 fn search(
     scenario: &Scenario,
     weights: Objectives,

@@ -54,7 +54,7 @@ pub struct Solution {
     /// The best settings for each contact, best first: by J, and contacts that tie with the best in
     /// the order of the file.
     pub answers: Vec<Answer>,
-    /// What each effect of the model does at the answer; none where the search was told to stop.
+    /// What each effect of the model does at the answer; none where the search was asked to stop.
     pub ablations: Vec<Ablation>,
     /// Work done.
     pub poses: usize,
@@ -73,7 +73,7 @@ impl Solution {
 }
 
 const SCREENING_SHOTS: usize = 64;
-/// Up to so many shots every contact is refined for itself, beyond only those that could win, the
+/// Up to this many shots every contact is refined for itself; beyond only those that could win, the
 /// best one first.
 const CHEAP_SHOTS: usize = 1024;
 /// By how much the shots rise when the last stage was not accurate enough.

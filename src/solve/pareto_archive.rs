@@ -1,4 +1,4 @@
-//! Every pose that was judged on the way to a front, and which of them are worth keeping.
+//! Every pose that was evaluated on the way to a front, and which of them are worth keeping.
 
 use std::cmp::Ordering;
 use std::sync::Mutex;
@@ -15,12 +15,12 @@ pub(super) struct Evaluated {
     pub objectives: Objectives,
 }
 
-/// What was judged, by any thread.
+/// What was evaluated, by any thread.
 #[derive(Debug, Default)]
 pub(super) struct ParetoArchive(Mutex<Vec<Evaluated>>);
 
 impl ParetoArchive {
-    /// Adds a pose that was judged with these factors on the weights.
+    /// Adds a pose that was evaluated with these factors on the weights.
     pub fn add(&self, settings: Settings, terms: &Terms, factors: &Objectives) {
         let weighted = objectives(terms);
         let evaluated = Evaluated {
@@ -87,7 +87,7 @@ pub(super) fn not_dominated(sorted: Vec<Evaluated>) -> Vec<Evaluated> {
     front
 }
 
-/// At most so many that are spread over all: the least of each risk, then always the one that is
+/// At most this many that are spread over all: the least of each risk, then always the one that is
 /// farthest from those already taken.
 pub(super) fn spread_out(front: Vec<Evaluated>, most: usize) -> Vec<Evaluated> {
     let largest = |risk: usize| {

@@ -17,7 +17,7 @@ pub struct Candidate {
     pub point: Vec<f64>,
     /// The settings there, with the best speed.
     pub settings: Settings,
-    /// What they are worth on the shots they were judged on.
+    /// What they are worth on the shots they were evaluated on.
     pub fitness: Fitness,
 }
 

@@ -98,7 +98,7 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// Judges a low-discrepancy set of points all over the space.
+    /// Evaluates a low-discrepancy set of points all over the space.
     pub fn screen(scenario: &Scenario, contact: usize, evaluator: &Evaluator) -> Self {
         let space = Space::new(
             &scenario.problem,
@@ -114,7 +114,7 @@ impl Search {
             _ => 128 * dimensions,
         };
         let seed = scenario.problem.seed as u32;
-        // When it is told to stop, one is enough to answer with.
+        // When it is asked to stop, one is enough to answer with.
         let candidates: Vec<Candidate> = (0..points as u32)
             .into_par_iter()
             .filter(|&index| index == 0 || !evaluator.is_stopped())

@@ -89,7 +89,7 @@ impl Space {
         pairs.map(|(axis, &x)| axis.within(x)).collect()
     }
 
-    /// The point of a choice.
+    /// The point of some settings.
     pub fn point(&self, settings: &Settings) -> Vec<f64> {
         let coordinate =
             |axis: &Axis| (axis.setting.of(settings) - axis.range.min) / axis.range.width();

@@ -21,7 +21,7 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 }
 
 /// The searches that could still change the answer: among the contacts that could win, those whose J
-/// on fresh shots is above what is claimed for the shots of the search by more than a
+/// on validation shots is above what is claimed for the shots of the search by more than a
 /// part of the accuracy asked for, and by more than its error where that cannot be told any better.
 ///
 /// The least J on any set of shots is on average below the least true J, and the true J of the

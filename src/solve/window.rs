@@ -12,7 +12,7 @@ use crate::problem::setting::{Range, Setting, Settings};
 use crate::scenario::Scenario;
 use crate::verdict::{Subject, Verdict};
 
-/// The window of one setting round a choice.
+/// The tolerance window of one setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Window {
     /// The setting.
@@ -108,7 +108,7 @@ pub fn windows(
     ranges.par_iter().filter_map(window).collect()
 }
 
-/// Shots that tell what turns at a choice, some sets after the other.
+/// Shots that show which verdicts would change, replicate by replicate.
 trait Shots {
     /// What some of them do; `None` beyond the last.
     fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts>;
@@ -247,7 +247,7 @@ fn drift(
     }
 }
 
-/// What turns at a choice among the verdicts that passed: the one that is exceeded most, on no more
+/// The verdict that changes at some settings: the one with the highest utilisation, on no more
 /// shots than it takes to tell.
 fn turned(
     scenario: &Scenario,

@@ -26,11 +26,11 @@ pub(crate) struct RayPacket {
     pub impacts: Impacts,
     /// Index of each shot among those that were fired together.
     pub shot: [u32; LANES],
-    /// How many impacts it has had; hits on deflectors do not count.
+    /// Number of impacts so far; hits on deflectors do not count.
     pub number: Lane,
-    /// What it stands for.
+    /// Importance weights.
     pub weight: Lane,
-    /// Whether it is one that the jet fires, and not one drawn towards the rim.
+    /// 1 for nominal samples, 0 for boundary samples.
     pub of_jet: Lane,
     /// Factor on its speed.
     pub speed: Lane,
@@ -46,12 +46,12 @@ pub(crate) struct RayPacket {
     slides: Lane,
 }
 
-/// Is told what happens to the shots of a packet.
+/// Observes what happens to the shots of a packet.
 pub(crate) trait Observer {
     /// All shots in flight have come to their next impact, or left.
     fn impacts(&mut self, packet: &RayPacket);
 
-    /// A shot's path has ended after so many rays.
+    /// A shot's path has ended after `rays` rays.
     fn ends(&mut self, shot: usize, end: End, rays: usize);
 }
 
@@ -270,7 +270,7 @@ impl RayPacket {
     }
 }
 
-/// Where the nozzle really stands for each shot.
+/// The nozzle frame of each shot, with its setup errors.
 fn nozzle_frames(tracer: &Tracer, shots: &[ShotSample]) -> Box<NozzleFrames> {
     let mut nozzle_frames = Box::new(NozzleFrames::none());
     for (i, sample) in shots.iter().take(LANES).enumerate() {

@@ -15,7 +15,7 @@ const ALL: f64 = 1e200;
 /// Halvings of the range in which an end of an interval lies.
 const HALVINGS: usize = 64;
 
-/// So many of so many shots.
+/// A number of shots out of all.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Count {
     pub broken: usize,
@@ -69,7 +69,7 @@ impl Count {
         self.counted as f64 * share * (1.0 - share) > NORMAL_FROM
     }
 
-    /// Wilson's interval, so many standard errors to both sides.
+    /// Wilson's interval, `z` standard errors to both sides.
     fn wilson(&self, standard_errors: f64) -> [f64; 2] {
         let z2 = standard_errors * standard_errors / self.counted as f64;
         let share = self.share();

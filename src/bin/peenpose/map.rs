@@ -76,7 +76,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     write(args, &view, varied)
 }
 
-/// Writes the files and says what they show: of a map that was told to stop, what is known of it.
+/// Writes the files and says what they show: of a map that was asked to stop, what is known of it.
 fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCode, Failure> {
     let (known, all) = (view.map.known_places(), view.map.cells.len());
     if known == 0 {
@@ -127,7 +127,7 @@ fn given(
     settings::choice_round(varied, &set, from, problem).map(Some)
 }
 
-/// The best settings, or the best so far when the search is told to stop.
+/// The best settings, or the best so far when the search is asked to stop.
 fn searched(args: &MapArgs, study: &Study, control: &Control) -> Result<Settings, String> {
     if !args.start.quiet {
         output::note("no --from and no --set: searching for the best settings first");

@@ -132,7 +132,7 @@ pub fn bytes(bytes: &[u8]) -> Result<ExitCode, Failure> {
     }
 }
 
-/// Reads a text of at most so many bytes.
+/// Reads a text of at most this many bytes.
 pub fn limited_text(path: &Path, most_bytes: u64) -> Result<String, String> {
     let shown = path.display();
     let mut bytes = Vec::new();

@@ -96,5 +96,5 @@ pub fn use_threads(asked: Option<u16>) -> Result<(), String> {
 
 /// More threads for each core only wait for each other,
 const MOST_PER_CORE: usize = 16;
-/// but so many harm nobody.
+/// but this many are harmless.
 const LEAST_MOST: usize = 256;

@@ -68,7 +68,7 @@ impl<'a> Neighbourhoods<'a> {
     }
 }
 
-/// Median distance from some of the points to the nearest so many others, m.
+/// Median distance from some of the points to their nearest neighbours, m.
 fn typical_distance(points: &[Point3<f64>]) -> f64 {
     let mut reaches: Vec<f64> = (0..SAMPLED)
         .map(|number| {

@@ -201,7 +201,7 @@ pub(in crate::problem) struct ToleranceEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct SolveEntry {
-    /// Accuracy of the objective, above 0 to 100 %. The search ends when fresh shots confirm it.
+    /// Accuracy of the objective, above 0 to 100 %. The search ends when validation shots confirm it.
     /// `--accuracy` overrides it.
     #[schemars(example = &"0.5 %", extend("default" = "1 %"))]
     pub accuracy: Field<Percentage>,

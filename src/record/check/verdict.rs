@@ -88,7 +88,7 @@ fn is_possible(it: &VerdictRecord, is_exact: bool) -> bool {
         && (least_high - slack..=most_high + slack).contains(&high)
 }
 
-/// Wilson's interval, so many standard errors to both sides.
+/// Wilson's interval, this many standard errors to both sides.
 fn wilson(it: &VerdictRecord, standard_errors: f64) -> [f64; 2] {
     let z2 = standard_errors * standard_errors / it.counted as f64;
     let centre = it.share + z2 / 2.0;

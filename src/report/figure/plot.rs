@@ -174,7 +174,7 @@ impl<'a, 'b> Plot<'a, 'b> {
             .draw(&Circle::new(self.place(point), radius, style))
     }
 
-    /// A text beside a point, so many pixels away.
+    /// A text beside a point, this many pixels away.
     pub fn note(
         &self,
         text: &str,

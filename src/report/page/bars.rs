@@ -206,7 +206,7 @@ impl LoadBar {
     }
 }
 
-/// What the objective of a choice consists of.
+/// The terms of the objective of a contact's best settings.
 pub struct ChoiceBar {
     /// Name of the contact.
     pub contact: String,

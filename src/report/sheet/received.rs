@@ -170,7 +170,7 @@ pub fn shown_name(record: &Record, name: &str) -> String {
     }
 }
 
-/// What zero hits among so many shots mean.
+/// What zero hits among this many shots mean.
 fn never_means(best: &AnswerRecord, surfaces: usize) -> String {
     if best.shots == 0 {
         return "no shot was traced".into();

@@ -5,7 +5,7 @@ use crate::record::{AnswerRecord, GoalsRecord, VerdictRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{fixed, plain, share_with_interval};
 
-/// One row for each verdict; nothing when nothing was judged.
+/// One row for each verdict; nothing when nothing was evaluated.
 pub fn block(best: &AnswerRecord, goals: &GoalsRecord) -> Option<Block> {
     if best.verdicts.is_empty() {
         return None;

@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn a_set_is_split_at_the_gap_in_it() {
         for axis in 0..3 {
-            // Of ten each, so many beyond the gap.
+            // Of ten each, this many beyond the gap.
             for (far, first) in [(1, -4.0), (3, 40.0), (7, -20.0)] {
                 let is_far = |index: u32| index * 3 % 10 < far;
                 let place = |index: u32| {

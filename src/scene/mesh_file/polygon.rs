@@ -25,7 +25,7 @@ pub(super) struct Polygon {
 }
 
 impl Polygon {
-    /// Work space for faces that together take at most so many looks at a corner.
+    /// Work space for faces that together take at most this many looks at a corner.
     pub fn new(most_looks: u64) -> Self {
         Self {
             flat: Vec::new(),

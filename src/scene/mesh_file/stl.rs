@@ -11,7 +11,7 @@ use super::stl_layout::{self, Layout, Record};
 /// Bytes before the first triangle: 80 of comment and the number of triangles.
 pub(super) const HEADER: u64 = 84;
 
-/// Whether a file of so many bytes that begins like this is binary STL of the size that its header
+/// Whether a file of this many bytes that begins like this is binary STL of the size that its header
 /// promises, whatever it begins with: many programs write `solid` there.
 pub(super) fn is_binary(head: &[u8], bytes: u64) -> bool {
     promised(head).is_some_and(|count| stl_layout::fits(bytes.saturating_sub(HEADER), count))
@@ -28,7 +28,7 @@ pub(super) fn is_text(head: &[u8]) -> bool {
     starts && (holds(b"facet") || holds(b"endsolid") || !text.contains(&0))
 }
 
-/// Reads a binary STL file of so many bytes into the assembly.
+/// Reads a binary STL file of this many bytes into the assembly.
 pub(super) fn read(
     source: &mut (impl BufRead + Seek),
     head: &[u8],

@@ -16,7 +16,7 @@ const LINE_END: u64 = 2;
 const UNKNOWN: [u64; 2] = [u32::MAX as u64, i32::MAX as u64];
 /// Where fewer normals than this share can be normals, bytes stand between the triangles.
 const SOUND: f64 = 0.9;
-/// Triangles lie within the box round the others, made so many times larger.
+/// Triangles lie within the box round the others, made this many times larger.
 const NEAR: f64 = 10.0;
 
 /// How the triangles follow each other.
@@ -30,7 +30,7 @@ pub(super) struct Layout {
     pub must_close: bool,
 }
 
-/// Whether so many triangles fill so many bytes behind the header.
+/// Whether this many triangles fill this many bytes behind the header.
 pub(super) fn fits(body: u64, count: u64) -> bool {
     let extra = body.checked_sub(count.saturating_mul(RECORD));
     extra.is_some_and(|extra| extra <= LINE_END)

@@ -12,7 +12,7 @@ use super::clusters::Clusters;
 use super::precision::precision;
 use crate::scene::mesh::{Mesh, open_edges};
 
-/// Edges shorter than so many times the distance of their ends are the shape, not a crack.
+/// Edges shorter than this many times the distance of their ends are the shape, not a crack.
 const SHORTEST: f64 = 4.0;
 /// Edges that are tried as the other side of a crack; where more are as near, they are no cracks.
 const MOST_PARTNERS: usize = 64;

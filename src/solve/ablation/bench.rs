@@ -61,7 +61,7 @@ pub(super) struct Bench<'a> {
     scenario: &'a Scenario,
     /// Where a part of the shots come from.
     importance: Option<&'a ImportanceDensity>,
-    /// The best choice of every contact that could win, the best one first.
+    /// The best settings of each contact that could win, the best ones first.
     leading: Vec<Settings>,
     /// Shots of the whole model.
     shots: Vec<ShotSample>,
@@ -107,7 +107,7 @@ impl<'a> Bench<'a> {
         })
     }
 
-    /// Changes of J, relative, at every leading choice, with the shots of a reduced scenario.
+    /// Changes of J, relative, at all leading settings, with the shots of a reduced scenario.
     fn changes(&self, reduced: &Scenario, shots: &[ShotSample]) -> Vec<f64> {
         let pairs = self.leading.par_iter().zip(&self.whole);
         let change = |(settings, whole): (&Settings, &f64)| {
@@ -116,7 +116,7 @@ impl<'a> Bench<'a> {
         pairs.map(change).collect()
     }
 
-    /// The best settings of a setup near the first leading choice.
+    /// The best settings of a scenario near the first leading ones.
     fn descend(&self, scenario: &Scenario, shots: &[ShotSample]) -> Settings {
         let settings = &self.leading[0];
         let evaluator = Evaluator::new(scenario, shots, self.effort, self.control);
@@ -138,7 +138,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// The whole model at the first leading choice.
+    /// The whole model at the first leading settings.
     pub(super) fn start(&self) -> Start {
         let validation = draw_validation(self.scenario);
         let verdicts = passes(self.scenario, &self.leading[0], &validation).into_iter();
@@ -180,7 +180,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Rays of a pose of a reduced setup over those of the whole one. Unlike times they are the same on every
+    /// Rays of a pose of a reduced scenario over those of the whole one. Unlike times they are the same on every
     /// machine.
     fn relative_rays(&self, reduced: &Scenario, fewer: &[ShotSample]) -> f64 {
         let settings = &self.leading[0];
@@ -223,7 +223,7 @@ fn draw_validation(scenario: &Scenario) -> Replicates {
     Replicates::without_boundary(&scenario.problem, purpose::EFFECTS, SHOTS)
 }
 
-/// Whether each verdict on a choice passes.
+/// Whether each verdict on some settings passes.
 fn passes(
     scenario: &Scenario,
     settings: &Settings,

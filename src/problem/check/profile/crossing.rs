@@ -225,7 +225,7 @@ mod tests {
 
     #[test]
     fn a_joint_may_be_as_smooth_as_its_coordinates_are_typed() {
-        // A line that is off the tangent by so many rad where a quarter of a circle begins.
+        // A line that is off the tangent by this many rad where a quarter of a circle begins.
         let quarter = arc(
             [0.0, 0.0],
             [0.5_f64.sqrt(), 1.0 - 0.5_f64.sqrt()],

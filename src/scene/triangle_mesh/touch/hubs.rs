@@ -146,7 +146,7 @@ mod tests {
 
     const SLACK: f64 = 1e-12;
 
-    /// The hubs of a cone of so many triangles with its tip at this height, each of a surface.
+    /// The hubs of a cone of this many triangles with its tip at this height, each of a surface.
     fn hubs(count: u32, height: f64, surface: impl Fn(u32) -> u32) -> Option<Hubs> {
         let rim = |place: u32| {
             let angle = std::f64::consts::TAU * f64::from(place) / f64::from(count);
