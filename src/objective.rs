@@ -32,6 +32,17 @@ impl Terms {
         self.normal_impulse + self.tangential_impulse + self.rebound + self.miss
     }
 
+    /// The same in proportion, with another J.
+    pub(crate) fn scaled_to(&self, total: f64) -> Self {
+        let factor = total / self.total();
+        Self {
+            normal_impulse: self.normal_impulse * factor,
+            tangential_impulse: self.tangential_impulse * factor,
+            rebound: self.rebound * factor,
+            miss: self.miss * factor,
+        }
+    }
+
     /// Whether shots can have such terms: none is below 0.
     pub(crate) fn are_sound(&self) -> bool {
         let terms = [

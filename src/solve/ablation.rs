@@ -1,4 +1,4 @@
-//! What each effect of the model does at the answer: the model without it against the whole one.
+//! Ablation: each effect of the model left out at the answer.
 
 mod bench;
 
@@ -14,22 +14,22 @@ use crate::scenario::Scenario;
 use crate::verdict::Subject;
 use bench::Bench;
 
-/// What one effect does: the model without it against the whole model.
+/// The model without one effect against the whole model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ablation {
     /// The effect.
     pub effect: Effect,
-    /// By how much J changes without it at the leading settings, relative.
+    /// Relative change of J without it at the leading settings.
     pub change: f64,
     /// The largest such change, either way, over the leading settings of all contacts.
     pub largest_change: f64,
-    /// The verdicts that turn without it.
+    /// The verdicts that change without it.
     pub turned: Vec<Subject>,
     /// The best settings near the leading ones without it, and with it.
     pub best_without: Settings,
     /// See `best_without`.
     pub best_with: Settings,
-    /// By how much J of the whole model is higher at the former, relative.
+    /// Regret: by how much J of the whole model is higher at the former, relative.
     pub regret: f64,
     /// Rays of a pose without it over rays with it.
     pub relative_rays: f64,
@@ -37,7 +37,7 @@ pub struct Ablation {
     pub left_out: bool,
 }
 
-/// Shots behind changes of J and of verdicts.
+/// Shots that changes of J and of verdicts are measured on.
 const SHOTS: usize = 1024;
 
 /// Measures every effect of a problem, those of the model that is asked for first, at the best

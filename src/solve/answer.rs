@@ -14,9 +14,9 @@ use crate::verdict::Verdict;
 pub struct Answer {
     /// The settings.
     pub settings: Settings,
-    /// What they do, on validation shots; `None` when the nozzle does not fit.
+    /// Their evaluation on validation shots; `None` when the nozzle does not fit.
     pub evaluation: Option<Evaluation>,
-    /// Verdicts on that.
+    /// Its verdicts.
     pub verdicts: Vec<Verdict>,
     /// By how much the pose is infeasible, m; 0 when it is feasible.
     pub violation: f64,
@@ -25,7 +25,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// By this answers are ranked.
+    /// Answers are ranked by this.
     pub(super) fn order(&self) -> f64 {
         match &self.evaluation {
             Some(evaluation) => Fitness::Feasible(evaluation.terms).rank(),
@@ -61,7 +61,7 @@ impl Answer {
             && self.verdicts.iter().all(Verdict::passes)
     }
 
-    /// The answers that candidates are, with figures from shots that the search has not seen.
+    /// Answers from candidates, evaluated on validation shots.
     pub(super) fn of_all(
         scenario: &Scenario,
         candidates: &[&Candidate],
@@ -87,7 +87,7 @@ impl Answer {
         candidates.iter().filter_map(answer).collect()
     }
 
-    /// The answer that settings are at which the nozzle fits.
+    /// The answer for settings at which the nozzle fits.
     pub(super) fn feasible(
         scenario: &Scenario,
         settings: &Settings,
@@ -98,7 +98,7 @@ impl Answer {
         Self::evaluated(scenario, settings, Some(evaluation))
     }
 
-    /// Settings with the verdicts on what they do, if that is known, and on the pose that they mean.
+    /// Settings with the verdicts on their evaluation, if there is one, and on their pose.
     pub fn evaluated(
         scenario: &Scenario,
         settings: &Settings,

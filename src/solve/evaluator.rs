@@ -7,11 +7,12 @@ use serde::{Deserialize, Serialize};
 
 use super::objectives::Objectives;
 use super::pareto_archive::ParetoArchive;
+use super::race::{LOOKS, Look, Race};
 use crate::checkpoint::{Checkpoint, Page};
 use crate::control::Control;
 use crate::feasibility::infeasibility;
 use crate::jet::ShotSample;
-use crate::objective::{Rest, Tally, Terms};
+use crate::objective::{Tally, Terms};
 use crate::problem::model::Model;
 use crate::problem::setting::{Range, Settings};
 use crate::scenario::Scenario;
@@ -92,6 +93,8 @@ struct Evaluated {
     /// The best one, m/s.
     speed: f64,
     fitness: Fitness,
+    /// J of the first shots at each look, as far as it was looked at.
+    partial: Vec<f64>,
     rays: usize,
 }
 
@@ -99,7 +102,9 @@ impl Evaluated {
     /// Whether evaluating `settings` can give this: the best speed is theirs, or one within the range.
     fn is_sound(&self, settings: &Settings, range: Range) -> bool {
         let is_allowed = self.speed == settings.speed || range.contains(self.speed);
-        is_allowed && self.fitness.is_sound() && self.rays <= MOST_RAYS
+        let are_sound = self.partial.iter().all(|objective| *objective >= 0.0);
+        let looks = self.partial.len() <= LOOKS;
+        is_allowed && self.fitness.is_sound() && are_sound && looks && self.rays <= MOST_RAYS
     }
 }
 
@@ -159,27 +164,28 @@ impl<'a> Evaluator<'a> {
         self.control.is_stopped()
     }
 
-    /// The fitness of some settings, and the settings with the best speed for them.
+    /// The fitness of some settings, the settings with the best speed for them, and J of the first shots.
     ///
-    /// Where the first shots prove that J of all of them is above `cut`, they are all that is traced, and J
-    /// is what it is on them. So it is after a request to stop, on however few shots, and nothing of it is
-    /// kept.
-    pub(super) fn evaluate(&self, settings: &Settings, cut: f64) -> (Settings, Fitness) {
-        let cut = if self.ends_early() {
-            cut
-        } else {
-            f64::INFINITY
-        };
+    /// Where the first shots decide a race, they are all that is traced, and J is an estimate above the rival's.
+    /// After a request to stop J is that of however few shots were traced, and nothing of it is kept.
+    pub(super) fn evaluate(
+        &self,
+        settings: &Settings,
+        race: &Race,
+    ) -> (Settings, Fitness, Vec<f64>) {
+        let none = Race::none();
+        let race = if self.ends_early() { race } else { &none };
+        let key = race.numbers();
         let range = self.scenario.problem.ranges.speed;
         let is_sound = |evaluated: &Evaluated| evaluated.is_sound(settings, range);
         let page = self.page.as_ref();
-        let recalled = page.and_then(|page| page.recall(settings, &[cut], is_sound));
+        let recalled = page.and_then(|page| page.recall(settings, &key, is_sound));
         let evaluated = recalled.unwrap_or_else(|| {
-            let evaluated = self.evaluate_anew(settings, cut);
+            let evaluated = self.evaluate_anew(settings, race);
             if let Some(page) = page
                 && !self.is_stopped()
             {
-                page.keep(settings, &[cut], &evaluated);
+                page.keep(settings, &key, &evaluated);
             }
             evaluated
         });
@@ -194,7 +200,7 @@ impl<'a> Evaluator<'a> {
         {
             archive.add(settings, terms, factors);
         }
-        (settings, evaluated.fitness)
+        (settings, evaluated.fitness, evaluated.partial)
     }
 
     /// Whether evaluations may end early. With an archive they may not: what is hopeless with some factors on
@@ -205,26 +211,40 @@ impl<'a> Evaluator<'a> {
             && self.scenario.problem.model != Model::Full
     }
 
-    fn evaluate_anew(&self, settings: &Settings, cut: f64) -> Evaluated {
+    fn evaluate_anew(&self, settings: &Settings, race: &Race) -> Evaluated {
         if let Some(infeasible) = infeasibility(self.scenario, settings) {
             return Evaluated {
                 speed: settings.speed,
                 fitness: Fitness::Infeasible(infeasible.violation),
+                partial: Vec::new(),
                 rays: 0,
             };
         }
-        let mut tally = Tally::default();
-        for look in &self.looks {
+        let (mut tally, mut partial) = (Tally::default(), Vec::new());
+        // Whoever enters no race may be the rival of others.
+        let looks = if self.ends_early() { &*self.looks } else { &[] };
+        for (index, look) in looks.iter().enumerate() {
             tally = self.traced_up_to(look.end, settings, tally);
-            if cut < f64::INFINITY {
-                let evaluated = self.evaluated(settings, &tally);
-                if evaluated.fitness.rank() * tally.least_share_with(&look.rest) > cut {
-                    return evaluated;
-                }
+            let (speed, terms) = self.best_speed(settings, &tally);
+            let share = tally.least_share_with(&look.rest);
+            if let Some(estimate) = race.lost(index, terms.total(), share) {
+                return Evaluated {
+                    speed,
+                    fitness: Fitness::Feasible(terms.scaled_to(estimate)),
+                    partial,
+                    rays: tally.rays,
+                };
             }
+            partial.push(terms.total());
         }
         let all = self.traced_up_to(self.shots.len(), settings, tally);
-        self.evaluated(settings, &all)
+        let (speed, terms) = self.best_speed(settings, &all);
+        Evaluated {
+            speed,
+            fitness: Fitness::Feasible(terms),
+            partial,
+            rays: all.rays,
+        }
     }
 
     /// What some of the first shots did, and those up to `end`.
@@ -233,18 +253,15 @@ impl<'a> Evaluator<'a> {
         Tally::join(vec![tally, next])
     }
 
-    fn evaluated(&self, settings: &Settings, tally: &Tally) -> Evaluated {
+    /// The best speed, m/s, and the terms there.
+    fn best_speed(&self, settings: &Settings, tally: &Tally) -> (f64, Terms) {
         let problem = &self.scenario.problem;
         let speed = if self.scenario.speed_scales_out(settings.contact) {
             tally.best_speed(&problem.goals, problem.ranges.speed)
         } else {
             settings.speed
         };
-        Evaluated {
-            speed,
-            fitness: Fitness::Feasible(tally.terms(&problem.goals, speed)),
-            rays: tally.rays,
-        }
+        (speed, tally.terms(&problem.goals, speed))
     }
 
     /// Traces shots, on all threads where they are some of many.
@@ -265,30 +282,6 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// A moment at which J of the first shots may prove that J of all is too high.
-struct Look {
-    /// Shots until then.
-    end: usize,
-    rest: Rest,
-}
-
-impl Look {
-    /// All of them: they do not depend on the cut, on which the order of sums and so their last bits must not.
-    fn all(shots: &[ShotSample]) -> Vec<Self> {
-        let ends = LOOKS.map(|share| (shots.len() as f64 * share) as usize);
-        let worthwhile = ends.into_iter().filter(|&end| end >= FEWEST);
-        let look = |end| Self {
-            end,
-            rest: Rest::of(&shots[end..]),
-        };
-        worthwhile.map(look).collect()
-    }
-}
-
-/// Shares of the shots after which J is looked at.
-const LOOKS: [f64; 4] = [0.125, 0.25, 0.5, 0.75];
-/// Shots that are traced before J is looked at, at least.
-const FEWEST: usize = 64;
 /// One thread traces up to this many shots alone.
 const MOST_ALONE: usize = 2048;
 /// Shots of larger samples that one thread traces at a time.

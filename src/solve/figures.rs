@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::scenario::Scenario;
 use crate::verdict::Verdict;
 
-/// Evaluates what searches have found on shots that they have not seen.
+/// Evaluates the candidates of searches on validation shots.
 pub(super) struct Figures<'a> {
     scenario: &'a Scenario,
     effort: &'a Effort,
@@ -94,9 +94,9 @@ impl<'a> Figures<'a> {
     }
 }
 
-/// So many shots give figures to who does not want to wait for more.
+/// Validation shots after a request to stop.
 const FEW: usize = 1024;
-/// So long, s, who asked for an end waits for figures at most.
+/// Longest time of the validation after a request to stop, s.
 const PATIENCE: f64 = 0.2;
 
 /// Whether it is uncertain if the answer that would be recommended passes.

@@ -1,11 +1,17 @@
 //! The search for the best settings.
 //!
-//! J over the settings is a flat valley that ends at a cliff, or a needle in a plateau, with a jump
-//! wherever one shot changes surface. So: screen widely with few shots, go down from the best few
-//! places with Nelder-Mead, raise the number of shots as the candidates get better, draw a part of
-//! them from where the leading candidate does harm, decide between candidates on common shots, and
-//! report the winner on shots that the search has not seen. The speed is not searched: its best value
-//! follows exactly from the traced paths wherever restitution does not depend on it.
+//! J over the settings is a flat valley that ends at a cliff, or a needle in a plateau, with a jump wherever one
+//! shot changes surface. So the search
+//!
+//! 1. screens a low-discrepancy set of poses with few shots;
+//! 2. descends from the best few with Nelder-Mead, and goes on with fewer candidates and more shots (successive
+//!    halving); poses are compared on common random numbers, and those that clearly lose end early (racing);
+//! 3. draws a part of the shots with an importance density for the violations of the incumbent;
+//! 4. validates the answer on shots that the search has not seen, and raises the number of shots while the
+//!    optimism gap is too large.
+//!
+//! The speed is not searched: its best value follows exactly from the traced paths wherever restitution does not
+//! depend on it.
 
 mod ablation;
 mod answer;
@@ -16,6 +22,7 @@ mod objectives;
 mod pareto_archive;
 mod point;
 mod polish;
+mod race;
 mod sampler;
 mod search;
 mod space;
@@ -76,10 +83,10 @@ const SCREENING_SHOTS: usize = 64;
 /// Up to this many shots every contact is refined for itself; beyond only those that could win, the
 /// best one first.
 const CHEAP_SHOTS: usize = 1024;
-/// By how much the shots rise when the last stage was not accurate enough.
+/// Factor on the number of shots when the last stage was not accurate enough.
 const RISE: usize = 4;
 
-/// Choices for a contact, spread evenly over all settings: one where every setting is held.
+/// Settings for a contact, spread evenly over their ranges: one where every setting is held.
 pub fn spread_settings(scenario: &Scenario, contact: usize, count: usize) -> Vec<Settings> {
     let space = Space::new(&scenario.problem, contact, true);
     let count = if space.dimensions() == 0 { 1 } else { count };

@@ -1,4 +1,4 @@
-//! Every pose that was evaluated on the way to a front, and which of them are worth keeping.
+//! Archive of all evaluations on the way to a Pareto front.
 
 use std::cmp::Ordering;
 use std::sync::Mutex;
@@ -15,7 +15,7 @@ pub(super) struct Evaluated {
     pub objectives: Objectives,
 }
 
-/// What was evaluated, by any thread.
+/// Evaluations of all threads.
 #[derive(Debug, Default)]
 pub(super) struct ParetoArchive(Mutex<Vec<Evaluated>>);
 
@@ -32,7 +32,7 @@ impl ParetoArchive {
         list.push(evaluated);
     }
 
-    /// All of it, in an order that does not depend on the threads.
+    /// All evaluations, in an order that does not depend on the threads.
     pub fn into_sorted(self) -> Vec<Evaluated> {
         let mut all = self
             .0
@@ -87,8 +87,8 @@ pub(super) fn not_dominated(sorted: Vec<Evaluated>) -> Vec<Evaluated> {
     front
 }
 
-/// At most this many that are spread over all: the least of each risk, then always the one that is
-/// farthest from those already taken.
+/// A spread of at most `most`: the least of each risk, then always the one that is farthest from those
+/// already taken.
 pub(super) fn spread_out(front: Vec<Evaluated>, most: usize) -> Vec<Evaluated> {
     let largest = |risk: usize| {
         front

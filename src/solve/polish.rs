@@ -1,4 +1,4 @@
-//! Downhill from a start with argmin's Nelder-Mead method, inside the unit cube.
+//! Local search: argmin's Nelder-Mead method inside the unit cube.
 
 use std::cell::RefCell;
 
@@ -7,33 +7,42 @@ use argmin::solver::neldermead::NelderMead;
 
 use super::evaluator::{Evaluator, Fitness};
 use super::point::Point;
+use super::race::Race;
 use super::space::Space;
 use crate::problem::setting::Settings;
 
-/// A point of the search with what it is worth.
+/// A point of the search with its fitness.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// Coordinates in the unit cube; any number on a periodic axis.
     pub point: Vec<f64>,
     /// The settings there, with the best speed.
     pub settings: Settings,
-    /// What they are worth on the shots they were evaluated on.
+    /// Their fitness on the shots they were evaluated on.
     pub fitness: Fitness,
+    /// J of the first shots at each look of a race.
+    pub partial: Vec<f64>,
 }
 
 impl Candidate {
     /// Evaluates a point.
     pub fn at(space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
-        Self::below(f64::INFINITY, space, evaluator, point)
+        Self::in_race(&Race::none(), space, evaluator, point)
     }
 
     /// Evaluates a point, exactly where its rank is not above `cut`.
     pub fn below(cut: f64, space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
-        let (settings, fitness) = evaluator.evaluate(&space.settings(point), cut);
+        Self::in_race(&Race::above(cut), space, evaluator, point)
+    }
+
+    /// Evaluates a point, exactly where it does not lose a race.
+    fn in_race(race: &Race, space: &Space, evaluator: &Evaluator, point: &[f64]) -> Self {
+        let (settings, fitness, partial) = evaluator.evaluate(&space.settings(point), race);
         Self {
             point: space.within(point),
             settings,
             fitness,
+            partial,
         }
     }
 
@@ -72,8 +81,8 @@ impl CostFunction for &Descent<'_> {
         }
         let mut leading = self.leading.borrow_mut();
         // What is above all corners of the simplex is rejected, however far above.
-        let worst = leading[leading.len() - 1].fitness.rank();
-        let candidate = Candidate::below(worst, self.space, self.evaluator, point);
+        let race = Race::against_worst(&leading);
+        let candidate = Candidate::in_race(&race, self.space, self.evaluator, point);
         let rank = candidate.fitness.rank();
         let pairs = point.iter().zip(&candidate.point);
         let outside: f64 = pairs.map(|(x, within)| (x - within).abs()).sum();

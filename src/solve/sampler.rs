@@ -12,10 +12,10 @@ use crate::jet::{ImportanceDensity, Replicates, Samples, Stream, purpose};
 use crate::objective::Tally;
 use crate::scenario::Scenario;
 
-/// Draws the shots of a search, more and more of them from where the leading candidate violates limits.
+/// Draws the shots of a search, a part of them with an importance density for the violations of the incumbent.
 pub(super) struct Sampler<'a> {
     scenario: &'a Scenario,
-    /// Where violations come from, once that is known.
+    /// The importance density, once there is one.
     importance: Option<ImportanceDensity>,
 }
 
@@ -82,5 +82,5 @@ fn leader(searches: &[Search]) -> Option<&Candidate> {
     best.min_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()))
 }
 
-/// Samples that tell how much J scatters.
+/// Samples for the variance of J.
 const SAMPLES: u32 = 8;

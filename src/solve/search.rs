@@ -22,7 +22,7 @@ pub(super) struct Stage {
     pub descents: usize,
 }
 
-/// More and more shots for fewer and fewer candidates.
+/// Successive halving: more shots for fewer candidates.
 pub(super) const STAGES: [Stage; 3] = [
     Stage {
         shots: 256,
@@ -62,7 +62,7 @@ pub(super) const STAGES_SET_EXACTLY: [Stage; 3] = [
 ];
 
 impl Stage {
-    /// What follows the last stage while the answer is not accurate enough.
+    /// The stage after the last one, while the answer is not accurate enough.
     pub fn beyond(shots: usize) -> Self {
         Self {
             shots,
@@ -157,7 +157,7 @@ impl Search {
         self.sort();
     }
 
-    /// Goes on from the best candidate with more shots, or from where another contact is best.
+    /// Goes on from the best candidate with more shots, or warm from the incumbent of another contact.
     pub fn refine_from_incumbent(
         &mut self,
         leader: &Candidate,
@@ -170,7 +170,7 @@ impl Search {
         self.candidates = vec![found.unwrap_or_else(own)];
     }
 
-    /// Goes on from where another contact is best, if that is better than where this one is.
+    /// Goes on from the incumbent of another contact, if that is better here than this contact's own.
     pub fn follow(&mut self, leader: &Candidate, evaluator: &Evaluator, stage: &Stage) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
         if let Some(found) = self.beside(&here, leader, evaluator, stage) {
@@ -178,7 +178,7 @@ impl Search {
         }
     }
 
-    /// What is found from where another contact is best, if that is better than here.
+    /// Warm start: what is found from the incumbent of another contact, if that is better than here.
     ///
     /// Often friction makes little difference: what is within half the accuracy of J of that
     /// contact is taken as it is, unless something on the way back is better by as much: with other
@@ -245,7 +245,7 @@ mod tests {
         scenario
     }
 
-    /// Runs with a judge and a search that stands at an incidence, deg.
+    /// Runs with an evaluator and with searches that start at an incidence, deg.
     fn on_common_shots(check: impl Fn(&Evaluator, &dyn Fn(usize, f64) -> Search)) {
         let scenario = scenario();
         let shots = Samples::with_boundary(&scenario.problem, Stream::Search, 1024).shots;

@@ -67,7 +67,7 @@ impl Space {
         self.axes.len()
     }
 
-    /// The choice at a point; coordinates outside 0 to 1 go round on a periodic axis and stop at
+    /// The settings at a point; coordinates outside 0 to 1 go round on a periodic axis and stop at
     /// the bound on any other.
     pub fn settings(&self, point: &[f64]) -> Settings {
         let mut settings = self.base;

@@ -9,6 +9,6 @@ pub enum Status {
     BudgetSpent,
     /// The nozzle collides with the part at every pose that was tried.
     NoFeasiblePose,
-    /// It was asked to stop.
+    /// It was interrupted.
     Interrupted,
 }

@@ -1,4 +1,4 @@
-//! When the answer is good enough.
+//! Stopping rule: when the answer is good enough.
 
 use super::answer::Answer;
 use super::search::Search;
@@ -20,18 +20,16 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
     objective.is_none_or(|objective| objective <= least * (1.0 + IN_REACH))
 }
 
-/// The searches that could still change the answer: among the contacts that could win, those whose J
-/// on validation shots is above what is claimed for the shots of the search by more than a
-/// part of the accuracy asked for, and by more than its error where that cannot be told any better.
+/// The searches that could still change the answer: contacts that could win, whose optimism gap is above a part
+/// of the accuracy and above its standard error.
 ///
-/// The least J on any set of shots is on average below the least true J, and the true J of the
-/// settings found is above it. So the gap between the two bounds how far these settings are from
-/// the best ones; and a contact cannot win where even what is claimed, less its error, is above what another
-/// one was found to reach.
+/// The least J on a sample is on average below the least true J, and the true J of the settings found is above it
+/// (sample average approximation). So the gap between J on the search's shots and on validation shots bounds how
+/// far these settings are from the best ones; and a contact cannot win where even its J on the search's shots, less
+/// its error, is above J of another one.
 ///
-/// Where the error is too large for that gap to say much, the search goes on as well, until it has
-/// seen as many shots as stand behind the figures. What is left of J where every goal is reached is
-/// rounding, of which no accuracy can be asked.
+/// Where the standard error is too large for that gap to say much, the search goes on as well, up to the number of
+/// validation shots. Where every goal is reached J is rounding, of which no accuracy can be asked.
 pub(super) fn not_converged(
     searches: &[Search],
     answers: &[Answer],
@@ -62,7 +60,7 @@ pub(super) fn not_converged(
         .collect()
 }
 
-/// Whether J of a contact that could win is known too vaguely to tell how good it is.
+/// Whether J of a contact that could win is too noisy.
 pub(super) fn is_noisy(answers: &[Answer], problem: &Problem) -> bool {
     let least = least_found(answers);
     let is_noisy = |found: f64, error: f64| {
@@ -74,7 +72,7 @@ pub(super) fn is_noisy(answers: &[Answer], problem: &Problem) -> bool {
     })
 }
 
-/// Whether J scatters so little over sets of shots that more of them would tell a search nothing.
+/// Whether the variance of J over samples is so small that a search gains nothing from more shots.
 pub(super) fn is_precise(objectives: &[f64], problem: &Problem) -> bool {
     let count = objectives.len() as f64;
     let mean = objectives.iter().sum::<f64>() / count;
@@ -88,12 +86,12 @@ fn least_found(answers: &[Answer]) -> f64 {
     found.fold(f64::INFINITY, f64::min)
 }
 
-/// How well J of an answer should be known.
+/// The standard error that J of an answer should have.
 fn wanted(found: f64, problem: &Problem) -> f64 {
     (problem.accuracy * found).max(rounding_of_objective(&problem.goals))
 }
 
-/// J of shots whose impulses are what is wanted but for rounding.
+/// J of shots whose impulses are as wanted but for rounding.
 pub(super) fn rounding_of_objective(goals: &Goals) -> f64 {
     let tangential = goals.tangential_impulse.map_or(0.0, |goal| goal.weight);
     goals.normal_impulse.weight.max(tangential) * ROUNDING * ROUNDING
@@ -105,12 +103,12 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// least value there shows less of a gap than its settings are worse: with half of the accuracy 2 of
 /// 100 seeds were up to 2 % off in the long hub set within its tolerance.
 const TOLERABLE: f64 = 0.35;
-/// The same for a sample as large as the one that stands behind the figures, which has such hollows
+/// The same for a sample as large as the validation sample, which has such hollows
 /// less often; asking more of it makes some searches of the fir tree three times as long.
 const TOLERABLE_ON_MANY: f64 = 0.5;
 /// Share of the accuracy by which a contact must promise to be better than the best one.
 const WORTHWHILE: f64 = 0.5;
-/// Share of the accuracy above which an error is too large for the gap to say much.
+/// Share of the accuracy above which a standard error is too large for the gap to say much.
 const NOISY: f64 = 0.35;
 /// Standard errors that a difference must exceed to count.
 const CONFIDENCE: f64 = 2.0;

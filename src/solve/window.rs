@@ -1,4 +1,4 @@
-//! How far each setting may drift alone before a verdict turns.
+//! Tolerance windows: how far each setting may drift alone before a verdict changes.
 
 use rayon::prelude::*;
 
@@ -26,11 +26,11 @@ pub struct Window {
 /// How far a setting may drift one way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
-    /// The last value at which no verdict has turned, SI.
+    /// The last value at which no verdict has changed, SI.
     pub to: f64,
-    /// Width of the interval in which the turn lies, SI; 0 when none turned.
+    /// Width of the interval in which one changes, SI; 0 when none does.
     pub within: f64,
-    /// What turns beyond.
+    /// What changes beyond.
     pub turns: Option<Turn>,
 }
 
@@ -45,9 +45,9 @@ pub enum Turn {
     FreeSpace,
 }
 
-/// Halvings of the interval in which a verdict turns.
+/// Halvings of the interval in which a verdict changes.
 const HALVINGS: usize = 6;
-/// Steps of doubling length from the choice outwards.
+/// Steps of doubling length from the answer outwards.
 const DOUBLINGS: i32 = 5;
 
 /// The windows round the best answer, for the verdicts that it passes; none without a pose that fits, and
@@ -114,10 +114,10 @@ trait Shots {
     fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts>;
 }
 
-/// Scramblings that are fired together.
+/// Replicates that are fired together.
 const SETS: usize = 2;
 
-/// Surveys of some of the sets, those that are fired together; `None` beyond the last.
+/// Impulses of replicates that are fired together; `None` beyond the last.
 fn largest_impulses(
     scenario: &Scenario,
     settings: &Settings,
@@ -142,7 +142,7 @@ fn counts(
     ViolationCounts::together(scenario, each)
 }
 
-/// Shots that are traced at every choice.
+/// Shots that are traced at all settings.
 struct Traced<'a> {
     scenario: &'a Scenario,
     validation: &'a Replicates,
@@ -155,7 +155,7 @@ impl Shots for Traced<'_> {
     }
 }
 
-/// Shots at choices that differ in the speed only, on which their paths do not depend.
+/// Shots at settings that differ in the speed only, on which their paths do not depend.
 struct Recorded<'a> {
     scenario: &'a Scenario,
     settings: &'a Settings,
@@ -273,7 +273,7 @@ fn turned(
             .filter(|verdict| passing.contains(&verdict.subject))
             .collect();
         let failing = verdicts.iter().filter(|verdict| !verdict.passes());
-        let worst = failing.max_by(|a, b| a.load().total_cmp(&b.load()));
+        let worst = failing.max_by(|a, b| a.utilisation().total_cmp(&b.utilisation()));
         turn = worst.map(|verdict| Turn::Verdict(verdict.subject));
         let is_clear = match worst {
             Some(worst) => worst.is_beyond_doubt(),

@@ -41,7 +41,7 @@ fn reduced_shots<'a>(
     shots.into()
 }
 
-/// Whether the shots of two setups are the same.
+/// Whether the shots of two scenarios are the same.
 fn draw_alike(one: &Scenario, other: &Scenario) -> bool {
     let (one, other) = (&one.problem, &other.problem);
     one.jet == other.jet
