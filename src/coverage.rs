@@ -168,15 +168,10 @@ fn hits(scenario: &Scenario, settings: &Settings, samples: &[Replicate]) -> Vec<
     scenario.problem.paths.impacts = 1;
     let tracer = Tracer::new(&scenario, settings, settings.speed);
     let points = |sample: &Replicate| {
-        let mut points = Vec::new();
-        for sample in &sample.jet.shots {
-            tracer.follow(sample, |first| {
-                if first.on_target {
-                    points.push(first.point);
-                }
-            });
-        }
-        points
+        let paths = tracer.paths(&sample.jet.shots);
+        let counted = paths.iter().flat_map(|path| &path.impacts);
+        let first = counted.filter(|impact| impact.number == 1 && impact.on_target);
+        first.map(|impact| impact.point).collect()
     };
     samples.par_iter().map(points).collect()
 }

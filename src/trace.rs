@@ -2,24 +2,24 @@
 
 mod compaction;
 mod packet;
+mod path;
 mod rough;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use packet::{Observer, RayPacket, mask};
+pub use path::{Path, PathImpact};
 
 use std::hint::black_box;
 
-use nalgebra::{Point3, Vector3};
-
-use crate::impact::{Contact, Friction, Regime, Restitution, rebound};
+use crate::impact::{Contact, Friction, Restitution};
 use crate::jet::{Aim, Pose, ShotSample};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
 use crate::scene::nozzle_frame::NozzleFrame;
-use crate::scene::ray::{HitId, Ray};
-use crate::triple::{Triple, dot, unit};
+use crate::scene::ray::Ray;
+use crate::triple::{Triple, dot};
 use packet::fire;
 
 /// Traces shots of some settings.
@@ -46,33 +46,6 @@ pub struct Tracer<'a> {
 struct OnlyContact {
     restitution: f64,
     friction: Friction,
-}
-
-/// One impact of a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathImpact {
-    /// 1 for the first hit; 0 on a deflector, where hits are not counted.
-    pub number: usize,
-    /// Index of the surface.
-    pub surface: u32,
-    /// Whether it is on the target patch.
-    pub on_target: bool,
-    /// N*, N s.
-    pub normal_impulse: f64,
-    /// f*, N s.
-    pub tangential_impulse: f64,
-    /// Stick or slip.
-    pub regime: Regime,
-    /// The place of contact, m.
-    pub point: Point3<f64>,
-    /// Unit normal of the surface there, towards the side that the shot comes from.
-    pub normal: Vector3<f64>,
-    /// Where the centre of the shot is, m.
-    pub centre: Point3<f64>,
-    /// Velocity of the centre afterwards, m/s.
-    pub velocity: Vector3<f64>,
-    /// R w afterwards, m/s, R being the shot's radius.
-    pub rolling: Vector3<f64>,
 }
 
 /// Why a path ended.
@@ -128,111 +101,10 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Follows one shot of the jet; reports each impact but those on deflectors. Returns why the
-    /// path ended and how many rays it took.
-    #[inline]
-    pub fn follow(&self, sample: &ShotSample, report: impl FnMut(&PathImpact)) -> (End, usize) {
-        self.follow_from(self.launch(sample), sample, report)
-    }
-
     /// The ray along which a shot of the jet leaves the nozzle.
     #[inline]
     pub fn launch(&self, sample: &ShotSample) -> Ray {
         self.aim.shot(&self.scenario.target.frame, sample)
-    }
-
-    /// Follows a shot that starts anywhere in the scene, with the mass, speed, contact and pose of
-    /// the nozzle that `sample` gives it.
-    #[inline]
-    pub fn follow_from(
-        &self,
-        start: Ray,
-        sample: &ShotSample,
-        mut report: impl FnMut(&PathImpact),
-    ) -> (End, usize) {
-        self.follow_all_from(start, sample, |impact| {
-            if impact.number > 0 {
-                report(impact);
-            }
-        })
-    }
-
-    /// The same, with the hits on deflectors.
-    #[inline]
-    pub fn follow_all_from(
-        &self,
-        start: Ray,
-        sample: &ShotSample,
-        mut report: impl FnMut(&PathImpact),
-    ) -> (End, usize) {
-        let scenario = self.scenario;
-        let limits = scenario.problem.paths;
-        let mass = self.mass * sample.mass();
-        let radius = self.radius * sample.size;
-        let nozzle_frame = self.moves_parts.then(|| self.nozzle_frame(sample));
-        let mut ray = start;
-        let mut velocity = ray.direction * (self.speed * sample.speed);
-        let mut rolling = Vector3::zeros();
-        let mut leaving: Option<HitId> = None;
-        let least_energy = limits.least_energy * energy(velocity.into(), rolling.into());
-        let (mut number, mut deflections, mut rays) = (0, 0, 0);
-        loop {
-            rays += 1;
-            let met = scenario
-                .scene
-                .first_contact(&ray, radius, leaving, nozzle_frame.as_ref());
-            let Some(hit) = met else {
-                return (End::Left, rays);
-            };
-            let centre = hit.point + hit.normal * radius;
-            let surface = &scenario.surfaces[hit.surface as usize];
-            let contact = self.contact_with(hit.surface as usize, sample);
-            let normal = if surface.roughness > 0.0 {
-                let tilt = rough::tilt(sample, rays as u32, surface.roughness);
-                rough_normal(&contact, &velocity, &rolling, &hit.normal, tilt)
-            } else {
-                hit.normal
-            };
-            let Some(after) = rebound(&contact, &velocity, &rolling, &normal) else {
-                return (End::Left, rays);
-            };
-            (velocity, rolling) = (after.velocity, after.rolling);
-            if surface.deflector {
-                deflections += 1;
-            } else {
-                number += 1;
-            }
-            report(&PathImpact {
-                number: if surface.deflector { 0 } else { number },
-                surface: hit.surface,
-                on_target: scenario.target.holds(&hit),
-                normal_impulse: mass * after.normal,
-                tangential_impulse: mass * after.tangential,
-                regime: after.regime,
-                point: hit.point,
-                normal: hit.normal,
-                centre,
-                velocity,
-                rolling,
-            });
-            if after.departure == 0.0 {
-                return (End::Stays, rays);
-            }
-            if energy(velocity.into(), rolling.into()) < least_energy {
-                return (End::Spent, rays);
-            }
-            if number == limits.impacts || deflections == MOST_DEFLECTIONS {
-                return (End::Limit, rays);
-            }
-            if !limits.spin {
-                rolling = Vector3::zeros();
-            }
-            ray = Ray {
-                origin: centre,
-                direction: unit(velocity.into()).into(),
-            };
-            leaving = Some(hit.hit_id);
-        }
     }
 
     /// Fires shots in packets for an observer; `end_packet` gets the shots of each packet and the number of rays
@@ -249,7 +121,7 @@ impl<'a> Tracer<'a> {
         let mut packet = RayPacket::none();
         for shots in shots.chunks(LANES) {
             fetch(shots);
-            let rays = fire(self, &mut packet, shots, observer);
+            let rays = fire(self, &mut packet, shots, None, observer);
             end_packet(observer, shots, rays);
         }
     }
@@ -276,22 +148,6 @@ fn fetch(shots: &[ShotSample]) {
         shot.exit[0].to_bits() ^ shot.azimuth[0].to_bits() ^ shot.weight.to_bits()
     };
     black_box(shots.iter().fold(0, |all, shot| all ^ lines(shot)));
-}
-
-/// The normal that a shot finds where a surface is rough.
-fn rough_normal(
-    contact: &Contact,
-    velocity: &Vector3<f64>,
-    rolling: &Vector3<f64>,
-    normal: &Vector3<f64>,
-    tilt: [f64; 2],
-) -> Vector3<f64> {
-    let departure = |normal: Triple| {
-        let after = rebound(contact, velocity, rolling, &normal.into());
-        after.map_or([0.0; 3], |after| after.velocity.into())
-    };
-    let (normal, velocity) = ((*normal).into(), (*velocity).into());
-    rough::normal_of_impact(normal, tilt, velocity, departure).into()
 }
 
 /// Kinetic energy per unit mass of a solid sphere, translation and rotation, J/kg.

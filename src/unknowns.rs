@@ -11,7 +11,7 @@ use crate::evaluate::evaluate;
 use crate::jet::{Replicate, Replicates, ShotSample, purpose};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use crate::trace::Tracer;
+use crate::trace::{PathImpact, Tracer};
 use crate::verdict::{Subject, Verdict};
 
 /// What is not known exactly.
@@ -171,18 +171,17 @@ fn sum_of_rebound_angles(
     let tracer = Tracer::new(scenario, settings, settings.speed);
     let contact = scenario.contact_on(scenario.target.surface, settings);
     let (mut sum, mut hits) = (0.0, 0);
-    for shot in shots {
+    for (shot, path) in shots.iter().zip(tracer.paths(shots)) {
         let restitution = contact.restitution.shifted(shot.restitution);
         let mass = scenario.problem.shot.mass() * shot.mass();
-        tracer.follow(shot, |impact| {
-            if impact.number == 1 && impact.on_target {
-                // What N* tells of the speed of arrival, E tells of the departure.
-                let arriving = restitution.approach_speed(impact.normal_impulse / mass);
-                let leaving = restitution.at(arriving) * arriving;
-                sum += atan2(leaving, tangential_part(impact.velocity.norm(), leaving));
-                hits += 1;
-            }
-        });
+        let first = |impact: &&PathImpact| impact.number == 1 && impact.on_target;
+        if let Some(impact) = path.impacts.iter().find(first) {
+            // What N* tells of the speed of arrival, E tells of the departure.
+            let arriving = restitution.approach_speed(impact.normal_impulse / mass);
+            let leaving = restitution.at(arriving) * arriving;
+            sum += atan2(leaving, tangential_part(impact.velocity.norm(), leaving));
+            hits += 1;
+        }
     }
     (sum, hits)
 }

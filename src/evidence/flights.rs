@@ -9,7 +9,7 @@ use crate::elementary::asin;
 use crate::jet::{Samples, ShotSample};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use crate::trace::{End, PathImpact, Tracer};
+use crate::trace::{End, Path, PathImpact, Tracer};
 use crate::verdict::Subject;
 
 /// One shot on its way.
@@ -30,6 +30,8 @@ const MARGIN: f64 = 0.05;
 
 /// Shots that are fired before it is asked whether there is time for more.
 const BATCH: usize = 1024;
+/// Shots that one thread traces at a time.
+const PART: usize = 128;
 
 /// The flights of some shots, in their order, or of the first ones after a request to end.
 pub(super) fn fire(
@@ -41,10 +43,9 @@ pub(super) fn fire(
 ) -> Vec<Flight> {
     let tracer = Tracer::new(scenario, settings, settings.speed);
     let scene = Limits::of(shapes);
-    let flight = |sample: &ShotSample| {
+    let flight = |(sample, path): (&ShotSample, Path)| {
         let ray = tracer.launch(sample);
-        let mut impacts = Vec::new();
-        let (end, _) = tracer.follow_all_from(ray, sample, |impact| impacts.push(*impact));
+        let Path { impacts, end, .. } = path;
         let (last, heading) = match impacts.last() {
             Some(impact) => (impact.centre, impact.velocity.normalize()),
             None => (ray.origin, ray.direction),
@@ -64,7 +65,10 @@ pub(super) fn fire(
     let packets = packets.take_while(|(number, _)| *number == 0 || !cancel.is_set());
     let mut flights = Vec::with_capacity(jet.shots.len());
     for (_, packet) in packets {
-        flights.par_extend(packet.par_iter().map(flight));
+        let parts = packet.par_chunks(PART);
+        flights.par_extend(
+            parts.flat_map_iter(|part| part.iter().zip(tracer.paths(part)).map(flight)),
+        );
     }
     flights
 }

@@ -1,7 +1,6 @@
 //! Shots that fly side by side, impact after impact.
 //!
-//! The same paths as [`Tracer`](super::Tracer) follows one by one, to the last bit, many
-//! times faster.
+//! Tests follow the same shots one by one, with the same bits.
 
 mod impacts;
 
@@ -12,6 +11,7 @@ use super::{End, MOST_DEFLECTIONS, Tracer, energy};
 use crate::jet::ShotSample;
 use crate::scene::lanes::{LANES, Lane, any, components, padded, put};
 use crate::scene::nozzle_frame::NozzleFrames;
+use crate::scene::ray::Ray;
 use crate::scene::rays::{Hits, Rays};
 use crate::triple::{along, unit};
 use impacts::{Impacts, Rules, path_state};
@@ -55,17 +55,18 @@ pub(crate) trait Observer {
     fn ends(&mut self, shot: usize, end: End, rays: usize);
 }
 
-/// Fires `shots` together, at most [`LANES`]; returns the number of rays.
+/// Fires `shots` together, at most [`LANES`], from the exit or all from one start; returns the number of rays.
 pub(crate) fn fire<W: Observer>(
     tracer: &Tracer,
     packet: &mut RayPacket,
     shots: &[ShotSample],
+    start: Option<&Ray>,
     observer: &mut W,
 ) -> usize {
     if tracer.scenario.scene.has_exact_walls() {
-        fire_at_walls(tracer, packet, shots, observer)
+        fire_at_walls(tracer, packet, shots, start, observer)
     } else {
-        fire_at_facets(tracer, packet, shots, observer)
+        fire_at_facets(tracer, packet, shots, start, observer)
     }
 }
 
@@ -77,9 +78,10 @@ fn fire_at_walls<W: Observer>(
     tracer: &Tracer,
     packet: &mut RayPacket,
     shots: &[ShotSample],
+    start: Option<&Ray>,
     observer: &mut W,
 ) -> usize {
-    packet.fly(tracer, shots, observer)
+    packet.fly(tracer, shots, start, observer)
 }
 
 /// Without AVX-512, for which some processors slow down all that they do; the walk through a tree
@@ -89,9 +91,10 @@ fn fire_at_facets<W: Observer>(
     tracer: &Tracer,
     packet: &mut RayPacket,
     shots: &[ShotSample],
+    start: Option<&Ray>,
     observer: &mut W,
 ) -> usize {
-    packet.fly(tracer, shots, observer)
+    packet.fly(tracer, shots, start, observer)
 }
 
 impl RayPacket {
@@ -116,19 +119,19 @@ impl RayPacket {
         }
     }
 
-    /// Puts shots at the exit.
+    /// Puts shots at the exit, or where they start.
     #[inline(always)]
-    fn load(&mut self, tracer: &Tracer, shots: &[ShotSample]) {
+    fn load(&mut self, tracer: &Tracer, shots: &[ShotSample], start: Option<&Ray>) {
         let frame = &tracer.scenario.target.frame;
         let as_asked = shots.iter().all(ShotSample::leaves_pose);
         self.rays.count = shots.len().min(LANES);
         self.rays.leaving = None;
         self.rays.are_spheres = tracer.radius > 0.0;
         for (i, sample) in shots.iter().take(LANES).enumerate() {
-            let ray = if as_asked {
-                tracer.pose.shot(sample)
-            } else {
-                tracer.aim.shot(frame, sample)
+            let ray = match start {
+                Some(start) => *start,
+                None if as_asked => tracer.pose.shot(sample),
+                None => tracer.aim.shot(frame, sample),
             };
             put(&mut self.rays.origin, i, ray.origin.into());
             put(&mut self.rays.direction, i, ray.direction.into());
@@ -162,9 +165,10 @@ impl RayPacket {
         &mut self,
         tracer: &Tracer,
         shots: &[ShotSample],
+        start: Option<&Ray>,
         observer: &mut W,
     ) -> usize {
-        self.load(tracer, shots);
+        self.load(tracer, shots, start);
         let most_impacts = tracer.scenario.problem.paths.impacts as f64;
         let (mut rays, mut flights) = (0, 0);
         while self.rays.count > 0 {

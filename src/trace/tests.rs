@@ -2,53 +2,104 @@
 
 use std::path::Path;
 
+use nalgebra::Vector3;
+
 use super::*;
-use crate::impact::Law;
+use crate::impact::{Law, rebound};
 use crate::jet::{Samples, Stream};
 use crate::problem;
 use crate::scene::Walls;
+use crate::scene::ray::HitId;
+use crate::triple::unit;
 
-/// Every impact of a shot, and how its path ended.
-type Story = (Vec<PathImpact>, Option<(End, usize)>);
-
-struct Scribe {
-    stories: Vec<Story>,
-}
-
-impl Observer for Scribe {
-    fn impacts(&mut self, packet: &RayPacket) {
-        for i in 0..packet.rays.count {
-            if packet.impacts.counts[i] != 0.0 {
-                let story = &mut self.stories[packet.shot[i] as usize];
-                story.0.push(impact_of(packet, i));
+impl Tracer<'_> {
+    /// The oracle: one shot after the other, on nalgebra's vectors, with the tested impact of one shot.
+    fn one_by_one(&self, sample: &ShotSample, mut report: impl FnMut(&PathImpact)) -> (End, usize) {
+        let scenario = self.scenario;
+        let limits = scenario.problem.paths;
+        let mass = self.mass * sample.mass();
+        let radius = self.radius * sample.size;
+        let nozzle_frame = self.moves_parts.then(|| self.nozzle_frame(sample));
+        let mut ray = self.launch(sample);
+        let mut velocity = ray.direction * (self.speed * sample.speed);
+        let mut rolling = Vector3::zeros();
+        let mut leaving: Option<HitId> = None;
+        let least_energy = limits.least_energy * energy(velocity.into(), rolling.into());
+        let (mut number, mut deflections, mut rays) = (0, 0, 0);
+        loop {
+            rays += 1;
+            let met = scenario
+                .scene
+                .first_contact(&ray, radius, leaving, nozzle_frame.as_ref());
+            let Some(hit) = met else {
+                return (End::Left, rays);
+            };
+            let centre = hit.point + hit.normal * radius;
+            let surface = &scenario.surfaces[hit.surface as usize];
+            let contact = self.contact_with(hit.surface as usize, sample);
+            let normal = if surface.roughness > 0.0 {
+                let tilt = rough::tilt(sample, rays as u32, surface.roughness);
+                rough_normal(&contact, &velocity, &rolling, &hit.normal, tilt)
+            } else {
+                hit.normal
+            };
+            let Some(after) = rebound(&contact, &velocity, &rolling, &normal) else {
+                return (End::Left, rays);
+            };
+            (velocity, rolling) = (after.velocity, after.rolling);
+            if surface.deflector {
+                deflections += 1;
+            } else {
+                number += 1;
             }
+            report(&PathImpact {
+                number: if surface.deflector { 0 } else { number },
+                surface: hit.surface,
+                on_target: scenario.target.holds(&hit),
+                normal_impulse: mass * after.normal,
+                tangential_impulse: mass * after.tangential,
+                regime: after.regime,
+                point: hit.point,
+                normal: hit.normal,
+                centre,
+                velocity,
+                rolling,
+            });
+            if after.departure == 0.0 {
+                return (End::Stays, rays);
+            }
+            if energy(velocity.into(), rolling.into()) < least_energy {
+                return (End::Spent, rays);
+            }
+            if number == limits.impacts || deflections == MOST_DEFLECTIONS {
+                return (End::Limit, rays);
+            }
+            if !limits.spin {
+                rolling = Vector3::zeros();
+            }
+            ray = Ray {
+                origin: centre,
+                direction: unit(velocity.into()).into(),
+            };
+            leaving = Some(hit.hit_id);
         }
     }
-
-    fn ends(&mut self, shot: usize, end: End, rays: usize) {
-        self.stories[shot].1 = Some((end, rays));
-    }
 }
 
-fn impact_of(packet: &RayPacket, i: usize) -> PathImpact {
-    let vector = |lanes| Vector3::from(crate::scene::lanes::components(lanes, i));
-    PathImpact {
-        number: packet.number[i] as usize,
-        surface: packet.hits.surface[i],
-        on_target: false,
-        normal_impulse: packet.impacts.normal[i],
-        tangential_impulse: packet.impacts.tangential[i],
-        regime: if packet.impacts.sticks[i] != 0.0 {
-            Regime::Stick
-        } else {
-            Regime::Slip
-        },
-        point: vector(&packet.hits.point).into(),
-        normal: vector(&packet.hits.normal),
-        centre: vector(&packet.hits.point).into(),
-        velocity: vector(&packet.velocity),
-        rolling: vector(&packet.rolling),
-    }
+/// The normal that a shot finds where a surface is rough.
+fn rough_normal(
+    contact: &Contact,
+    velocity: &Vector3<f64>,
+    rolling: &Vector3<f64>,
+    normal: &Vector3<f64>,
+    tilt: [f64; 2],
+) -> Vector3<f64> {
+    let departure = |normal: Triple| {
+        let after = rebound(contact, velocity, rolling, &normal.into());
+        after.map_or([0.0; 3], |after| after.velocity.into())
+    };
+    let (normal, velocity) = ((*normal).into(), (*velocity).into());
+    rough::normal_of_impact(normal, tilt, velocity, departure).into()
 }
 
 /// As points and with the size that they have.
@@ -62,32 +113,16 @@ fn same_paths(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) {
 
 fn same_paths_in(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) {
     let tracer = Tracer::new(scenario, settings, settings.speed);
-    let mut told: Vec<Story> = Vec::new();
-    let mut scribe = Scribe {
-        stories: vec![Story::default(); LANES],
-    };
-    let mut rays_told = 0;
-    tracer.fire(shots, &mut scribe, |scribe, shots, rays| {
-        let stories = std::mem::replace(&mut scribe.stories, vec![Story::default(); LANES]);
-        told.extend(stories.into_iter().take(shots.len()));
-        rays_told += rays;
-    });
-    let mut rays_followed = 0;
-    for (sample, (impacts, end)) in shots.iter().zip(&told) {
-        let mut path = Vec::new();
-        let followed = tracer.follow(sample, |impact| {
-            path.push(PathImpact {
-                on_target: false,
-                centre: impact.point,
-                ..*impact
-            });
-        });
-        rays_followed += followed.1;
-        assert_eq!(Some(followed), *end, "{settings:?} {sample:?}");
-        assert_eq!(&path, impacts, "{settings:?} {sample:?}");
+    let paths = tracer.paths(shots);
+    assert_eq!(paths.len(), shots.len());
+    for (sample, path) in shots.iter().zip(paths) {
+        let mut impacts = Vec::new();
+        let (end, rays) = tracer.one_by_one(sample, |impact| impacts.push(*impact));
+        let followed = super::Path { impacts, end, rays };
+        assert_eq!(path, followed, "{settings:?} {sample:?}");
+        let alone = tracer.path_from(tracer.launch(sample), sample);
+        assert_eq!(alone, followed, "{settings:?} {sample:?}");
     }
-    assert_eq!(told.len(), shots.len());
-    assert_eq!(rays_told, rays_followed);
 }
 
 /// Poses all over the settings of a problem, with every contact.

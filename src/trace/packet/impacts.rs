@@ -17,7 +17,7 @@ pub(crate) struct Impacts {
     pub sticks: Lane,
     /// Whether there is one that counts: a surface is hit, and it is no deflector.
     pub counts: Lane,
-    deflected: Lane,
+    pub(in crate::trace) deflected: Lane,
     /// Why the flight ends here; see [`path_state`].
     pub(super) path_state: Lane,
 }
@@ -33,6 +33,11 @@ impl Impacts {
             deflected: zeros,
             path_state: zeros,
         }
+    }
+
+    /// Whether a shot has met a surface.
+    pub(in crate::trace) fn is_met(&self, index: usize) -> bool {
+        self.path_state[index] != path_state::LEFT
     }
 }
 
