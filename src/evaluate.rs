@@ -128,7 +128,7 @@ fn summed_up(
     } else {
         let limited = scenario.surfaces.iter().filter(|it| it.allow.is_some());
         let unseen = Unseen {
-            harm: limited.fold(0.0, |most, it| it.weight.max(most)) * UNSEEN_LOAD * UNSEEN_LOAD,
+            cost: limited.fold(0.0, |most, it| it.weight.max(most)) * UNSEEN_LOAD * UNSEEN_LOAD,
             shots: (shots + boundary_shots) as f64,
         };
         jackknife(&sums, goals, &unseen)
@@ -200,7 +200,7 @@ const MORE: f64 = 4.0;
 /// Prior for unobserved events: the least cost of the worst impact on a secondary surface.
 struct Unseen {
     /// Cost of an impact on a surface that has a limit; 0 where none has.
-    harm: f64,
+    cost: f64,
     /// Shots that were fired.
     shots: f64,
 }
@@ -208,7 +208,7 @@ struct Unseen {
 impl Unseen {
     /// Its part in J.
     fn part_in(&self, objective: f64) -> f64 {
-        self.harm.min(MOST_UNSEEN * objective) / self.shots
+        self.cost.min(MOST_UNSEEN * objective) / self.shots
     }
 }
 

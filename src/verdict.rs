@@ -160,7 +160,7 @@ impl Verdict {
     }
 
     /// How much of the allowed share is used up: 1 is the limit.
-    pub fn load(&self) -> f64 {
+    pub fn utilisation(&self) -> f64 {
         if self.allowed > 0.0 {
             self.share() / self.allowed
         } else if self.broken > 0 {

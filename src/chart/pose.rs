@@ -205,7 +205,7 @@ fn curves_of(sampling: Sampling, ways: &[Way], reference: f64, plan: &Plan) -> V
 
 impl Way<'_> {
     /// Every aligned block of Sobol points is as good as the first one, so that a set of many shots
-    /// holds many blocks of few: enough of them to meet rare harm as often as it happens.
+    /// holds many blocks of few: enough of them to meet rare violations as often as it happens.
     fn outcome(&self, shots: &[ShotSample], levels: usize, reference: f64) -> Outcome {
         let objective = |sums: &Sums| sums.terms(&self.scenario.problem.goals).total();
         let together = |blocks: &[Sums]| {

@@ -24,7 +24,8 @@ pub fn importance_of(scenario: &Scenario, settings: &Settings) -> (ImportanceDen
         let stream = Replicates::stream(purpose::PILOT_RUNS, number as u32);
         let pilot_run = PilotRun::new(&scenario.problem, stretch, stream, SHOTS, &importance);
         let accumulator = ViolationAccumulator::of(scenario, settings, &pilot_run.shots);
-        importance = pilot_run.adapted(&importance, &rare(&accumulator.harm, &pilot_run.shots));
+        importance =
+            pilot_run.adapted(&importance, &rare(&accumulator.violation, &pilot_run.shots));
         rays += accumulator.rays;
     }
     (importance, rays)
@@ -36,13 +37,16 @@ const STRETCHES: [f64; 4] = [2.0, 1.5, 1.2, 1.0];
 const SHOTS: usize = 768;
 
 /// Weighted violations of the shots whose violation is rare; others are averaged well enough as it is.
-fn rare(harm: &[f64], shots: &[ShotSample]) -> Vec<f64> {
-    let pairs = || harm.iter().zip(shots);
+fn rare(violation: &[f64], shots: &[ShotSample]) -> Vec<f64> {
+    let pairs = || violation.iter().zip(shots);
     let weight: f64 = shots.iter().map(|shot| shot.weight).sum();
-    let mean = pairs().map(|(harm, shot)| harm * shot.weight).sum::<f64>() / weight;
-    let counted = pairs().map(|(&harm, shot)| {
-        if harm > RARE * mean {
-            harm * shot.weight
+    let mean = pairs()
+        .map(|(violation, shot)| violation * shot.weight)
+        .sum::<f64>()
+        / weight;
+    let counted = pairs().map(|(&violation, shot)| {
+        if violation > RARE * mean {
+            violation * shot.weight
         } else {
             0.0
         }
@@ -65,7 +69,7 @@ struct ViolationAccumulator {
     /// Whether it has hit the target first.
     on_target: [bool; LANES],
     /// Of each shot.
-    harm: Vec<f64>,
+    violation: Vec<f64>,
     rays: usize,
 }
 
@@ -89,7 +93,7 @@ impl ViolationAccumulator {
             miss: goals.miss.weight,
             in_packet: [0.0; LANES],
             on_target: [false; LANES],
-            harm: Vec::with_capacity(shots.len()),
+            violation: Vec::with_capacity(shots.len()),
             rays: 0,
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
@@ -101,7 +105,7 @@ impl ViolationAccumulator {
         self.rays += rays;
         for i in 0..shots.len() {
             let miss = if self.on_target[i] { 0.0 } else { self.miss };
-            self.harm.push(self.in_packet[i] + miss);
+            self.violation.push(self.in_packet[i] + miss);
         }
         self.in_packet = [0.0; LANES];
         self.on_target = [false; LANES];

@@ -29,20 +29,20 @@ impl ImportanceDensity {
 
     /// Adapts each dimension's histogram to where violations were found, shrunk towards the histogram before
     /// by least squares: differences within chance change little.
-    pub(super) fn on(&self, cells: &[Cells], harm: &[f64]) -> Self {
-        let most = harm.iter().copied().fold(0.0, f64::max);
+    pub(super) fn on(&self, cells: &[Cells], violation: &[f64]) -> Self {
+        let most = violation.iter().copied().fold(0.0, f64::max);
         if !(most > 0.0 && most.is_finite()) {
             return self.clone();
         }
         let mut sums = [[0.0; CELLS]; DIMENSIONS];
         let (mut total, mut squares) = (0.0, 0.0);
-        for (cells, harm) in cells.iter().zip(harm) {
-            let harm = harm / most;
-            total += harm;
-            squares += harm * harm;
+        for (cells, violation) in cells.iter().zip(violation) {
+            let violation = violation / most;
+            total += violation;
+            squares += violation * violation;
             for (sums, &cell) in sums.iter_mut().zip(cells) {
                 if let Some(sum) = sums.get_mut(usize::from(cell)) {
-                    *sum += harm;
+                    *sum += violation;
                 }
             }
         }
@@ -134,7 +134,7 @@ mod tests {
     use super::*;
 
     /// Cells of uniform points, of which those low in one dimension and on both sides of the seam of another violate.
-    fn harmed(count: usize) -> (Vec<Cells>, Vec<f64>) {
+    fn violated(count: usize) -> (Vec<Cells>, Vec<f64>) {
         let coordinate = |index: usize, step: f64| (index as f64 * step).fract();
         let point = |index: usize| {
             let mut cells = [NO_CELL; DIMENSIONS];
@@ -147,18 +147,18 @@ mod tests {
             cells
         };
         let cells: Vec<Cells> = (0..count).map(point).collect();
-        let harm = cells.iter().map(|cells| {
+        let violation = cells.iter().map(|cells| {
             let [angle, turn] = [cells[0], cells[1]];
             f64::from(u8::from(angle < 4 && !(2..14).contains(&turn)))
         });
-        let harm = harm.collect();
-        (cells, harm)
+        let violation = violation.collect();
+        (cells, violation)
     }
 
     #[test]
-    fn it_is_denser_where_harm_comes_from_and_nowhere_empty() {
-        let (cells, harm) = harmed(4096);
-        let importance = ImportanceDensity::NONE.on(&cells, &harm);
+    fn it_is_denser_where_violations_come_from_and_nowhere_empty() {
+        let (cells, violation) = violated(4096);
+        let importance = ImportanceDensity::NONE.on(&cells, &violation);
         for density in &importance.density {
             let sum: f64 = density.iter().sum();
             assert!((sum - CELLS as f64).abs() < 1e-9, "{density:?}");
@@ -177,8 +177,8 @@ mod tests {
     }
 
     #[test]
-    fn chance_and_absurd_harm_change_little_or_nothing() {
-        let (cells, _) = harmed(4096);
+    fn chance_and_absurd_violations_change_little_or_nothing() {
+        let (cells, _) = violated(4096);
         let none = vec![0.0; cells.len()];
         assert_eq!(
             ImportanceDensity::NONE.on(&cells, &none),
@@ -198,8 +198,8 @@ mod tests {
 
     #[test]
     fn coordinates_are_drawn_by_the_density() {
-        let (cells, harm) = harmed(4096);
-        let importance = ImportanceDensity::NONE.on(&cells, &harm);
+        let (cells, violation) = violated(4096);
+        let importance = ImportanceDensity::NONE.on(&cells, &violation);
         let dimension = Dimension::ConeTurn;
         let mut counts = [0; CELLS];
         let draws = 160_000;

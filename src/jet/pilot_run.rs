@@ -33,9 +33,9 @@ impl PilotRun {
     }
 
     /// The importance density for what they did: the `violation` of each, times its importance weight.
-    pub fn adapted(&self, before: &ImportanceDensity, harm: &[f64]) -> ImportanceDensity {
+    pub fn adapted(&self, before: &ImportanceDensity, violation: &[f64]) -> ImportanceDensity {
         let cells: Vec<Cells> = self.origins.iter().map(|origin| origin.cells).collect();
-        before.on(&cells, harm)
+        before.on(&cells, violation)
     }
 }
 

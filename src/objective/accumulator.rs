@@ -17,11 +17,11 @@ pub(crate) struct ObjectiveAccumulator {
     /// The mean square of the shots' factors on it, where paths do not depend on them.
     mean_square: Option<f64>,
     /// Cost of (N*)^2 on each surface.
-    harm: Vec<f64>,
+    surface_cost: Vec<f64>,
     /// The same on the first surface.
-    usual_harm: f64,
+    usual_cost: f64,
     /// Whether it is the same on all surfaces.
-    harms_alike: bool,
+    costs_alike: bool,
     target: Target,
     /// Whether the last impact of each shot in flight was on target.
     on_target: Lane,
@@ -66,7 +66,7 @@ impl ObjectiveAccumulator {
     pub fn new(scenario: &Scenario, contact: usize, speed: f64, shots: usize) -> Self {
         let scales_out = scenario.speed_scales_out(contact);
         let speed_variance = scales_out.then(|| speed_variance(&scenario.problem));
-        let harm: Vec<f64> = scenario
+        let surface_cost: Vec<f64> = scenario
             .surfaces
             .iter()
             .map(|limits| {
@@ -74,7 +74,7 @@ impl ObjectiveAccumulator {
                 limits.allow.map_or(0.0, cost)
             })
             .collect();
-        let usual_harm = harm.first().copied().unwrap_or(0.0);
+        let usual_cost = surface_cost.first().copied().unwrap_or(0.0);
         Self {
             tally: Tally {
                 hits: Hits::with_capacity(shots),
@@ -83,9 +83,11 @@ impl ObjectiveAccumulator {
             },
             speed,
             mean_square: speed_variance.map(|variance| 1.0 + variance),
-            harms_alike: harm.iter().all(|&harm| harm == usual_harm),
-            usual_harm,
-            harm,
+            costs_alike: surface_cost
+                .iter()
+                .all(|&surface_cost| surface_cost == usual_cost),
+            usual_cost,
+            surface_cost,
             target: Target::of(&scenario.target),
             on_target: [0.0; LANES],
             hit_target: [false; LANES],
@@ -167,10 +169,14 @@ impl Observer for ObjectiveAccumulator {
     #[inline(always)]
     fn impacts(&mut self, packet: &RayPacket) {
         let count = packet.rays.count;
-        let mut harm = [self.usual_harm; LANES];
-        if !self.harms_alike {
-            for (harm, &surface) in harm.iter_mut().zip(&packet.hits.surface).take(count) {
-                *harm = self.harm[surface as usize];
+        let mut surface_cost = [self.usual_cost; LANES];
+        if !self.costs_alike {
+            for (surface_cost, &surface) in surface_cost
+                .iter_mut()
+                .zip(&packet.hits.surface)
+                .take(count)
+            {
+                *surface_cost = self.surface_cost[surface as usize];
             }
         }
         let target = self.target;
@@ -193,7 +199,7 @@ impl Observer for ObjectiveAccumulator {
             let counts = packet.impacts.counts[i] != 0.0;
             let first = counts & hit & (packet.number[i] == 1.0);
             let normal = packet.impacts.normal[i];
-            let cost = packet.weight[i] * harm[i] * speed_share[i] * normal * normal;
+            let cost = packet.weight[i] * surface_cost[i] * speed_share[i] * normal * normal;
             on_target[i] = mask(hit);
             is_first[i] = mask(first);
             rebound[i] = if counts & !hit { cost } else { 0.0 };

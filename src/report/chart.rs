@@ -74,7 +74,7 @@ fn poses(chart: &Chart) -> Option<Block> {
         ("time", Align::Right),
         ("random", Align::Right),
         ("Sobol", Align::Right),
-        ("Sobol, with the rim", Align::Right),
+        ("Sobol, with boundary samples", Align::Right),
     ]);
     for (index, point) in first.points.iter().enumerate() {
         let errors = Sampling::ALL.map(|sampling| {
@@ -89,9 +89,9 @@ fn poses(chart: &Chart) -> Option<Block> {
     }
     block.table(table);
     block.paragraph(&format!(
-        "Root mean square error of J, relative to J0; {}; one thread. With the rim: as the search draws \
-         shots until it knows where harm comes from, every second one or, of 2048 and more, three out of four \
-         where harm is rare. It ended with \
+        "Root mean square error of J, relative to J0; {}; one thread. With boundary samples: as the search draws \
+         shots before it has an importance density, one in two or, of 2048 and more, three in four towards the \
+         boundary. It ended with \
          {} shots at each pose.",
         curve_name(first),
         count(chart.recommended.shots_per_pose),
@@ -152,7 +152,7 @@ fn searches(chart: &Chart, searches: &Searches) -> Block {
     }
     block.gap();
     block.paragraph(&format!(
-        "Medians over seeds, {} threads. J of all answers on {} common fresh shots; differences of {} \
+        "Medians over seeds, {} threads. J of all answers on {} common validation shots; differences of {} \
          are within the noise.",
         chart.threads,
         count(searches.shots),

@@ -1,4 +1,4 @@
-//! Rare harm is looked for where it comes from, which changes no average.
+//! Rare violations are drawn with an importance density, which changes no average.
 
 use peenpose::evaluate::{evaluate, evaluate_adaptively, evaluate_each_adaptively, importance_of};
 use peenpose::jet::{ImportanceDensity, Replicates, ValidationSample, purpose};
@@ -61,7 +61,7 @@ fn of_seeds(scenario: &mut Scenario, settings: &Settings, seeds: u64) -> [Vec<f6
 #[test]
 fn what_scouts_find_changes_no_average() {
     let mut scenario = Scenario::new(hub(), Walls::Exact).unwrap();
-    // Where next to no shot does harm, where few do, where one in eighteen does, where nearly half
+    // Where next to no shot violates, where few do, where one in eighteen does, where nearly half
     // of them do.
     for degrees in [67.5, 69.0, 72.0, 78.0] {
         let settings = at(&scenario, degrees);
@@ -73,7 +73,7 @@ fn what_scouts_find_changes_no_average() {
 }
 
 #[test]
-fn rare_harm_makes_the_objective_scatter_several_times_less() {
+fn rare_violations_make_the_objective_scatter_several_times_less() {
     let mut scenario = Scenario::new(hub(), Walls::Exact).unwrap();
     let settings = at(&scenario, 69.0);
     let [plain, focused] = of_seeds(&mut scenario, &settings, 32).map(|of| statistics(&of));
@@ -81,7 +81,7 @@ fn rare_harm_makes_the_objective_scatter_several_times_less() {
 }
 
 #[test]
-fn where_there_is_no_harm_scouts_find_none() {
+fn without_violations_pilot_runs_find_none() {
     let mut problem = hub();
     // No limit on what surfaces may take, and a target that cannot be missed.
     problem.goals.rebound = None;
@@ -134,7 +134,7 @@ fn a_focus_leaves_the_shots_of_the_jet_as_they_are_but_for_what_they_stand_for()
     let mean = weights.iter().sum::<f64>() / weights.len() as f64;
     assert!((mean - 1.0).abs() < 0.01, "{mean}");
     assert!(weights.iter().all(|&weight| weight > 0.0 && weight <= 1.5));
-    // Those that are drawn where harm comes from stand for a small part of a shot.
+    // Those that are drawn with an importance density have a small weight.
     let (least, most) = weights
         .iter()
         .fold((f64::INFINITY, 0.0_f64), |(least, most), &weight| {

@@ -55,7 +55,7 @@ fn hopeless_poses_that_are_given_up_save_rays_and_change_no_answer() {
 }
 
 #[test]
-fn a_search_that_looks_where_harm_comes_from_needs_fewer_shots() {
+fn a_search_that_with_an_importance_density_needs_fewer_shots() {
     let without = Shortcuts {
         importance: false,
         ..Shortcuts::default()

@@ -228,7 +228,7 @@ impl<'a, 'b> Picture<'a, 'b> {
             sheet::dashes(self.sheet, line.clone(), LOOKS[1].colour.stroke_width(4))?;
         }
         if let Some(longest) = lines.iter().max_by_key(|line| line.len()) {
-            labels.put_beside(longest, "stick", |place| field.reaches(HALF, place));
+            labels.put_beside(longest, "grip", |place| field.reaches(HALF, place));
             labels.put_beside(longest, "slip", |place| !field.reaches(HALF, place));
         }
         Ok(())

@@ -86,7 +86,7 @@ fn title(sampling: Sampling) -> &'static str {
     match sampling {
         Sampling::Random => "Plain random shots",
         Sampling::Sobol => "Scrambled Sobol shots",
-        Sampling::SobolRim => "Sobol, with the rim",
+        Sampling::SobolRim => "Sobol, with boundary samples",
     }
 }
 

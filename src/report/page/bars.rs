@@ -125,7 +125,7 @@ pub struct LoadBar {
     /// What it may take.
     pub allowed: String,
     /// 95 % against what it may take.
-    pub load: String,
+    pub utilisation: String,
     /// The shots that exceed it.
     pub over: String,
     /// By which impact of a path it is mainly hit.
@@ -187,7 +187,8 @@ impl LoadBar {
                 high_95: spread.map_or_else(String::new, |spread| impulse(spread.high_95)),
                 largest: spread.map_or_else(String::new, |spread| impulse(spread.largest)),
                 allowed: significant(allow * 1e6, 3),
-                load: spread.map_or_else(String::new, |_| format!("{} %", fixed(high * 100.0, 0))),
+                utilisation: spread
+                    .map_or_else(String::new, |_| format!("{} %", fixed(high * 100.0, 0))),
                 over: if spread.is_some() {
                     over
                 } else {

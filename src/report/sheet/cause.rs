@@ -33,7 +33,7 @@ impl<'a> Cause<'a> {
         }
         let verdicts = record.best.verdicts.iter();
         let worst = verdicts
-            .filter(|verdict| !verdict.passes || subject::load(verdict) >= LOADED)
+            .filter(|verdict| !verdict.passes || subject::utilisation(verdict) >= LOADED)
             .max_by(|a, b| subject::by_urgency(a, b));
         match (worst, nearest_edge(record, |_| true)) {
             (Some(verdict), _) => Self::Verdict(verdict),
@@ -103,15 +103,15 @@ fn aside(deviation: &Deviation) -> String {
 
 /// How much of what is allowed is used up.
 fn used(verdict: &VerdictRecord) -> String {
-    let load = subject::load(verdict);
+    let utilisation = subject::utilisation(verdict);
     if verdict.counted == 0 {
         "nothing was counted".into()
-    } else if !load.is_finite() {
+    } else if !utilisation.is_finite() {
         format!("{} where none is allowed", share(verdict.share))
-    } else if load >= 2.0 {
-        format!("{} times its allowance", significant(load, 2))
+    } else if utilisation >= 2.0 {
+        format!("{} times its allowance", significant(utilisation, 2))
     } else {
-        format!("{} % of its allowance used", fixed(load * 100.0, 0))
+        format!("{} % of its allowance used", fixed(utilisation * 100.0, 0))
     }
 }
 
@@ -137,7 +137,7 @@ pub fn block(record: &Record) -> Option<Block> {
         }
         Cause::Window(edge) => {
             sentences.push(format!(
-                "No verdict uses up {} % of what it may. The nearest edge: {} ({} away) fails {}.",
+                "No verdict uses {} % of its allowance. The nearest edge: {} ({} away) fails {}.",
                 fixed(LOADED * 100.0, 0),
                 edge.at,
                 edge.distance,
@@ -145,12 +145,12 @@ pub fn block(record: &Record) -> Option<Block> {
             ));
         }
         Cause::Nothing => sentences.push(format!(
-            "No verdict uses up {} % of what it may{}.",
+            "No verdict uses {} % of its allowance{}.",
             fixed(LOADED * 100.0, 0),
             if record.windows.is_empty() {
                 ""
             } else {
-                ", and none turns within the ranges of the settings"
+                ", and none changes within the ranges of the settings"
             }
         )),
     }
@@ -187,7 +187,7 @@ fn edges(record: &Record, binding: &str) -> Vec<String> {
     sentences
 }
 
-/// By which impact of its path a shot mainly harms a surface.
+/// The impact of the path that exceeds a surface's limit most.
 fn bounce(record: &Record, surface: &str) -> Option<String> {
     let counts = &record.best.surfaces.get(surface)?.over_per_shot_by_number;
     let total: f64 = counts.iter().sum();
@@ -198,9 +198,11 @@ fn bounce(record: &Record, surface: &str) -> Option<String> {
     (total > 0.0).then(|| {
         let part = if *most >= total { "All" } else { "Most" };
         match index {
-            0 => format!("{part} of the harm is done by direct hits: it is a matter of aim."),
-            1 => format!("{part} of the harm is done on the first bounce: it is a matter of where rebounds go."),
-            _ => format!("{part} of the harm is done on bounce number {index}."),
+            0 => format!("{part} of it comes from direct hits: it is a matter of aim."),
+            1 => format!(
+                "{part} of it comes from the first bounce: it is a matter of where rebounds go."
+            ),
+            _ => format!("{part} of it comes from bounce {index}."),
         }
     })
 }
@@ -230,7 +232,7 @@ fn mean(record: &Record) -> Vec<String> {
     );
     if deviation.is_scatter() {
         let mut sentences = vec![format!(
-            "{bias}: what breaks normal_impulse is the scatter from shot to shot."
+            "{bias}: what violates normal_impulse is the scatter from shot to shot."
         )];
         sentences.extend(scatter::sentence(record));
         return sentences;

@@ -75,13 +75,13 @@ pub fn work(record: &Record) -> Block {
         ));
         if record.best.shots > 0 {
             block.paragraph(&format!(
-                "figures from {} that the search had not seen",
-                plural(record.best.shots, "fresh shot")
+                "figures from {}, which the search had not seen",
+                plural(record.best.shots, "validation shot")
             ));
         }
         if record.best.rim_shots > 0 {
             block.paragraph(&format!(
-                "J also from {} where harm may come from, weighted by how rare they are",
+                "J also from {} drawn where violations come from, with their importance weights",
                 count(record.best.rim_shots)
             ));
         }

@@ -17,11 +17,11 @@ pub fn block(record: &Record) -> Option<Block> {
     let mut columns = vec![("CONTACTS", Align::Left)];
     columns.extend([
         ("", Align::Left),
-        ("inc. deg", Align::Right),
+        ("incid. deg", Align::Right),
         ("az. deg", Align::Right),
-        ("off mm", Align::Right),
+        ("standoff mm", Align::Right),
         ("m/s", Align::Right),
-        ("stick", Align::Right),
+        ("grip", Align::Right),
         ("J +- std. error", Align::Right),
     ]);
     let mut table = Table::new(&columns);
@@ -147,12 +147,9 @@ fn sticking(tied: &[&AnswerRecord]) -> Vec<String> {
         && !others.is_empty()
     {
         let with = if sliding.is_empty() {
-            "Every shot sticks on first impact".to_owned()
+            "Every shot grips on first impact".to_owned()
         } else {
-            format!(
-                "With {} every shot sticks on first impact",
-                names(&sticking)
-            )
+            format!("With {} every shot grips on first impact", names(&sticking))
         };
         let same = |other: &&AnswerRecord| match (rebound(first), rebound(other)) {
             (Some(a), Some(b)) => equal(a, b),
@@ -177,7 +174,7 @@ fn sticking(tied: &[&AnswerRecord]) -> Vec<String> {
                 answer.contact,
                 match target.share_sticking {
                     0.0 => "every first impact slides".into(),
-                    sticking => format!("{} of the first impacts stick", share(sticking)),
+                    sticking => format!("{} of the first impacts grip", share(sticking)),
                 },
                 impulse(target.tangential_impulse.mean),
                 compared(&sticking)

@@ -15,9 +15,9 @@ pub fn block(record: &Record) -> Option<Block> {
     let mut table = Table::new(&[
         ("TRADE-OFF", Align::Left),
         ("", Align::Left),
-        ("inc. deg", Align::Right),
+        ("incid. deg", Align::Right),
         ("az. deg", Align::Right),
-        ("off mm", Align::Right),
+        ("standoff mm", Align::Right),
         ("m/s", Align::Right),
         ("target", Align::Right),
         ("tangential", Align::Right),

@@ -128,14 +128,14 @@ pub fn status(record: &Record) -> String {
     let accuracy = share_asked(record.problem.accuracy);
     match record.status {
         StatusRecord::Converged => match error_beyond(record) {
-            None => format!("converged (accuracy asked for: {accuracy} of J)"),
+            None => format!("converged to {accuracy} of the score J (lower is better)"),
             Some(error) => format!(
-                "converged within the standard error of J, {} % ({accuracy} asked for)",
+                "converged within the standard error of the score J, {} % ({accuracy} asked for)",
                 significant(error * 100.0, 2)
             ),
         },
         StatusRecord::BudgetSpent => format!(
-            "BUDGET SPENT before the accuracy asked for ({accuracy} of J): better settings may exist"
+            "BUDGET SPENT before {accuracy} of the score J was reached: better settings may exist"
         ),
         StatusRecord::NoFeasiblePose => "the nozzle fits at no pose that was tried".into(),
         StatusRecord::Interrupted => {

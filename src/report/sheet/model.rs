@@ -17,7 +17,7 @@ pub fn block(record: &Record) -> Option<Block> {
         ("best settings move", Align::Left),
         ("costing", Align::Right),
         ("rays", Align::Right),
-        ("turns", Align::Left),
+        ("would change", Align::Left),
         ("figures", Align::Left),
     ]);
     for effect in &model.effects {

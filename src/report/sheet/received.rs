@@ -56,7 +56,7 @@ pub fn target(record: &Record) -> Option<Block> {
         let sticking = if target.share_sticking == 0.0 {
             "slide"
         } else {
-            "stick"
+            "grip"
         };
         block.paragraph(&format!(
             "All shots are the same: they hit {} first and {sticking}.",
@@ -70,8 +70,8 @@ pub fn target(record: &Record) -> Option<Block> {
             target.surface,
             match target.share_sticking {
                 0.0 => "all of these slide".into(),
-                1.0 => "all of these stick".into(),
-                sticking => format!("{} of these stick, the others slide", share(sticking)),
+                1.0 => "all of these grip, none slides".into(),
+                sticking => format!("{} of these grip, the others slide", share(sticking)),
             }
         ));
     }
@@ -102,8 +102,8 @@ pub fn surfaces(record: &Record) -> Option<Block> {
         ("shots", Align::Right),
         ("95 %", Align::Right),
         ("largest", Align::Right),
-        ("may take", Align::Right),
-        ("load", Align::Right),
+        ("allowed", Align::Right),
+        ("utilisation", Align::Right),
         ("hit by", Align::Left),
     ]);
     let mut hit: Vec<(&String, &ReceiptRecord, SpreadRecord)> = Vec::new();
@@ -114,7 +114,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
             _ => never.push(shown_name(record, name)),
         }
     }
-    let load = |receipt: &ReceiptRecord, spread: &SpreadRecord| {
+    let utilisation = |receipt: &ReceiptRecord, spread: &SpreadRecord| {
         receipt.allow.map(|allow| spread.largest / allow)
     };
     hit.sort_by(|a, b| {
@@ -134,10 +134,8 @@ pub fn surfaces(record: &Record) -> Option<Block> {
             receipt
                 .allow
                 .map_or_else(|| "any".into(), |allow| significant(allow * 1e6, 3)),
-            load(receipt, spread).map_or_else(
-                || "-".into(),
-                |load| format!("{} %", fixed(load * 100.0, 0)),
-            ),
+            utilisation(receipt, spread)
+                .map_or_else(|| "-".into(), |it| format!("{} %", fixed(it * 100.0, 0))),
             mainly(receipt),
         ]);
     }
@@ -156,7 +154,7 @@ pub fn surfaces(record: &Record) -> Option<Block> {
     }
     if hit.iter().any(|(_, receipt, _)| receipt.allow.is_some()) {
         block.paragraph(
-            "load: largest N* against what it may take; VERDICTS counts the shots that exceed it.",
+            "Utilisation is the largest N* over the allowed N*; VERDICTS counts the shots above it.",
         );
     }
     Some(block)

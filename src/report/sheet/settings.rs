@@ -22,7 +22,7 @@ pub fn settings(record: &Record) -> Block {
         ("", Align::Right),
         ("", Align::Left),
         ("set within", Align::Left),
-        ("may drift alone", Align::Left),
+        ("tolerance window", Align::Left),
         ("until this fails", Align::Left),
     ]);
     for setting in SETTINGS.iter().filter(|setting| setting.is_used(record)) {
@@ -176,7 +176,9 @@ fn friction(value: f64) -> String {
 
 fn remarks(record: &Record) -> Vec<String> {
     let best = &record.best;
-    let mut remarks = vec!["Incidence 90 deg is perpendicular to the target.".to_owned()];
+    let mut remarks = vec![
+        "Incidence is the impingement angle, from the surface: 90 deg is perpendicular.".to_owned(),
+    ];
     if best.shots > 0
         && SETTINGS
             .iter()
@@ -186,11 +188,11 @@ fn remarks(record: &Record) -> Vec<String> {
     }
     if record.windows.is_empty() {
         if record.status == StatusRecord::Evaluated && best.feasible {
-            remarks.push("How far settings may drift was not computed for given settings.".into());
+            remarks.push("Tolerance windows are not computed for given settings.".into());
         }
     } else if !best.passes {
         remarks.push(
-            "`May drift alone` counts only the verdicts that pass here: it is no way out of FAIL."
+            "A tolerance window counts only the verdicts that pass here: it is no way out of FAIL."
                 .into(),
         );
     }

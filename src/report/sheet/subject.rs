@@ -57,7 +57,7 @@ pub fn counted(subject: &str) -> &'static str {
     }
 }
 
-/// `2.01 % of the hits on target break it, 5 % may`.
+/// `2.01 % of the hits on target violate it; 5 % is allowed`.
 pub fn share_against_allowed(verdict: &VerdictRecord) -> String {
     let counted = counted(&verdict.subject);
     let allowed = match verdict.allowed {
@@ -68,9 +68,12 @@ pub fn share_against_allowed(verdict: &VerdictRecord) -> String {
         return "no shot hits the target first, so it is not met".into();
     }
     if verdict.share > 0.0 {
-        format!("{} {counted} break it, {allowed} may", share(verdict.share))
+        format!(
+            "{} {counted} violate it; {allowed} is allowed",
+            share(verdict.share)
+        )
     } else {
-        format!("none {counted} breaks it, {allowed} may")
+        format!("none {counted} violates it; {allowed} is allowed")
     }
 }
 
@@ -81,8 +84,8 @@ pub fn missed_target(answer: &AnswerRecord) -> Option<&str> {
     is_missed.then_some(target.surface.as_str())
 }
 
-/// How much of what is allowed is used up; 1 is the limit.
-pub fn load(verdict: &VerdictRecord) -> f64 {
+/// Utilisation: the share of shots over the allowed share; 1 is the limit.
+pub fn utilisation(verdict: &VerdictRecord) -> f64 {
     if verdict.counted == 0 {
         f64::INFINITY
     } else if verdict.allowed > 0.0 {
@@ -99,7 +102,9 @@ pub fn load(verdict: &VerdictRecord) -> f64 {
 /// another.
 pub fn by_urgency(a: &VerdictRecord, b: &VerdictRecord) -> Ordering {
     let kind = |verdict: &VerdictRecord| (!verdict.passes, verdict.counted > 0);
-    kind(a).cmp(&kind(b)).then(load(a).total_cmp(&load(b)))
+    kind(a)
+        .cmp(&kind(b))
+        .then(utilisation(a).total_cmp(&utilisation(b)))
 }
 
 /// The verdicts on shots that fail, worst first.

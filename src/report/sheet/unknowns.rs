@@ -18,7 +18,7 @@ pub fn block(record: &Record) -> Option<Block> {
         ("rebound, deg", Align::Right),
         ("mean N*, uN.s", Align::Right),
         ("J", Align::Right),
-        ("breaks most", Align::Left),
+        ("violates most", Align::Left),
     ]);
     let verdicts = &record.best.verdicts;
     let decimals = decimals_for(largest_objective(unknowns), 4);
@@ -78,11 +78,12 @@ fn nearest_to_failing(effect: &OutcomeRecord, verdicts: &[VerdictRecord]) -> Str
         verdict.map_or(0.0, |verdict| verdict.allowed)
     };
     let broken = effect.shares.iter().filter(|one| one.share > 0.0);
-    let load = |subject: &str, share: f64| share / allowed(subject).max(f64::MIN_POSITIVE);
-    let worst =
-        broken.max_by(|a, b| load(&a.subject, a.share).total_cmp(&load(&b.subject, b.share)));
+    let utilisation = |subject: &str, share: f64| share / allowed(subject).max(f64::MIN_POSITIVE);
+    let worst = broken.max_by(|a, b| {
+        utilisation(&a.subject, a.share).total_cmp(&utilisation(&b.subject, b.share))
+    });
     worst.map_or_else(
-        || "none broken".into(),
+        || "nothing".into(),
         |one| {
             let fails = one.share > allowed(&one.subject);
             let word = if fails { " FAIL" } else { "" };

@@ -15,9 +15,9 @@ pub fn block(best: &AnswerRecord, goals: &GoalsRecord) -> Option<Block> {
         ("", Align::Left),
         ("share", Align::Right),
         ("95 % interval", Align::Left),
-        ("may", Align::Right),
+        ("allowed", Align::Right),
         ("margin", Align::Right),
-        ("broken by", Align::Left),
+        ("counted when", Align::Left),
     ]);
     for verdict in &best.verdicts {
         let broken_by = subject::broken_when(&verdict.subject, goals, best);

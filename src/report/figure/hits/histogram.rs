@@ -60,7 +60,7 @@ pub fn histograms(record: &Record, hits: &HitsRecord) -> [Histogram; 3] {
             title: "Angle between flight and surface",
             name: "angle, °; 90 is perpendicular",
             remark: format!(
-                "{} of these stick",
+                "{} of these grip",
                 share(sticking as f64 / hits.sticks.len().max(1) as f64)
             ),
             values: angles,

@@ -75,8 +75,8 @@ impl Picture<'_, '_> {
         let sticks = |cell: &CellRecord| cell.share_sticking.is_some_and(|share| share >= 0.5);
         let slips = |cell: &CellRecord| cell.share_sticking.is_some_and(|share| share < 0.5);
         let sticking = match (any(sticks), any(slips)) {
-            (true, true) => "dashed: half of the first hits stick, half slip",
-            (true, false) => "most first hits stick everywhere",
+            (true, true) => "dashed: half of the first hits grip, half slide",
+            (true, false) => "most first hits grip everywhere",
             (false, true) => "most first hits slip everywhere",
             (false, false) => "nowhere is the target hit",
         };
