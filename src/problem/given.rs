@@ -12,7 +12,7 @@ use crate::units::{self, Dimension, shortened};
 /// It is no such value, or lies beyond what a problem file may say.
 pub fn setting(setting: Setting, text: &str) -> Result<f64, String> {
     let text = text.trim();
-    let value = match dimension(setting) {
+    let value = match setting.dimension() {
         Some(dimension) => units::parse(dimension, text).map_err(|fault| fault.to_string())?,
         None => units::parse_number(text)
             .filter(|value| value.is_finite())
@@ -67,17 +67,14 @@ pub fn accuracy(text: &str) -> Result<f64, String> {
 /// # Errors
 /// The first fault, with the name of its setting.
 pub fn check(settings: &Settings) -> Result<(), String> {
-    for setting in Setting::OF_THE_NOZZLE
-        .into_iter()
-        .chain([Setting::StaticFriction])
-    {
+    for setting in Setting::ALL {
         let limit = match setting {
             Setting::Incidence if settings.aim_above <= 0.0 => Limit::INCIDENCE,
             _ => limit(setting),
         };
         let value = setting.of(settings);
-        let shown = match dimension(setting) {
-            Some(Dimension::Angle) => format!("{} deg", units::degrees(value)),
+        let shown = match setting.dimension() {
+            Some(Dimension::Angle) => format!("{} deg", setting.to_record(value)),
             Some(Dimension::Length) => format!("{value} m"),
             Some(_) => format!("{value} m/s"),
             None => value.to_string(),
@@ -110,15 +107,12 @@ pub(crate) const fn limit(setting: Setting) -> Limit {
     }
 }
 
-/// `None` for a plain number.
-const fn dimension(setting: Setting) -> Option<Dimension> {
-    match setting {
-        Setting::Incidence | Setting::Azimuth => Some(Dimension::Angle),
-        Setting::Standoff | Setting::AimAlong | Setting::AimAcross | Setting::AimAbove => {
-            Some(Dimension::Length)
-        }
-        Setting::Speed => Some(Dimension::Speed),
-        Setting::StaticFriction => None,
+/// What the half-width of a setting's tolerance may be.
+pub(crate) const fn half_width_limit(setting: Setting) -> Limit {
+    match setting.dimension() {
+        Some(Dimension::Angle) => Limit::ANGLE_OR_ZERO,
+        Some(Dimension::Length) => Limit::LENGTH_OR_ZERO,
+        _ => Limit::BELOW_ALL,
     }
 }
 

@@ -10,10 +10,9 @@ use crate::evaluate::Evaluation;
 use crate::feasibility::{Gap, gap, gap_within_tolerance};
 use crate::impact::{Contact, Restitution};
 use crate::jet::Pose;
-use crate::problem::setting::Settings;
+use crate::problem::setting::{Setting, Settings, for_each_setting};
 use crate::scenario::Scenario;
 use crate::solve::Answer;
-use crate::units::degrees;
 use crate::verdict::{Subject, Verdict};
 
 /// Settings for one contact and what they do.
@@ -94,25 +93,35 @@ pub struct ContactRecord {
     pub tangential_restitution: f64,
 }
 
-/// Settings.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SettingsRecord {
-    /// deg; 90 is perpendicular.
-    pub incidence_deg: f64,
-    /// deg.
-    pub azimuth_deg: f64,
-    /// m.
-    pub standoff_m: f64,
-    /// m/s.
-    pub speed_m_s: f64,
-    /// m.
-    pub aim_along_m: f64,
-    /// m.
-    pub aim_across_m: f64,
-    /// m.
-    #[serde(default)]
-    pub aim_above_m: f64,
+macro_rules! settings_record {
+    ($($variant:ident $field:ident $key:ident $dimension:ident [$($serde:meta)?] $doc:literal,)+) => {
+        /// Settings; angles in deg, else SI.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        pub struct SettingsRecord {
+            $(#[doc = $doc] $(#[$serde])? pub $key: f64,)+
+        }
+
+        impl SettingsRecord {
+            pub(crate) fn new(settings: &Settings) -> Self {
+                Self { $($key: Setting::$variant.to_record(settings.$field),)+ }
+            }
+
+            /// The value of a setting; `None` for friction, which belongs to the contact.
+            pub const fn get(&self, setting: Setting) -> Option<f64> {
+                match setting {
+                    $(Setting::$variant => Some(self.$key),)+
+                    Setting::StaticFriction => None,
+                }
+            }
+
+            /// The settings, with the first contact.
+            pub fn settings(&self) -> Settings {
+                Settings { $($field: Setting::$variant.from_record(self.$key),)+ ..Settings::ZERO }
+            }
+        }
+    };
 }
+for_each_setting!(settings_record);
 
 /// A pose of the nozzle in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -246,20 +255,6 @@ impl ContactRecord {
             restitution_at_m_s: at,
             restitution_exponent: exponent,
             tangential_restitution: contact.tangential_restitution,
-        }
-    }
-}
-
-impl SettingsRecord {
-    pub(crate) fn new(settings: &Settings) -> Self {
-        Self {
-            incidence_deg: degrees(settings.incidence),
-            azimuth_deg: degrees(settings.azimuth),
-            standoff_m: settings.standoff,
-            speed_m_s: settings.speed,
-            aim_along_m: settings.aim_along,
-            aim_across_m: settings.aim_across,
-            aim_above_m: settings.aim_above,
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use super::answer::subject_name;
 use super::evidence::{AxisRecord, CellRecord, MapRecord};
-use super::window::key_and_unit;
 use crate::map::{Axis, Map, Place};
 use crate::objective::Terms;
 use crate::scenario::Scenario;
@@ -132,10 +131,10 @@ impl MapRecord {
 
 impl AxisRecord {
     fn new(axis: &Axis) -> Self {
-        let (setting, shown) = key_and_unit(axis.setting);
+        let values = axis.values.iter();
         Self {
-            setting,
-            values: axis.values.iter().map(|&value| shown(value)).collect(),
+            setting: axis.setting.record_key().into(),
+            values: values.map(|&value| axis.setting.to_record(value)).collect(),
         }
     }
 }

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::library::{LibraryContactRecord, MediumRecord};
-use super::window::key_and_unit;
 use crate::printable;
 use crate::problem::equipment::Spread;
 use crate::problem::setting::{Range, Setting};
@@ -122,6 +121,22 @@ pub struct ToleranceRecord {
     pub friction: f64,
 }
 
+impl ToleranceRecord {
+    /// Half-width of a setting in the unit of its key; of the speed and of friction relative to them.
+    pub const fn half_width(&self, setting: Setting) -> f64 {
+        match setting {
+            Setting::Incidence => self.incidence_deg,
+            Setting::Azimuth => self.azimuth_deg,
+            Setting::Standoff => self.standoff_m,
+            Setting::Speed => self.speed,
+            Setting::AimAlong => self.aim_along_m,
+            Setting::AimAcross => self.aim_across_m,
+            Setting::AimAbove => self.aim_above_m,
+            Setting::StaticFriction => self.friction,
+        }
+    }
+}
+
 impl QuestionRecord {
     /// The record of a problem.
     pub fn new(problem: &Problem, source: &Source) -> Self {
@@ -183,11 +198,10 @@ fn calibration(problem: &Problem) -> Vec<CalibrationRecord> {
 fn ranges(problem: &Problem) -> Vec<RangeRecord> {
     let range = |setting: Setting| {
         let Range { min, max } = problem.ranges.range(setting)?;
-        let (key, shown) = key_and_unit(setting);
         Some(RangeRecord {
-            setting: key,
-            min: shown(min),
-            max: shown(max),
+            setting: setting.record_key().into(),
+            min: setting.to_record(min),
+            max: setting.to_record(max),
         })
     };
     Setting::OF_THE_NOZZLE

@@ -3,10 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::answer::subject_name;
-use crate::problem::setting::Setting;
 use crate::scenario::Scenario;
 use crate::solve::{Drift, Turn, Window};
-use crate::units::degrees;
 
 /// How far one setting may drift alone before a verdict turns; deg for angles, else SI.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,10 +31,10 @@ pub struct DriftRecord {
 impl WindowRecord {
     /// The record of a window.
     pub fn new(scenario: &Scenario, window: &Window) -> Self {
-        let (key, shown) = key_and_unit(window.setting);
+        let setting = window.setting;
         let drift = |drift: &Drift| DriftRecord {
-            to: shown(drift.to),
-            within: shown(drift.within),
+            to: setting.to_record(drift.to),
+            within: setting.to_record(drift.within),
             turns: drift.turns.map(|turn| match turn {
                 Turn::Verdict(subject) => subject_name(scenario, subject),
                 Turn::Clearance => "clearance".into(),
@@ -44,22 +42,9 @@ impl WindowRecord {
             }),
         };
         Self {
-            setting: key,
+            setting: setting.record_key().into(),
             down: drift(&window.down),
             up: drift(&window.up),
         }
     }
-}
-
-/// The key of a setting with its unit, and how an SI value is written in that unit.
-pub(super) fn key_and_unit(setting: Setting) -> (String, fn(f64) -> f64) {
-    let (unit, shown): (_, fn(f64) -> f64) = match setting {
-        Setting::Incidence | Setting::Azimuth => ("_deg", degrees),
-        Setting::Speed => ("_m_s", |value| value),
-        Setting::Standoff | Setting::AimAlong | Setting::AimAcross | Setting::AimAbove => {
-            ("_m", |value| value)
-        }
-        Setting::StaticFriction => ("", |value| value),
-    };
-    (format!("{}{unit}", setting.name()), shown)
 }

@@ -48,23 +48,13 @@ impl AxisView {
             };
         };
         let at = setting.value(&answer.settings);
-        let tolerance = &view.problem.tolerance;
-        let (half_width, scale) = match axis.setting.as_str() {
-            "incidence_deg" => (tolerance.incidence_deg, setting.scale()),
-            "azimuth_deg" => (tolerance.azimuth_deg, setting.scale()),
-            "standoff_m" => (tolerance.standoff_m, setting.scale()),
-            "speed_m_s" => (tolerance.speed, at),
-            "aim_along_m" => (tolerance.aim_along_m, setting.scale()),
-            "aim_across_m" => (tolerance.aim_across_m, setting.scale()),
-            _ => (tolerance.aim_above_m, setting.scale()),
-        };
         let shown = |value: &f64| value * setting.scale();
         Self {
             name: setting.name,
             unit: setting.unit,
             values: axis.values.iter().map(shown).collect(),
             at,
-            tolerance: half_width * scale,
+            tolerance: setting.half_width_at(at, &view.problem.tolerance),
             decimals: setting.decimals,
         }
     }

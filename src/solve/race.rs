@@ -89,7 +89,7 @@ impl Race {
             return Some(partial);
         }
         let &(rival, margin) = self.partial.get(look)?;
-        (partial - rival > margin).then(|| self.objective + (partial - rival))
+        (partial - rival > margin).then_some(self.objective + (partial - rival))
     }
 
     /// All that it depends on, for checkpoints.

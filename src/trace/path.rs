@@ -144,7 +144,8 @@ impl RayPacket {
         let hit = Hit {
             distance: self.hits.distance[i],
             point: vector(&self.hits.point).into(),
-            normal: vector(&self.hits.normal),
+            // Lanes carry signs of zero that nobody wants to read in a record.
+            normal: vector(&self.hits.normal).add_scalar(0.0),
             surface: self.hits.surface[i],
             hit_id: self.hits.hit_ids.at(i),
         };

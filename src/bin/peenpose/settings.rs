@@ -89,15 +89,9 @@ impl<'a> Earlier<'a> {
         let contact = contact_named(&best.contact, problem)
             .map_err(|fault| format!("--from {}: {fault}", self.path.display()))?;
         Ok(Settings {
-            incidence: best.settings.incidence_deg.to_radians(),
-            azimuth: best.settings.azimuth_deg.to_radians(),
-            standoff: best.settings.standoff_m,
-            speed: best.settings.speed_m_s,
-            aim_along: best.settings.aim_along_m,
-            aim_across: best.settings.aim_across_m,
-            aim_above: best.settings.aim_above_m,
             contact,
             static_friction: best.contact_values.mu_s,
+            ..best.settings.settings()
         })
     }
 }
@@ -153,16 +147,7 @@ struct Known {
     friction_asked: bool,
 }
 
-const SETTINGS: [Setting; 8] = [
-    Setting::Incidence,
-    Setting::Azimuth,
-    Setting::Standoff,
-    Setting::Speed,
-    Setting::AimAlong,
-    Setting::AimAcross,
-    Setting::AimAbove,
-    Setting::StaticFriction,
-];
+const SETTINGS: [Setting; Setting::ALL.len()] = Setting::ALL;
 
 impl Known {
     /// What the file holds, a result says, and `--set` says, the later ones on top.
@@ -225,23 +210,13 @@ impl Known {
 
     fn complete(&self, problem: &Problem) -> Result<Settings, String> {
         let mut missing: Vec<&str> = Vec::new();
-        let mut value = |index: usize| {
-            self.values[index].unwrap_or_else(|| {
-                missing.push(SETTINGS[index].name());
-                0.0
-            })
-        };
-        let mut settings = Settings {
-            incidence: value(0),
-            azimuth: value(1),
-            standoff: value(2),
-            speed: value(3),
-            aim_along: value(4),
-            aim_across: value(5),
-            aim_above: value(6),
-            contact: 0,
-            static_friction: 0.0,
-        };
+        let mut settings = Settings::ZERO;
+        for (setting, value) in SETTINGS.into_iter().zip(self.values) {
+            settings = setting.with(&settings, value.unwrap_or_default());
+            if value.is_none() && setting != Setting::StaticFriction {
+                missing.push(setting.name());
+            }
+        }
         match self.contact {
             Some(contact) => settings.contact = contact,
             None => missing.push("contact"),
@@ -254,8 +229,9 @@ impl Known {
                 contact.name
             ));
         }
-        settings.static_friction = self.values[7].unwrap_or(friction.min);
-        if self.values[7].is_none() && !friction.is_held() {
+        let [.., asked] = self.values;
+        settings.static_friction = asked.unwrap_or(friction.min);
+        if asked.is_none() && !friction.is_held() {
             missing.push("mu_s");
         }
         if self.values[0] == Some(0.0) && settings.aim_above <= 0.0 {

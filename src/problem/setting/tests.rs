@@ -35,8 +35,8 @@ fn a_range_holds_its_ends() {
 
 #[test]
 fn every_setting_has_a_value_of_its_own() {
-    let all = [&Setting::OF_THE_NOZZLE[..], &[Setting::StaticFriction]].concat();
-    let values: Vec<f64> = all.iter().map(|setting| setting.of(&CHOICE)).collect();
+    let all = Setting::ALL;
+    let values = all.map(|setting| setting.of(&CHOICE));
     assert_eq!(values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
     assert_eq!(values, CHOICE.numbers());
     for (index, setting) in all.iter().enumerate() {

@@ -8,7 +8,6 @@ use super::place::{Outcome, Place, is_close};
 use super::verdict;
 use crate::problem::equipment::Calibration;
 use crate::problem::given;
-use crate::problem::setting::Settings;
 
 /// Rounding errors of unit vectors and of places.
 const VECTOR_ROUNDING: f64 = 1e-6;
@@ -58,18 +57,7 @@ fn contact(at: &Place, it: &ContactRecord) -> Outcome {
 
 /// Settings that a problem file could hold.
 pub(super) fn settings(at: &Place, it: &SettingsRecord) -> Outcome {
-    let settings = Settings {
-        incidence: it.incidence_deg.to_radians(),
-        azimuth: it.azimuth_deg.to_radians(),
-        standoff: it.standoff_m,
-        speed: it.speed_m_s,
-        aim_along: it.aim_along_m,
-        aim_across: it.aim_across_m,
-        aim_above: it.aim_above_m,
-        contact: 0,
-        static_friction: 0.0,
-    };
-    given::check(&settings).or_else(|fault| at.holds(false, &format!("cannot be: {fault}")))
+    given::check(&it.settings()).or_else(|fault| at.holds(false, &format!("cannot be: {fault}")))
 }
 
 fn pose(at: &Place, it: &PoseRecord) -> Outcome {

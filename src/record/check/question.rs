@@ -3,6 +3,7 @@
 use super::super::QuestionRecord;
 use super::place::{Outcome, Place, is_close};
 use crate::impact::Sphere;
+use crate::problem::setting::Setting;
 
 pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
     for (key, value) in [
@@ -29,17 +30,15 @@ pub(super) fn check(at: &Place, it: &QuestionRecord) -> Outcome {
             it.goals.tangential_impulse.unwrap_or(0.0),
         ),
         ("goals.rebound_N_s", it.goals.rebound.unwrap_or(0.0)),
-        ("tolerance.incidence_deg", it.tolerance.incidence_deg),
-        ("tolerance.azimuth_deg", it.tolerance.azimuth_deg),
-        ("tolerance.standoff_m", it.tolerance.standoff_m),
-        ("tolerance.aim_along_m", it.tolerance.aim_along_m),
-        ("tolerance.aim_across_m", it.tolerance.aim_across_m),
-        ("tolerance.aim_above_m", it.tolerance.aim_above_m),
-        ("tolerance.speed", it.tolerance.speed),
         ("tolerance.restitution", it.tolerance.restitution),
-        ("tolerance.friction", it.tolerance.friction),
     ] {
         at.of(key).at_least(value, 0.0)?;
+    }
+    for setting in Setting::ALL {
+        let half_width = it.tolerance.half_width(setting);
+        at.of("tolerance")
+            .of(setting.name())
+            .at_least(half_width, 0.0)?;
     }
     let ball = Sphere {
         radius: it.shot_radius_m,

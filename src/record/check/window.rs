@@ -2,23 +2,20 @@
 
 use super::super::{DriftRecord, Record, WindowRecord};
 use super::place::{Outcome, Place};
+use crate::problem::setting::Setting;
 
 /// Ends of windows are found by halving: they may lie a little on the wrong side of the setting.
 const SLACK: f64 = 1e-3;
 
 pub(super) fn check(at: &Place, window: &WindowRecord, record: &Record) -> Outcome {
     let settings = &record.best.settings;
-    let value = match window.setting.as_str() {
-        "incidence_deg" => settings.incidence_deg,
-        "azimuth_deg" => settings.azimuth_deg,
-        "standoff_m" => settings.standoff_m,
-        "speed_m_s" => settings.speed_m_s,
-        "aim_along_m" => settings.aim_along_m,
-        "aim_across_m" => settings.aim_across_m,
-        "aim_above_m" => settings.aim_above_m,
-        "mu_s" => record.best.contact_values.mu_s,
-        _ => return at.of("setting").holds(false, "is none of the settings"),
+    let is_it = |setting: &Setting| setting.record_key() == window.setting;
+    let Some(setting) = Setting::ALL.into_iter().find(is_it) else {
+        return at.of("setting").holds(false, "is none of the settings");
     };
+    let value = settings
+        .get(setting)
+        .unwrap_or(record.best.contact_values.mu_s);
     let (down, up) = (&window.down, &window.up);
     let slack = SLACK * value.abs().max(down.to.abs()).max(up.to.abs());
     let lies_within = down.to <= value + slack && value <= up.to + slack;

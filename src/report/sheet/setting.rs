@@ -2,12 +2,17 @@
 
 use crate::digits;
 use crate::elementary::whole_power;
-use crate::record::{DriftRecord, RangeRecord, Record, SettingsRecord, WindowRecord};
+use crate::problem::setting;
+use crate::record::{
+    DriftRecord, RangeRecord, Record, SettingsRecord, ToleranceRecord, WindowRecord,
+};
 use crate::report::number::{coordinate, decimals_for, fixed, plain};
+use crate::units::Dimension;
 
-/// A setting that is a number.
+/// A setting that is a number, as the sheet shows it.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
+    of: setting::Setting,
     /// What people call it.
     pub name: &'static str,
     /// Its key in a record.
@@ -18,69 +23,17 @@ pub struct Setting {
     scale: f64,
     /// Fewest decimals shown, where five digits allow them.
     pub decimals: usize,
-    /// Its value in a record.
-    of: fn(&SettingsRecord) -> f64,
 }
 
-/// All settings, in the order of the problem file.
-pub const SETTINGS: [Setting; 7] = [
-    Setting {
-        name: "incidence",
-        key: "incidence_deg",
-        unit: "deg",
-        scale: 1.0,
-        decimals: 1,
-        of: |settings| settings.incidence_deg,
-    },
-    Setting {
-        name: "azimuth",
-        key: "azimuth_deg",
-        unit: "deg",
-        scale: 1.0,
-        decimals: 1,
-        of: |settings| settings.azimuth_deg,
-    },
-    Setting {
-        name: "standoff",
-        key: "standoff_m",
-        unit: "mm",
-        scale: 1e3,
-        decimals: 1,
-        of: |settings| settings.standoff_m,
-    },
-    Setting {
-        name: "speed",
-        key: "speed_m_s",
-        unit: "m/s",
-        scale: 1.0,
-        decimals: 2,
-        of: |settings| settings.speed_m_s,
-    },
-    Setting {
-        name: "aim_along",
-        key: "aim_along_m",
-        unit: "mm",
-        scale: 1e3,
-        decimals: 2,
-        of: |settings| settings.aim_along_m,
-    },
-    Setting {
-        name: "aim_across",
-        key: "aim_across_m",
-        unit: "mm",
-        scale: 1e3,
-        decimals: 2,
-        of: |settings| settings.aim_across_m,
-    },
-    Setting {
-        name: "aim_above",
-        key: "aim_above_m",
-        unit: "mm",
-        scale: 1e3,
-        decimals: 2,
-        of: |settings| settings.aim_above_m,
-    },
-];
+/// All settings of the nozzle, in the order of the problem file.
+pub const SETTINGS: [Setting; setting::Setting::OF_THE_NOZZLE.len()] = {
+    macro_rules! shown {
+        ($($variant:ident $field:ident $key:ident $dimension:ident [$($serde:meta)?] $doc:literal,)+) => {
+            [$(Setting::new(setting::Setting::$variant)),+]
+        };
+    }
+    setting::for_each_setting!(shown)
+};
 
 /// A step of the last decimal is no larger than this part of the window.
 const ROUNDING: f64 = 0.1;
@@ -114,14 +67,40 @@ impl Shown {
 }
 
 impl Setting {
+    const fn new(of: setting::Setting) -> Self {
+        let (unit, scale) = match of.dimension() {
+            Some(Dimension::Angle) => ("deg", 1.0),
+            Some(Dimension::Length) => ("mm", 1e3),
+            Some(_) => ("m/s", 1.0),
+            None => ("", 1.0),
+        };
+        let is_coarse = matches!(
+            of,
+            setting::Setting::Incidence | setting::Setting::Azimuth | setting::Setting::Standoff
+        );
+        Self {
+            of,
+            name: of.name(),
+            key: of.record_key(),
+            unit,
+            scale,
+            decimals: if is_coarse { 1 } else { 2 },
+        }
+    }
+
     /// Units on the sheet for one in the record.
     pub fn scale(&self) -> f64 {
         self.scale
     }
 
+    /// Its value in a record, in the unit of its key.
+    pub fn in_record(&self, settings: &SettingsRecord) -> f64 {
+        settings.get(self.of).unwrap_or_default()
+    }
+
     /// Its value in the unit of the sheet.
     pub fn value(&self, settings: &SettingsRecord) -> f64 {
-        (self.of)(settings) * self.scale
+        self.in_record(settings) * self.scale
     }
 
     /// Its value as text, without its unit; `any` where it makes no difference.
@@ -165,22 +144,23 @@ impl Setting {
 
     /// How exactly a shop sets it, half-width in the unit of the sheet.
     pub fn half_width(&self, record: &Record) -> f64 {
-        match self.set_within(record) {
-            (percent, "%") => percent / 100.0 * self.value(&record.best.settings),
-            (value, _) => value,
-        }
+        self.half_width_at(self.value(&record.best.settings), &record.problem.tolerance)
     }
 
     fn set_within(&self, record: &Record) -> (f64, &'static str) {
-        let tolerance = &record.problem.tolerance;
-        match self.key {
-            "incidence_deg" => (tolerance.incidence_deg, self.unit),
-            "azimuth_deg" => (tolerance.azimuth_deg, self.unit),
-            "standoff_m" => (tolerance.standoff_m * self.scale, self.unit),
-            "speed_m_s" => (tolerance.speed * 100.0, "%"),
-            "aim_along_m" => (tolerance.aim_along_m * self.scale, self.unit),
-            "aim_across_m" => (tolerance.aim_across_m * self.scale, self.unit),
-            _ => (tolerance.aim_above_m * self.scale, self.unit),
+        let half_width = record.problem.tolerance.half_width(self.of);
+        match self.of {
+            setting::Setting::Speed => (half_width * 100.0, "%"),
+            _ => (half_width * self.scale, self.unit),
+        }
+    }
+
+    /// How exactly a shop sets it, half-width in the unit of the sheet, round a value in that unit.
+    pub fn half_width_at(&self, value: f64, tolerance: &ToleranceRecord) -> f64 {
+        let half_width = tolerance.half_width(self.of);
+        match self.of {
+            setting::Setting::Speed => half_width * value,
+            _ => half_width * self.scale,
         }
     }
 

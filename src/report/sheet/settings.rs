@@ -176,15 +176,13 @@ fn friction(value: f64) -> String {
 
 fn remarks(record: &Record) -> Vec<String> {
     let best = &record.best;
-    let mut remarks = vec![
-        "Incidence is the impingement angle, from the surface: 90 deg is perpendicular.".to_owned(),
-    ];
+    let mut remarks = vec!["Incidence: impingement angle, 90 deg is perpendicular.".to_owned()];
     if best.shots > 0
         && SETTINGS
             .iter()
             .any(|setting| setting.tolerance(record).is_some())
     {
-        remarks[0] += " Figures allow for errors `set within`.";
+        remarks[0] += " Figures allow for `set within`.";
     }
     if record.windows.is_empty() {
         if record.status == StatusRecord::Evaluated && best.feasible {

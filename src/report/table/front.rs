@@ -4,22 +4,14 @@ use std::io;
 
 use super::{Rows, Table};
 use crate::record::FrontRecord;
+use crate::report::sheet::setting::SETTINGS;
 
 /// A row for each answer.
 pub(super) fn table(front: &[FrontRecord]) -> io::Result<Table> {
-    let mut table = Rows::headed(
-        "trade_off",
+    let columns = [
+        &["recommended", "contact", "mu_s"][..],
+        &SETTINGS.map(|setting| setting.key),
         &[
-            "recommended",
-            "contact",
-            "mu_s",
-            "incidence_deg",
-            "azimuth_deg",
-            "standoff_m",
-            "speed_m_s",
-            "aim_along_m",
-            "aim_across_m",
-            "aim_above_m",
             "target_error",
             "target_error_standard_error",
             "tangential",
@@ -29,30 +21,29 @@ pub(super) fn table(front: &[FrontRecord]) -> io::Result<Table> {
             "total",
             "fails",
         ],
-    )?;
+    ];
+    let mut table = Rows::headed("trade_off", &columns.concat())?;
     for point in front {
-        let at = &point.settings;
-        let [target, tangential, rebound] = point.objectives();
-        table.row(&[
-            &point.recommended,
-            &point.contact,
-            &point.mu_s,
-            &at.incidence_deg,
-            &at.azimuth_deg,
-            &at.standoff_m,
-            &at.speed_m_s,
-            &at.aim_along_m,
-            &at.aim_across_m,
-            &at.aim_above_m,
-            &target.0,
-            &target.1,
-            &tangential.0,
-            &tangential.1,
-            &rebound.0,
-            &rebound.1,
-            &point.objective.total,
-            &point.fails.join(" "),
-        ])?;
+        let settings = SETTINGS.map(|setting| setting.in_record(&point.settings));
+        let objectives = point.objectives().map(|(value, error)| [value, error]);
+        let numbers = [
+            &settings[..],
+            &objectives.concat(),
+            &[point.objective.total],
+        ]
+        .concat();
+        let names = [
+            point.recommended.to_string(),
+            point.contact.clone(),
+            point.mu_s.to_string(),
+        ];
+        let numbers = numbers.iter().map(ToString::to_string);
+        table.texts(
+            names
+                .into_iter()
+                .chain(numbers)
+                .chain([point.fails.join(" ")]),
+        )?;
     }
     table.finish()
 }

@@ -65,7 +65,11 @@ impl Rows {
     }
 
     fn row(&mut self, cells: &[&dyn Display]) -> io::Result<()> {
-        let cells = cells.iter().map(|cell| as_text(cell.to_string()));
+        self.texts(cells.iter().map(ToString::to_string))
+    }
+
+    fn texts(&mut self, cells: impl IntoIterator<Item = String>) -> io::Result<()> {
+        let cells = cells.into_iter().map(as_text);
         Ok(self.writer.write_record(cells.map(String::into_bytes))?)
     }
 

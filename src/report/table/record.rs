@@ -6,6 +6,7 @@ use std::io;
 use super::{Rows, Table, evidence, front, map, or_empty};
 use crate::record::{AnswerRecord, PoseRecord, ReceiptRecord, Record, SpreadRecord, TargetRecord};
 use crate::report::map::MAPS;
+use crate::report::sheet::setting::{SETTINGS, Setting};
 
 pub(super) fn all(record: &Record) -> io::Result<Vec<Table>> {
     let mut tables = vec![
@@ -128,20 +129,14 @@ fn verdicts(best: &AnswerRecord) -> io::Result<Table> {
 
 /// The best settings of each contact, best first.
 fn choices(record: &Record) -> io::Result<Table> {
-    let mut table = Rows::headed(
-        "choices",
+    let (pose, aim) = SETTINGS.split_at(4);
+    let keys = |settings: &[Setting]| settings.iter().map(|it| it.key).collect::<Vec<_>>();
+    let columns = [
+        &["contact", "passes", "feasible"][..],
+        &keys(pose),
+        &["pressure_Pa"],
+        &keys(aim),
         &[
-            "contact",
-            "passes",
-            "feasible",
-            "incidence_deg",
-            "azimuth_deg",
-            "standoff_m",
-            "speed_m_s",
-            "pressure_Pa",
-            "aim_along_m",
-            "aim_across_m",
-            "aim_above_m",
             "mu_s",
             "mu_d",
             "restitution",
@@ -157,40 +152,42 @@ fn choices(record: &Record) -> io::Result<Table> {
             "normal_impulse_mean_N_s",
             "tangential_impulse_mean_N_s",
         ],
-    )?;
+    ];
+    let mut table = Rows::headed("choices", &columns.concat())?;
     for answer in &record.choices {
-        let (settings, contact) = (&answer.settings, &answer.contact_values);
+        let contact = &answer.contact_values;
+        let values = |settings: &[Setting]| {
+            let values = settings.iter().map(|it| it.in_record(&answer.settings));
+            values.map(|value| value.to_string()).collect::<Vec<_>>()
+        };
         let objective = |part: fn(&crate::record::ObjectiveRecord) -> f64| {
             or_empty(answer.objective.as_ref().map(part))
         };
         let target = |part: fn(&TargetRecord) -> f64| or_empty(answer.target.as_ref().map(part));
-        table.row(&[
-            &answer.contact,
-            &answer.passes,
-            &answer.feasible,
-            &settings.incidence_deg,
-            &settings.azimuth_deg,
-            &settings.standoff_m,
-            &settings.speed_m_s,
-            &or_empty(answer.pressure),
-            &settings.aim_along_m,
-            &settings.aim_across_m,
-            &settings.aim_above_m,
-            &contact.mu_s,
-            &contact.mu_d,
-            &contact.restitution,
-            &or_empty(answer.clearance_m),
-            &objective(|terms| terms.total),
-            &objective(|terms| terms.standard_error),
-            &objective(|terms| terms.normal_impulse),
-            &objective(|terms| terms.tangential_impulse),
-            &objective(|terms| terms.rebound),
-            &objective(|terms| terms.miss),
-            &target(|target| target.share_on_target),
-            &target(|target| target.share_sticking),
-            &target(|target| target.normal_impulse.mean),
-            &target(|target| target.tangential_impulse.mean),
-        ])?;
+        let texts = |values: &[&dyn Display]| -> Vec<String> {
+            values.iter().map(ToString::to_string).collect()
+        };
+        let cells = [
+            texts(&[&answer.contact, &answer.passes, &answer.feasible]),
+            values(pose),
+            vec![or_empty(answer.pressure)],
+            values(aim),
+            texts(&[&contact.mu_s, &contact.mu_d, &contact.restitution]),
+            vec![
+                or_empty(answer.clearance_m),
+                objective(|terms| terms.total),
+                objective(|terms| terms.standard_error),
+                objective(|terms| terms.normal_impulse),
+                objective(|terms| terms.tangential_impulse),
+                objective(|terms| terms.rebound),
+                objective(|terms| terms.miss),
+                target(|target| target.share_on_target),
+                target(|target| target.share_sticking),
+                target(|target| target.normal_impulse.mean),
+                target(|target| target.tangential_impulse.mean),
+            ],
+        ];
+        table.texts(cells.concat())?;
     }
     table.finish()
 }
@@ -253,14 +250,11 @@ fn poses(record: &Record) -> io::Result<Table> {
             matrix_4x4,
         } = &answer.pose;
         let numbers = exit_m.iter().chain(direction).chain(quaternion_xyzw);
-        let mut cells: Vec<String> = numbers.map(picometres).collect();
         let matrix = matrix_4x4.map(|rows| rows.concat());
-        cells.extend(
-            (0..MATRIX.len()).map(|i| or_empty(matrix.as_ref().map(|m| picometres(&m[i])))),
-        );
-        let contact: &dyn Display = &answer.contact;
-        let cells = cells.iter().map(|cell| cell as &dyn Display);
-        table.row(&std::iter::once(contact).chain(cells).collect::<Vec<_>>())?;
+        let matrix =
+            (0..MATRIX.len()).map(|i| or_empty(matrix.as_ref().map(|m| picometres(&m[i]))));
+        let contact = std::iter::once(answer.contact.clone());
+        table.texts(contact.chain(numbers.map(picometres)).chain(matrix))?;
     }
     table.finish()
 }
