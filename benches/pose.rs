@@ -178,7 +178,7 @@ fn setup_of_even_facets(folder: &Path, side: f64) -> Scenario {
     write_even(&strips.scene, side, &path).expect("there is space for a mesh");
     let mut problem = strips.problem;
     problem.parts[0].shape = Shape::Mesh {
-        path,
+        file: path.into(),
         metres_per_unit: 1.0,
         regions: Vec::new(),
     };

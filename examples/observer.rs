@@ -7,8 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use peenpose::control::{Cancel, Control, Progress};
-use peenpose::scenario::Scenario;
-use peenpose::solve::solve;
+use peenpose::study::{Extras, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -17,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         [file] => (file.as_str(), 0.0),
         [file, enough, ..] => (file.as_str(), enough.parse()?),
     };
-    let (scenario, _source) = Scenario::load(Path::new(file))?;
+    let study = Study::open(Path::new(file))?;
 
     // The search calls this from any of its threads.
     let cancel = Cancel::default();
@@ -37,7 +36,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         observer: Some(Arc::new(observer)),
         ..Control::default()
     };
-    let solution = solve(&scenario, &control);
-    println!("{:?} after {} rays", solution.status, solution.rays);
+    let record = study.solve(Extras::default(), &control);
+    let record = record.ok_or("no contact to choose")?;
+    println!("{:?} after {} rays", record.status, record.work.rays);
     Ok(())
 }

@@ -6,11 +6,8 @@ use std::error::Error;
 use std::path::Path;
 
 use peenpose::control::Control;
-use peenpose::problem;
 use peenpose::problem::part::Shape;
-use peenpose::scenario::Scenario;
-use peenpose::scene::Walls;
-use peenpose::solve::solve;
+use peenpose::study::{Extras, Study};
 
 /// Quantities carry their units here; the checked problem is in SI.
 const TEXT: &str = "
@@ -33,24 +30,23 @@ goals:
 ";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let reading = problem::read_text(TEXT, Path::new("in code"))?;
-    let faults = problem::render(&reading.source, &reading.faults, false);
-    let problem = reading.problem.ok_or(faults)?;
+    let study = Study::from_text(TEXT, Path::new("in code"))?;
 
     for length in [40e-3, 60e-3, 100e-3, 200e-3] {
-        let mut longer = problem.clone();
-        if let Shape::Keyway(keyway) = &mut longer.parts[0].shape {
+        let mut problem = study.problem().clone();
+        if let Shape::Keyway(keyway) = &mut problem.parts[0].shape {
             keyway.length = length;
         }
         // The scene is built once, and every pose is tried in it.
-        let scenario =
-            Scenario::new(longer, Walls::Exact).map_err(|faults| format!("{faults:?}"))?;
-        let best = &solve(&scenario, &Control::default()).answers[0];
-        let (millimetres, incidence) = (length * 1e3, best.settings.incidence.to_degrees());
-        match &best.evaluation {
-            Some(found) => println!(
+        let longer = study.clone().with_problem(problem);
+        let longer = longer.map_err(|faults| format!("{faults:?}"))?;
+        let record = longer.solve(Extras::default(), &Control::default());
+        let best = record.ok_or("no contact to choose")?.best;
+        let (millimetres, incidence) = (length * 1e3, best.settings.incidence_deg);
+        match &best.objective {
+            Some(objective) => println!(
                 "{millimetres:3.0} mm: {incidence:.1} deg, J {:.5}",
-                found.terms.total()
+                objective.total
             ),
             None => println!("{millimetres:3.0} mm: the nozzle fits nowhere"),
         }

@@ -6,34 +6,41 @@ use std::error::Error;
 use std::path::Path;
 
 use peenpose::control::Control;
-use peenpose::evaluate::evaluate;
-use peenpose::feasibility::infeasibility;
-use peenpose::jet::{Replicates, purpose};
-use peenpose::scenario::Scenario;
-use peenpose::solve::solve;
-use peenpose::verdict::Verdict;
+use peenpose::study::{Extras, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(1);
     let file = file.as_deref().unwrap_or("problems/keyway.yaml");
-    let (scenario, _source) = Scenario::load(Path::new(file))?;
-    let best = solve(&scenario, &Control::default()).answers[0].settings;
+    let study = Study::open(Path::new(file))?;
+    let (extras, control) = (Extras::default(), Control::default());
+    let best = study
+        .solve(extras, &control)
+        .ok_or("no contact to choose")?
+        .best;
+    let contacts = study.problem().contacts.iter();
+    let contact = contacts
+        .map(|it| &it.name)
+        .position(|name| *name == best.contact);
 
-    // The same fresh shots at every angle, so that differences are not noise.
-    let shots = Replicates::new(&scenario.problem, purpose::ANSWERS, 16_384);
     println!("incidence_deg,fits,J,standard_error,mean_normal_impulse_N_s,passes");
     for incidence_deg in 55..=80 {
-        let mut settings = best;
+        let mut settings = best.settings.settings();
+        settings.contact = contact.unwrap_or_default();
+        settings.static_friction = best.contact_values.mu_s;
         settings.incidence = f64::from(incidence_deg).to_radians();
-        let found = evaluate(&scenario, &settings, &shots);
-        let fits = infeasibility(&scenario, &settings).is_none();
-        println!(
-            "{incidence_deg},{fits},{:.6},{:.6},{:.4e},{}",
-            found.terms.total(),
-            found.standard_error,
-            found.target.normal_impulse.mean,
-            fits && Verdict::all(&scenario, &found).iter().all(Verdict::passes),
-        );
+        // The same validation shots at every angle, so that differences are not noise.
+        let record = study.evaluate(&settings, 16_384, extras, &control);
+        let found = record.ok_or("no contact to evaluate")?.best;
+        if let (Some(objective), Some(target)) = (found.objective, found.target) {
+            println!(
+                "{incidence_deg},{},{:.6},{:.6},{:.4e},{}",
+                found.feasible,
+                objective.total,
+                objective.standard_error,
+                target.normal_impulse.mean,
+                found.passes,
+            );
+        }
     }
     Ok(())
 }

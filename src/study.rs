@@ -3,6 +3,7 @@
 mod command;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::chart::{BesidePoint, Chart, Plan, Refusal, measure};
 use crate::control::Control;
@@ -55,8 +56,33 @@ impl Study {
     /// # Errors
     /// See [`Self::open`].
     pub fn from_text(text: &str, path: &Path) -> Result<Self, Box<Rejection>> {
-        let (scenario, source) = Scenario::from_reading(problem::read_text(text, path))?;
+        Self::from_memory(text, path, &[])
+    }
+
+    /// The same with what is in its mesh files, by the names that the text has for them: nothing is read from
+    /// the disk but what is not among them.
+    ///
+    /// # Errors
+    /// See [`Self::open`].
+    pub fn from_memory(
+        text: &str,
+        path: &Path,
+        meshes: &[(&str, Arc<[u8]>)],
+    ) -> Result<Self, Box<Rejection>> {
+        let reading = problem::read_text(text, path).map(|reading| reading.with_meshes(meshes));
+        let (scenario, source) = Scenario::from_reading(reading)?;
         Ok(Self { scenario, source })
+    }
+
+    /// The same with a problem that was changed in code, and its scene built anew.
+    ///
+    /// # Errors
+    /// All faults of the geometry.
+    pub fn with_problem(self, problem: Problem) -> Result<Self, Vec<Fault>> {
+        Ok(Self {
+            scenario: Scenario::new(problem, Walls::Exact)?,
+            source: self.source,
+        })
     }
 
     /// The problem.

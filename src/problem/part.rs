@@ -1,6 +1,8 @@
 //! The parts of a scene as the user described them: checked, in metres, not yet built.
 
+use std::fmt;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 
@@ -71,13 +73,35 @@ pub enum Shape {
     },
     /// Triangles from a file.
     Mesh {
-        /// The file, resolved against the folder of the problem file.
-        path: PathBuf,
+        /// The file.
+        file: MeshFile,
         /// Metres per unit of length in the file.
         metres_per_unit: f64,
         /// Boxes (in the file's frame, m) that name the triangles whose centre they hold.
         regions: Vec<Region>,
     },
+}
+
+/// A mesh file: on disk, or its bytes under a name.
+#[derive(Clone, PartialEq)]
+pub struct MeshFile {
+    /// Where it is, resolved against the folder of the problem file. Its ending tells the format.
+    pub path: PathBuf,
+    /// What is in it; read from the disk when absent.
+    pub contents: Option<Arc<[u8]>>,
+}
+
+impl From<PathBuf> for MeshFile {
+    fn from(path: PathBuf) -> Self {
+        let contents = None;
+        Self { path, contents }
+    }
+}
+
+impl fmt::Debug for MeshFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.path)
+    }
 }
 
 /// A groove of rectangular section in the wall of a round bore (DIN 6885 style).

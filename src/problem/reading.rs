@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::Deserialize;
 
@@ -13,7 +14,7 @@ use super::fault::{Fault, Span};
 use super::fault_code::FaultCode;
 use super::faults::Faults;
 use super::file::ProblemFile;
-use super::part::{Part, Target};
+use super::part::{Part, Shape, Target};
 use super::reader::Reader;
 use super::size::{self, LARGEST_FILE};
 use super::source::Source;
@@ -35,6 +36,25 @@ pub struct Reading {
     pub surfaces: Vec<String>,
     /// The problem: there exactly when nothing is wrong.
     pub problem: Option<Problem>,
+}
+
+impl Reading {
+    /// The same with what is in some mesh files, by their names in the problem file; others are read from the
+    /// disk.
+    #[must_use]
+    pub fn with_meshes(mut self, meshes: &[(&str, Arc<[u8]>)]) -> Self {
+        let folder = self.source.path.parent().unwrap_or(Path::new(""));
+        let of_problem = self.problem.iter_mut().flat_map(|it| &mut it.parts);
+        for part in self.scene.iter_mut().flatten().chain(of_problem) {
+            if let Shape::Mesh { file, .. } = &mut part.shape {
+                let given = meshes
+                    .iter()
+                    .find(|(name, _)| folder.join(name) == file.path);
+                file.contents = given.map(|(_, contents)| Arc::clone(contents));
+            }
+        }
+        self
+    }
 }
 
 /// Reads a problem file.

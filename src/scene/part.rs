@@ -120,21 +120,22 @@ impl Geometry {
             } => prismatic(Profile::outline(profile), *length, *ends, walls),
             Shape::Box { min, max } => (tessellate::block(*min, *max), None),
             Shape::Mesh {
-                path,
+                file: source,
                 metres_per_unit,
                 regions,
             } => {
-                let loaded = mesh_file::load(path, *metres_per_unit, regions).map_err(|fault| {
-                    let key = match fault.defect.region() {
-                        Some(region) => format!("scene.{}.regions.{region}", part.name),
-                        None => format!("scene.{}.mesh", part.name),
-                    };
-                    Fault::at_key(fault.defect.rule(), key, fault.to_string())
-                })?;
+                let loaded =
+                    mesh_file::load(source, *metres_per_unit, regions).map_err(|fault| {
+                        let key = match fault.defect.region() {
+                            Some(region) => format!("scene.{}.regions.{region}", part.name),
+                            None => format!("scene.{}.mesh", part.name),
+                        };
+                        Fault::at_key(fault.defect.rule(), key, fault.to_string())
+                    })?;
                 warnings = loaded.warnings;
                 shells = Some(loaded.shells);
                 file = Some(MeshSource {
-                    path: path.clone(),
+                    path: source.path.clone(),
                     sha256: loaded.sha256,
                 });
                 (loaded.mesh, None)

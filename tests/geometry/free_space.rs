@@ -137,7 +137,7 @@ fn the_inside_of_eleven_meshes_is_that_of_counted_rays() {
         let part = Part {
             name: "body".into(),
             shape: Shape::Mesh {
-                path,
+                file: path.into(),
                 metres_per_unit: 1e-3,
                 regions: Vec::new(),
             },

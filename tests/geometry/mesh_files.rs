@@ -5,12 +5,15 @@ mod sample;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::common::cases::cases;
 use nalgebra::Point3;
+use peenpose::control::Control;
 use peenpose::problem::part::Region;
 use peenpose::scene::mesh::Mesh;
 use peenpose::scene::mesh_file::{Defect, LARGEST_FILE, MeshFault, MeshWarning, Place, read};
+use peenpose::study::{Extras, Study};
 use proptest::prelude::*;
 use sample::{Sample, cube, torus};
 use tempfile::TempDir;
@@ -764,4 +767,36 @@ fn peak_memory() -> u64 {
         .parse::<u64>()
         .unwrap()
         / 1000
+}
+
+#[test]
+fn a_mesh_from_memory_is_the_mesh_of_the_file() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    let text = fs::read_to_string(root.join("keyway-blind.yaml")).unwrap();
+    let bytes: Arc<[u8]> = fs::read(root.join("hub-blind-keyway.obj")).unwrap().into();
+    let nowhere = Path::new("no/such/folder/problem.yaml");
+    let from_disk = Study::from_text(&text, &root.join("keyway-blind.yaml")).unwrap();
+    let meshes = [("hub-blind-keyway.obj", Arc::clone(&bytes))];
+    let from_memory = Study::from_memory(&text, nowhere, &meshes).unwrap();
+    let evaluated = |study: &Study| {
+        let settings = study.problem().ranges.middle();
+        let record = study.evaluate(&settings, 256, Extras::default(), &Control::default());
+        let record = record.unwrap();
+        (record.best, record.mesh_sha256)
+    };
+    assert_eq!(evaluated(&from_disk), evaluated(&from_memory));
+    assert!(from_memory.clone().with_parry_rays().is_ok());
+
+    // What is not among them is read from the disk, where there is nothing.
+    let missing = Study::from_text(&text, nowhere).err().unwrap().to_string();
+    assert!(missing.contains("hub-blind-keyway.obj"), "{missing}");
+    let half = [("hub-blind-keyway.obj", bytes[..bytes.len() / 2].into())];
+    let half = Study::from_memory(&text, nowhere, &half).err().unwrap();
+    assert!(
+        half.to_string().contains("hub-blind-keyway.obj, line"),
+        "{half}"
+    );
+    let empty = [("hub-blind-keyway.obj", Arc::from([]))];
+    let empty = Study::from_memory(&text, nowhere, &empty).err().unwrap();
+    assert!(empty.to_string().contains("is empty"), "{empty}");
 }

@@ -292,14 +292,14 @@ fn every_other_key_is_read() {
         }
     );
     let Shape::Mesh {
-        path,
+        file,
         metres_per_unit,
         regions,
     } = &mask.shape
     else {
         panic!("{mask:?}");
     };
-    assert_eq!(path, Path::new("problems/parts/mask.obj"));
+    assert_eq!(file.path, Path::new("problems/parts/mask.obj"));
     assert_eq!(*metres_per_unit, 0.0254);
     assert_eq!(regions[0].name, "lip");
     assert_eq!(regions[0].max.z, 3.0 * 0.0254);

@@ -245,8 +245,8 @@ fn a_folder_gets_all_results_and_nothing_else() {
     let written = std::fs::read_to_string(out.join("result.json")).unwrap();
     assert_eq!(written, run.out);
     let sheet = std::fs::read_to_string(out.join("sheet.txt")).unwrap();
-    assert!(sheet.contains("All shots are the same: they hit plate.z_max first and stick."));
-    assert!(sheet.contains("figures from 1 fresh shot that"));
+    assert!(sheet.contains("All shots are the same: they hit plate.z_max first and grip."));
+    assert!(sheet.contains("figures from 1 validation shot, which"));
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("Every setting is held at one value in the file."));
     // Again, over the old files.

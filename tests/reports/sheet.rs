@@ -1,5 +1,5 @@
-//! The technique sheet of kept results against kept texts. `UPDATE_SHEETS=1 cargo test --test reports sheet`
-//! writes the texts anew; look at the difference before it is kept.
+//! The technique sheet of kept results against kept texts. `UPDATE_SHEETS=1 cargo test sheet`
+//! writes the texts anew, and those of the documents; look at the difference before it is kept.
 
 use peenpose::record::{
     AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, DentedRecord, EstimateRecord,
@@ -157,15 +157,14 @@ fn an_accuracy_beyond_what_is_known_of_the_objective_is_not_claimed() {
         let objective = answer.objective.as_mut().unwrap();
         (objective.total, objective.standard_error) = (0.004, 0.000_006);
     });
-    let says =
-        "search       converged within the standard error of J, 0.15 % (0.00001 % asked for)";
-    assert!(sheet(&record).contains(says), "{}", sheet(&record));
+    let says = "converged within the standard error of the score J, 0.15 % (0.00001 % asked for)";
+    assert!(words(&sheet(&record)).contains(says), "{}", sheet(&record));
     change(&mut record, |answer| {
         let objective = answer.objective.as_mut().unwrap();
         objective.standard_error = 1e-10;
     });
-    let says = "search       converged (accuracy asked for: 0.00001 % of J)";
-    assert!(sheet(&record).contains(says), "{}", sheet(&record));
+    let says = "converged to 0.00001 % of the score J (lower is better)";
+    assert!(words(&sheet(&record)).contains(says), "{}", sheet(&record));
 }
 
 #[test]
@@ -206,13 +205,13 @@ fn a_jet_that_misses_altogether_is_told_without_numbers() {
 #[test]
 fn sticking_that_makes_friction_irrelevant_is_said_in_so_many_words() {
     let mut record = record("keyway");
-    assert!(sheet(&record).contains("With damp and dry every shot sticks on first impact"));
+    assert!(sheet(&record).contains("With damp and dry every shot grips on first impact"));
     record.choices.remove(0);
     record.best = record.choices[0].clone();
     let text = sheet(&record);
     assert!(
         text.contains(
-            "Every shot sticks on first impact: friction makes no difference to the target"
+            "Every shot grips on first impact: friction makes no difference to the target"
         ),
         "{text}"
     );

@@ -102,7 +102,7 @@ fn a_list_of_effects_is_what_figures_come_from() {
     assert!(left_out[0].regret > scenario.problem.accuracy);
     let mut by_hand = scenario.clone();
     by_hand.problem.paths.shot_size = false;
-    by_hand.problem.model = Model::Full;
+    by_hand.problem.model = Model::Auto;
     let expected = solve(&by_hand, &Control::default());
     assert_eq!(objective(&asked), objective(&expected));
     assert_eq!(asked.answers[0].settings, expected.answers[0].settings);

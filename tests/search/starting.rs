@@ -164,32 +164,66 @@ fn the_library_is_listed_with_every_source() {
     }
 }
 
-/// What stands between two marks of a document.
-fn between<'a>(document: &'a str, start: &str, end: &str) -> &'a str {
-    let rest = document.split_once(start).unwrap().1;
-    rest.split_once(end).unwrap().0
+/// A document of the repository with a text that the program prints.
+struct Shown {
+    document: &'static str,
+    start: &'static str,
+    end: &'static str,
+}
+
+const BRIEF: Shown = Shown {
+    document: "README.md",
+    start: "<!-- brief -->\n```text\n",
+    end: "```\n<!-- /brief -->",
+};
+const PROBLEM: Shown = Shown {
+    document: "README.md",
+    start: "<!-- problem -->\n```yaml\n",
+    end: "```\n<!-- /problem -->",
+};
+const SHEET: Shown = Shown {
+    document: "docs/sheet.md",
+    start: "<!-- sheet -->\n```text\n",
+    end: "```\n<!-- /sheet -->",
+};
+
+impl Shown {
+    /// The document before the text, the text, and what follows.
+    fn parts(&self) -> [String; 3] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(self.document);
+        let whole = fs::read_to_string(path).unwrap();
+        let (before, rest) = whole.split_once(self.start).unwrap();
+        let (shown, after) = rest.split_once(self.end).unwrap();
+        [before, shown, after].map(str::to_owned)
+    }
+
+    /// The text; with `UPDATE_SHEETS=1` it becomes what is printed first.
+    fn text(&self, printed: &str) -> String {
+        let [before, shown, after] = self.parts();
+        if std::env::var_os("UPDATE_SHEETS").is_none() {
+            return shown;
+        }
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(self.document);
+        let whole = [&before, self.start, printed, self.end, &after];
+        fs::write(path, whole.concat()).unwrap();
+        printed.to_owned()
+    }
 }
 
 #[test]
-fn the_readme_shows_what_its_problem_gives() {
-    let readme = include_str!("../../README.md");
-    assert!(readme.lines().count() <= 150);
-    let text = between(
-        readme,
-        "<!-- problem -->\n```yaml\n",
-        "```\n<!-- /problem -->",
-    );
-    assert!(text.lines().count() <= 16);
-    let study = Study::from_text(text, Path::new("floor.yaml")).unwrap();
+fn the_sheet_of_the_readme_is_what_its_problem_gives() {
+    let [before, problem, after] = PROBLEM.parts();
+    let lines = |text: &str| text.lines().count();
+    assert!(lines(&before) + lines(&problem) + lines(&after) <= 150);
+    assert!(lines(&problem) <= 16);
+    let study = Study::from_text(&problem, Path::new("floor.yaml")).unwrap();
     let record = study.solve(Extras::default(), &Control::default()).unwrap();
-    let shown = between(readme, "<!-- brief -->\n```text\n", "```\n<!-- /brief -->");
-    assert_eq!(shown, brief(&record));
+    let printed = brief(&record);
+    assert_eq!(BRIEF.text(&printed), printed);
 }
 
 #[test]
 fn the_chapter_on_the_sheet_shows_the_keyway_as_it_is() {
-    let chapter = include_str!("../../docs/sheet.md");
-    let sheet = between(chapter, "<!-- sheet -->\n```text\n", "```\n<!-- /sheet -->");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let output = peenpose(root, &["solve", "problems/keyway.yaml", "--quiet"]);
     let timeless = |text: &str| {
@@ -198,5 +232,6 @@ fn the_chapter_on_the_sheet_shows_the_keyway_as_it_is() {
             .filter(|line| !line.contains("wall time"))
             .collect::<Vec<_>>()
     };
-    assert_eq!(timeless(sheet), timeless(text(&output.stdout)));
+    let printed = text(&output.stdout);
+    assert_eq!(timeless(&SHEET.text(printed)), timeless(printed));
 }

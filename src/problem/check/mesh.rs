@@ -46,7 +46,7 @@ pub(super) fn check(
         }
     };
     Some(Shape::Mesh {
-        path: path?,
+        file: path?.into(),
         metres_per_unit: unit?.metres(1.0),
         regions: regions?,
     })

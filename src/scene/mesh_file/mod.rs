@@ -42,7 +42,7 @@ use assembly::{Assembled, Assembly};
 use super::mesh::{Mesh, Shells};
 use crate::content::{Content, HEAD, Utf16};
 use crate::problem::fault::nearest_name;
-use crate::problem::part::Region;
+use crate::problem::part::{MeshFile, Region};
 use crate::problem::sha256;
 
 /// Bytes of the largest file that is read.
@@ -86,7 +86,8 @@ pub fn read(
     metres_per_unit: f64,
     regions: &[Region],
 ) -> Result<(Mesh, Vec<MeshWarning>), MeshFault> {
-    let loaded = load(path, metres_per_unit, regions)?;
+    let file = MeshFile::from(path.to_owned());
+    let loaded = load(&file, metres_per_unit, regions)?;
     Ok((loaded.mesh, loaded.warnings))
 }
 
@@ -101,13 +102,13 @@ pub(super) struct Loaded {
 
 /// The same with the shells of the mesh and the checksum of the file.
 pub(super) fn load(
-    path: &Path,
+    file: &MeshFile,
     metres_per_unit: f64,
     regions: &[Region],
 ) -> Result<Loaded, MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
     let found = || {
-        let (assembled, sha256) = parse(path, metres_per_unit)?;
+        let (assembled, sha256) = parse(file, metres_per_unit)?;
         let Assembled {
             mut mesh,
             mendings,
@@ -129,7 +130,7 @@ pub(super) fn load(
             sha256,
         })
     };
-    found().map_err(|fault: MeshFault| fault.in_file(path))
+    found().map_err(|fault: MeshFault| fault.in_file(&file.path))
 }
 
 /// Refuses more surfaces than can be told apart, and names that nobody can read.
@@ -148,10 +149,13 @@ fn check_surfaces(names: &[String]) -> Result<(), Defect> {
     }
 }
 
-fn parse(path: &Path, metres_per_unit: f64) -> Result<(Assembled, String), MeshFault> {
+fn parse(file: &MeshFile, metres_per_unit: f64) -> Result<(Assembled, String), MeshFault> {
     let whole = |defect: Defect| defect.at(Place::File);
-    let mut source = open(path).map_err(whole)?;
-    let format = Format::of(path).map_err(whole)?;
+    let mut source = match &file.contents {
+        Some(contents) => bearable(contents).map_err(whole)?,
+        None => open(&file.path).map_err(whole)?,
+    };
+    let format = Format::of(&file.path).map_err(whole)?;
     let bytes = source.get_ref().len() as u64;
     let sha256 = sha256(source.get_ref());
     let head = source.get_ref()[..source.get_ref().len().min(HEAD)].to_vec();
@@ -204,6 +208,15 @@ fn open(path: &Path) -> Result<Cursor<Vec<u8>>, Defect> {
                 _ => Ok(Cursor::new(contents)),
             }
         }
+    }
+}
+
+/// Bytes that came without a file, if they are as many as a file may have.
+fn bearable(contents: &[u8]) -> Result<Cursor<Vec<u8>>, Defect> {
+    match contents.len() as u64 {
+        0 => Err(Defect::Empty),
+        bytes if bytes > LARGEST_FILE => Err(Defect::TooLarge { bytes }),
+        _ => Ok(Cursor::new(contents.to_vec())),
     }
 }
 

@@ -51,7 +51,7 @@ pub fn run(data: &[u8]) {
     let part = Part {
         name: "part".into(),
         shape: Shape::Mesh {
-            path: file.path().into(),
+            file: file.path().to_owned().into(),
             metres_per_unit,
             regions,
         },

@@ -57,7 +57,7 @@ fn heap(bytes: &mut Bytes<'_>) -> Option<Scene> {
     let part = Part {
         name: "heap".into(),
         shape: Shape::Mesh {
-            path: file.path().into(),
+            file: file.path().to_owned().into(),
             metres_per_unit: 1.0,
             regions: Vec::new(),
         },

@@ -92,7 +92,7 @@ impl Plan {
 
     fn mesh(&self, path: PathBuf) -> Part {
         let shape = Shape::Mesh {
-            path,
+            file: path.into(),
             metres_per_unit: self.unit,
             regions: Vec::new(),
         };
