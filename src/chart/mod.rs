@@ -7,6 +7,7 @@
 mod beside;
 mod common;
 mod effect;
+mod leaks;
 mod plan;
 mod pose;
 mod sampling;
@@ -15,6 +16,7 @@ mod timing;
 
 pub use beside::{BesideFault, BesidePoint, LARGEST_TABLE, LONGEST_NAME, MOST_METHODS, MOST_RUNS};
 pub use effect::Effect;
+pub use leaks::Leaks;
 pub use plan::Plan;
 pub use pose::{PoseCurve, PosePoint, Walls};
 pub use sampling::Sampling;

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::leaks::Leaks;
 use super::plan::Plan;
 use super::sampling::Sampling;
 use super::timing;
@@ -32,6 +33,9 @@ pub struct PoseCurve {
     pub bias: f64,
     /// Standard error of that.
     pub bias_standard_error: f64,
+    /// Rays at edges of the mesh that were lost, for shots that fly as points; absent for others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leaks: Option<Leaks>,
     /// By the number of shots.
     pub points: Vec<PosePoint>,
 }
@@ -101,15 +105,19 @@ struct Way<'a> {
     walls: Walls,
     scenario: Cow<'a, Scenario>,
     settings: &'a Settings,
+    leaks: Option<Leaks>,
 }
 
 /// All of them; the first is the one that the search uses.
 fn ways<'a>(scenario: &'a Scenario, settings: &'a Settings) -> Result<Vec<Way<'a>>, Vec<Fault>> {
     let mut ways = Vec::new();
     for walls in models(scenario) {
+        let scenario = built(scenario, walls)?;
+        let are_points = matches!(walls, Walls::Points | Walls::Parry);
         ways.push(Way {
             walls,
-            scenario: built(scenario, walls)?,
+            leaks: are_points.then(|| Leaks::of(&scenario, settings)),
+            scenario,
             settings,
         });
     }
@@ -197,6 +205,7 @@ fn curves_of(sampling: Sampling, ways: &[Way], reference: f64, plan: &Plan) -> V
             triangles: way.scenario.scene.triangles(),
             bias,
             bias_standard_error,
+            leaks: way.leaks,
             points: points.collect(),
         }
     };

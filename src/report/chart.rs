@@ -1,6 +1,6 @@
 //! A chart in words and numbers.
 
-use crate::chart::{Chart, Effect, PoseCurve, Sampling, Searches};
+use crate::chart::{Chart, Effect, Leaks, PoseCurve, Sampling, Searches};
 use crate::report::figure::curve_name;
 use crate::report::finding::{self, rounded_time, share, signed_share};
 use crate::report::layout::{Align, Block, Table};
@@ -113,6 +113,7 @@ fn walls(chart: &Chart) -> Option<Block> {
         ("time", Align::Right),
         ("J changes by", Align::Right),
         ("+- std. error", Align::Right),
+        ("rays lost at edges", Align::Right),
     ]);
     for curve in &curves {
         table.row([
@@ -120,11 +121,16 @@ fn walls(chart: &Chart) -> Option<Block> {
             share(seconds(curve) / seconds(first)),
             signed_share(curve.bias),
             share(curve.bias_standard_error),
+            curve.leaks.map_or_else(String::new, leaks),
         ]);
     }
     let mut block = Block::default();
     block.table(table);
     Some(block)
+}
+
+fn leaks(leaks: Leaks) -> String {
+    format!("{} of {}", count(leaks.missed), count(leaks.aimed))
 }
 
 fn searches(chart: &Chart, searches: &Searches) -> Block {

@@ -14,6 +14,7 @@ mod point;
 mod query_shape;
 mod sphere;
 mod split;
+mod tolerances;
 mod walk;
 
 use wide::f32x8;

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::Instant;
 
 use assert_cmd::Command;
-use peenpose::chart::{BesidePoint, Chart, Plan, Refusal, Sampling, measure};
+use peenpose::chart::{BesidePoint, Chart, Plan, Refusal, Sampling, Walls, measure};
 use peenpose::control::{Cancel, Clock, Control, Progress};
 use peenpose::report;
 use peenpose::report::figure::Figure;
@@ -197,6 +197,21 @@ fn errors_fall_with_shots_and_rim_shots_beat_random_ones() {
 }
 
 #[test]
+fn rays_at_edges_are_lost_by_parry_alone() {
+    let chart = RUN.chart();
+    let leaks = |walls: Walls| {
+        let curve = chart.poses.iter().find(|it| it.walls == walls).unwrap();
+        curve.leaks.unwrap()
+    };
+    let (own, parry) = (leaks(Walls::Points), leaks(Walls::Parry));
+    assert!(own.aimed > 100 && own.missed == 0, "{own:?}");
+    assert_eq!(parry.aimed, own.aimed);
+    assert!((1..own.aimed / 10).contains(&parry.missed), "{parry:?}");
+    let exact = chart.poses.iter().find(|it| it.walls == Walls::Exact);
+    assert_eq!(exact.unwrap().leaks, None);
+}
+
+#[test]
 fn what_is_left_out_changes_what_it_should() {
     let chart = RUN.chart();
     let effect = |name: &str| {
@@ -224,6 +239,7 @@ fn figures_are_well_formed_and_name_axes_and_units() {
             " µs",
             " %",
             "exact walls",
+            "rays lost at edges",
             "faster",
             "more accurate",
         ],

@@ -7,7 +7,7 @@ use super::axis::{LogAxis, percent};
 use super::plot::{Axes, Plot};
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
 use super::style::{FAINT, GHOST, INK, LABEL, look_of};
-use crate::chart::{Chart, PoseCurve, Sampling, Walls};
+use crate::chart::{Chart, Leaks, PoseCurve, Sampling, Walls};
 use crate::report::finding;
 use crate::report::number::{count, significant, time};
 
@@ -182,7 +182,11 @@ fn legend(chart: &Chart, area: &Area) -> Drawn {
         .filter(|c| c.sampling == Sampling::ALL[0]);
     let (mut left, mut top) = (MARGIN, 30);
     for (index, curve) in first.enumerate() {
-        let name = curve_name(curve);
+        let lost = |leaks: Leaks| {
+            let (missed, aimed) = (count(leaks.missed), count(leaks.aimed));
+            format!(" ({missed} of {aimed} rays lost at edges)")
+        };
+        let name = curve_name(curve) + &curve.leaks.map_or_else(String::new, lost);
         let width = 66 + sheet::width(&name, LABEL);
         if left + width > SIZE.0 as i32 - MARGIN {
             (left, top) = (MARGIN, top + LEGEND_ROW);

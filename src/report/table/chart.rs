@@ -3,7 +3,7 @@
 use std::io;
 
 use super::{Rows, Table};
-use crate::chart::{Chart, Method, Sampling, Walls};
+use crate::chart::{Chart, Leaks, Method, Sampling, Walls};
 use crate::report::number::plain;
 
 pub(super) fn all(chart: &Chart) -> io::Result<Vec<Table>> {
@@ -23,6 +23,8 @@ fn poses(chart: &Chart) -> io::Result<Table> {
             "error",
             "bias",
             "bias_standard_error",
+            "rays_at_edges",
+            "rays_lost",
         ],
     )?;
     for curve in &chart.poses {
@@ -38,6 +40,11 @@ fn poses(chart: &Chart) -> io::Result<Table> {
             Walls::Parry => ("parry", String::new()),
             Walls::Facets { chord_angle_deg } => ("facets", plain(chord_angle_deg)),
         };
+        let leaks = |of: fn(Leaks) -> usize| {
+            let leaks = curve.leaks.map(of);
+            leaks.map_or_else(String::new, |rays| rays.to_string())
+        };
+        let (aimed, missed) = (leaks(|it| it.aimed), leaks(|it| it.missed));
         for point in &curve.points {
             table.row(&[
                 &sampling,
@@ -49,6 +56,8 @@ fn poses(chart: &Chart) -> io::Result<Table> {
                 &point.error,
                 &curve.bias,
                 &curve.bias_standard_error,
+                &aimed,
+                &missed,
             ])?;
         }
     }

@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::query_shape::QueryShape;
+use super::tolerances::TOLERANCES;
 use crate::scene::ray::Ray;
 
 /// The coordinates of the boxes: the mesh reaches from -1 to 1 along its longest side.
@@ -33,15 +34,6 @@ pub(in crate::scene) struct FlatRay<B> {
     skipped: f64,
 }
 
-/// Relative rounding of a distance to the side of a box: of a difference, of an inverse and of
-/// their product.
-const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
-/// Boxes are larger than the triangles in them by this, which covers the rounding of a ray's
-/// origin and of the sides.
-const MARGIN: f64 = 1.5 * f32::EPSILON as f64;
-/// Radii are taken larger by this share: origins moved by them have as much more rounding, which
-/// the margin does not cover, and normals of slabs are as much longer than 1.
-const GROWN_ROUNDING: f64 = 2.0 * f32::EPSILON as f64;
 /// Origins farther out than this along an axis are moved to the box of the mesh first.
 const FAR: f64 = 2.0;
 
@@ -59,19 +51,19 @@ impl Frame {
 
     /// How far the boxes reach.
     fn reach(&self) -> f64 {
-        1.0 + self.margin() + MARGIN
+        1.0 + self.margin() + TOLERANCES.margin
     }
 
     /// A limit along a ray (m) in the coordinates of the boxes.
     #[inline(always)]
     pub fn limit<B>(&self, limit: f64, ray: &FlatRay<B>) -> f32 {
         let limit = limit * self.scale - ray.skipped;
-        (limit + limit.abs() * ROUNDING + MARGIN) as f32
+        (limit + limit.abs() * TOLERANCES.side + TOLERANCES.margin) as f32
     }
 
     /// How much larger boxes are than the triangles in them.
     pub fn margin(&self) -> f64 {
-        MARGIN + self.slack
+        TOLERANCES.margin + self.slack
     }
 
     pub fn inside(&self, point: &Point3<f64>) -> Vector3<f64> {
@@ -82,7 +74,7 @@ impl Frame {
     #[inline(always)]
     pub fn ray<B: QueryShape>(&self, ray: &Ray, radius: f64) -> FlatRay<B> {
         let grown = if B::HAS_SIZE {
-            radius * self.scale * (1.0 + GROWN_ROUNDING)
+            radius * self.scale * (1.0 + TOLERANCES.radius)
         } else {
             0.0
         };
@@ -109,7 +101,7 @@ impl Frame {
         let backwards = axes.map(|axis| usize::from(inverse[axis] < 0.0));
         FlatRay {
             origins: [moved(grown), moved(-grown)],
-            inverse: [1.0 - ROUNDING, 1.0 + ROUNDING]
+            inverse: [1.0 - TOLERANCES.side, 1.0 + TOLERANCES.side]
                 .map(|factor| axes.map(|axis| (inverse[axis] * factor) as f32)),
             sides: [
                 axes.map(|axis| axis + 3 * backwards[axis]),

@@ -7,14 +7,10 @@ use nalgebra::Vector3;
 
 use super::bars::Bars;
 use super::split::Bounds;
+use super::tolerances::TOLERANCES;
 use super::{Node, WIDTH};
 use crate::scene::lanes::{larger, smaller};
 
-/// Relative rounding of a single operation.
-pub(super) const UNIT: f64 = 0.5 * f32::EPSILON as f64;
-/// Rounding of heights over a slab by the width of its box along the normal: 5 in what the ray starts
-/// from, and 2 in the height of the planes.
-const ACROSS_BOX: f64 = 8.0 * UNIT;
 /// Slabs are worth a look up to this share of their boxes in width.
 const WIDEST_SHARE: f64 = 0.5;
 
@@ -52,7 +48,7 @@ impl OrientedSlab {
         let points = triangles.flatten();
         let (low, high) = extremes(points.map(|point| (point - corner).dot(&exact)));
         let width = exact.abs().dot(&bounds.diagonal());
-        let margin = 2.0 * slack + ACROSS_BOX * width;
+        let margin = 2.0 * slack + TOLERANCES.height_across_box * width;
         (high - low < widest_share * width).then_some(Self {
             normal,
             low: (low - margin) as f32,

@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 use wide::f32x8;
 
-use super::oriented_slab::{Looks, OrientedSlabs, UNIT};
+use super::oriented_slab::{Looks, OrientedSlabs};
 use super::query_shape::QueryShape;
+use super::tolerances::TOLERANCES;
 use super::{Node, WIDTH};
 use crate::scene::lanes::{larger, smaller};
 
@@ -15,12 +16,6 @@ pub(in crate::scene) struct Point {
     /// What rounding makes of heights over slabs because of the origin.
     doubt: f32,
 }
-
-/// Rounding of a point's height by how far its origin is along any axis: once for each component of
-/// it, and those of a normal add up to 1.74 at most.
-const AT_ORIGIN: f64 = 2.0 * UNIT;
-/// By how far along the ray it is: 5 in what it rises, 4 in what it starts from, 2 in their sum.
-const ALONG_RAY: f32 = (12.0 * UNIT) as f32;
 
 impl Point {
     /// A bit for each child whose slab it meets between where it enters and leaves its box.
@@ -41,7 +36,7 @@ impl Point {
                 rise += normal * self.direction[axis];
             }
             let (first, last) = (start + rise * entries[lane], start + rise * exits[lane]);
-            let doubt = self.doubt + ALONG_RAY * exits[lane];
+            let doubt = self.doubt + (TOLERANCES.height_along_ray as f32) * exits[lane];
             let passes_over = smaller(first, last) > slabs.high[lane] + doubt;
             let passes_under = larger(first, last) < slabs.low[lane] - doubt;
             misses[lane] = f32::from(passes_over | passes_under);
@@ -59,7 +54,7 @@ impl QueryShape for Point {
         Self {
             origin: origin.map(|component| component as f32).into(),
             direction: direction.map(|component| component as f32).into(),
-            doubt: (origin.amax() * AT_ORIGIN) as f32,
+            doubt: (origin.amax() * TOLERANCES.height_at_origin) as f32,
         }
     }
 

@@ -11,6 +11,7 @@ use wide::f32x8;
 use super::bars::Bars;
 use super::oriented_slab::{Looks, OrientedSlabs};
 use super::query_shape::QueryShape;
+use super::tolerances::TOLERANCES;
 use super::{Node, WIDTH};
 use crate::scene::lanes::larger;
 
@@ -21,16 +22,6 @@ pub(in crate::scene) struct Sphere {
     /// The radius and all rounding.
     reach: f64,
 }
-
-/// More than rounding makes of a distance to boxes and slabs, as a share of all lengths that it is
-/// computed from.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// Takes more off a distance than its rounding to single precision may add.
-const SHORTER: f64 = 1.0 - f32::EPSILON as f64;
-
-/// The planes of a bar are at right angles, or counted as far as they are, but for the rounding of their
-/// normals: bars are by as much nearer than they seem.
-const OBLIQUE: f64 = 1.0 + 8.0 * f32::EPSILON as f64;
 
 /// How far a centre is from a slab.
 #[derive(Clone, Copy)]
@@ -82,7 +73,7 @@ impl Sphere {
             }
             // How far apart they are is convex along the way: it is no less than on its tangent here.
             let apart = square.sqrt();
-            let gap = apart - self.reach * OBLIQUE;
+            let gap = apart - self.reach * TOLERANCES.oblique;
             *entry += larger(gap * apart / larger(closing, f64::MIN_POSITIVE), 0.0);
         }
     }
@@ -127,7 +118,7 @@ impl QueryShape for Sphere {
         Self {
             origin: *origin,
             direction: *direction,
-            reach: radius + ROUNDING * lengths,
+            reach: radius + TOLERANCES.sphere * lengths,
         }
     }
 
@@ -149,7 +140,7 @@ impl QueryShape for Sphere {
             }
         }
         self.come_to_boxes(node, &mut exact);
-        *entries = exact.map(|entry| (entry * SHORTER) as f32);
+        *entries = exact.map(|entry| (entry * TOLERANCES.shorter) as f32);
         f32x8::new(*entries)
             .simd_le(f32x8::new(*exits))
             .to_bitmask()
