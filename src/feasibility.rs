@@ -43,24 +43,10 @@ pub struct Gap {
 pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
     let pose = Pose::new(&scenario.target.frame, settings);
     let clearance = scenario.problem.nozzle.clearance;
-    if let Some(part) = scenario
-        .scene
-        .in_material(&pose.exit, &aim(&pose, settings))
+    if let Some(infeasible) = in_material(scenario, settings, &pose)
+        .or_else(|| through_own_body(scenario, settings, &pose))
     {
-        let thickest = cores(scenario)
-            .map(|(_, radius)| radius)
-            .fold(0.0, f64::max);
-        let depth = scenario.scene.distance_to_part(part, &pose.exit);
-        return Some(Infeasible {
-            violation: clearance + thickest + depth + room_for_errors(scenario, settings),
-            obstacle: Obstacle::Material(part),
-        });
-    }
-    if let Some(overlap) = through_own_body(scenario, settings, &pose) {
-        return Some(Infeasible {
-            violation: clearance + overlap,
-            obstacle: Obstacle::Body,
-        });
+        return Some(infeasible);
     }
     let room = room_for_errors(scenario, settings);
     if let Some(gap) = gap_as_set(scenario, settings, clearance + room)
@@ -86,6 +72,35 @@ pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasi
         }
     }
     None
+}
+
+/// Infeasible because the exit is in material.
+fn in_material(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<Infeasible> {
+    let part = scenario
+        .scene
+        .in_material(&pose.exit, &aim(pose, settings))?;
+    let thickest = cores(scenario)
+        .map(|(_, radius)| radius)
+        .fold(0.0, f64::max);
+    let depth = scenario.scene.distance_to_part(part, &pose.exit);
+    let clearance = scenario.problem.nozzle.clearance;
+    Some(Infeasible {
+        violation: clearance + thickest + depth + room_for_errors(scenario, settings),
+        obstacle: Obstacle::Material(part),
+    })
+}
+
+/// How much nearer than the clearance the nozzle is to a wall as it is set, m; negative where it is farther off. In
+/// material or in the way of its own jet it is the violation.
+pub(crate) fn closeness(scenario: &Scenario, settings: &Settings) -> f64 {
+    let pose = Pose::new(&scenario.target.frame, settings);
+    if let Some(infeasible) = in_material(scenario, settings, &pose)
+        .or_else(|| through_own_body(scenario, settings, &pose))
+    {
+        return infeasible.violation;
+    }
+    let gap = gap_as_set(scenario, settings, f64::INFINITY);
+    scenario.problem.nozzle.clearance - gap.map_or(f64::MAX, |gap| gap.distance)
 }
 
 /// How near the nozzle comes to a surface as it is set; `None` in an empty scene.
@@ -257,11 +272,20 @@ fn room_for_errors(scenario: &Scenario, settings: &Settings) -> f64 {
     reach(scenario, settings) * turned + tolerance.standoff + shifted
 }
 
+/// Infeasible because the jet leaves through the nozzle's own body.
+fn through_own_body(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<Infeasible> {
+    let overlap = overlap_with_jet(scenario, settings, pose)?;
+    Some(Infeasible {
+        violation: scenario.problem.nozzle.clearance + overlap,
+        obstacle: Obstacle::Body,
+    })
+}
+
 /// How far, m, a jet goes along inside a lance of its own beyond the round end at the exit.
 ///
 /// A lance in a fixed direction may have its exit in its side, but a jet that leaves it farther back than
 /// half its radius goes through it. A part that moves with the nozzle may turn the jet before.
-fn through_own_body(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<f64> {
+fn overlap_with_jet(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<f64> {
     if scenario.scene.moves_with_nozzle() {
         return None;
     }

@@ -170,6 +170,7 @@ impl Study {
         let run = RunInfo {
             source: &self.source,
             status,
+            spread: Some(solution.spread),
             command: command::solve(self, extras),
             ablations: &solution.ablations,
             work: WorkRecord {
@@ -208,6 +209,7 @@ impl Study {
         let run = RunInfo {
             source: &self.source,
             status: StatusRecord::Evaluated,
+            spread: None,
             command: command::evaluate(self, settings, shots),
             ablations: &[],
             work: WorkRecord {

@@ -42,6 +42,11 @@ pub struct Verdict {
     pub is_exact: bool,
 }
 
+/// Standard errors by which a search stays below what is allowed,
+const MARGIN: f64 = 1.5;
+/// but no lower than this part of it.
+const LEAST_PART: f64 = 0.5;
+
 impl Verdict {
     /// All verdicts on an evaluation: the goals, then every surface that has a limit.
     pub fn all(scenario: &Scenario, evaluation: &Evaluation) -> Vec<Self> {
@@ -157,6 +162,37 @@ impl Verdict {
     /// Whether more shots of the same kind would not turn it: they had to be three standard errors off.
     pub fn is_beyond_doubt(&self) -> bool {
         self.is_exact || self.count().is_far_from(self.allowed)
+    }
+
+    /// The share over a part `slack` of what is allowed, less what the share of so few shots may be off: a finite
+    /// number, above 1 where that does not pass.
+    pub(crate) fn share_of_allowed(&self, slack: f64) -> f64 {
+        let share = if self.counted == 0 { 1.0 } else { self.share() };
+        let allowed = self.allowed * slack;
+        let counted = self.counted.max(1) as f64;
+        let error = if self.is_exact {
+            0.0
+        } else {
+            (allowed * (1.0 - allowed) / counted).sqrt()
+        };
+        let least = (allowed - MARGIN * error).max(allowed * LEAST_PART);
+        if least > 0.0 {
+            share / least
+        } else if share > 0.0 {
+            1.0 + share * counted
+        } else {
+            0.0
+        }
+    }
+
+    /// The share over what is allowed, finite: above 1 where it fails.
+    pub fn violation(&self) -> f64 {
+        match (self.passes(), self.allowed > 0.0) {
+            (true, false) => 0.0,
+            (_, true) if self.counted > 0 => self.share() / self.allowed,
+            (_, true) => 1.0 / self.allowed,
+            (false, false) => 1.0 + self.broken.max(1) as f64,
+        }
     }
 
     /// How much of the allowed share is used up: 1 is the limit.

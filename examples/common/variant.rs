@@ -51,7 +51,8 @@ pub fn path(file: &str) -> PathBuf {
 }
 
 impl Variant {
-    /// The problem with its scene.
+    /// The problem with its scene. Every share of violations is allowed: what is measured with it is the search for
+    /// the least J.
     pub fn scenario(&self) -> Result<Scenario, Box<dyn Error>> {
         let (mut scenario, _) = Scenario::load(&path(self.file))?;
         if self.shots == Shots::Points {
@@ -64,6 +65,15 @@ impl Variant {
         } else if *tolerance == Tolerance::default() {
             // The long hub has none of its own: it is set as exactly as the short one.
             *tolerance = Scenario::load(&path(SHORT))?.0.problem.tolerance;
+        }
+        let goals = &mut scenario.problem.goals;
+        goals.normal_impulse.share = 1.0;
+        goals.miss.share = 1.0;
+        if let Some(tangential) = &mut goals.tangential_impulse {
+            tangential.share = 1.0;
+        }
+        for limits in &mut scenario.surfaces {
+            limits.share = 1.0;
         }
         Ok(scenario)
     }

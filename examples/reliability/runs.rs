@@ -16,7 +16,7 @@ use crate::common::variant::{Variant, contact_named};
 /// Names of the columns.
 pub const HEADER: &str = "variant,contacts,seeds,within_1_percent,worst_excess_percent,\
                           median_excess_percent,excess_error_percent,median_poses,median_rays,\
-                          median_seconds,converged,budget_spent,other";
+                          median_seconds,converged,best_found,other";
 
 /// What one run of the search found and cost.
 struct Run {
@@ -89,7 +89,7 @@ fn summary(scenario: &Scenario, best: &[Settings], runs: &[Run], shots: usize) -
     let worst = excesses.last().map_or(f64::NAN, |excess| excess.value);
     let errors = excesses.iter().map(|excess| excess.standard_error);
     let count = |status: Status| runs.iter().filter(|run| run.status == status).count();
-    let (converged, spent) = (count(Status::Converged), count(Status::BudgetSpent));
+    let (converged, spent) = (count(Status::Converged), count(Status::BestFound));
     format!(
         "{},{within},{:.3},{:.3},{:.3},{:.0},{:.0},{:.4},{converged},{spent},{}",
         runs.len(),

@@ -3,10 +3,11 @@
 use super::ViolationCounts;
 use crate::jet::ShotSample;
 use crate::objective::{ObjectiveAccumulator, Tally, Terms};
-use crate::problem::setting::Settings;
+use crate::problem::setting::{Range, Settings};
 use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
 use crate::trace::{End, Observer, RayPacket, Tracer};
+use crate::verdict::Verdict;
 
 /// The impacts of some shots, per unit of launch speed.
 pub(crate) struct LargestImpulses {
@@ -62,6 +63,55 @@ impl LargestImpulses {
         self.tally.terms(&scenario.problem.goals, speed)
     }
 
+    /// Rays cast.
+    pub fn rays(&self) -> usize {
+        self.tally.rays
+    }
+
+    /// The largest share of shots that break a goal or a limit, over a share `slack` of what is allowed, at a launch
+    /// speed, m/s. As much of that is left as the share of so few shots may be off.
+    pub fn violation(&self, scenario: &Scenario, speed: f64, slack: f64) -> f64 {
+        let verdicts = Verdict::on(scenario, &self.counts(scenario, speed));
+        let shares = verdicts
+            .iter()
+            .map(|verdict| verdict.share_of_allowed(slack));
+        shares.fold(0.0, f64::max)
+    }
+
+    /// The speed in `range` at which J and a cost that depends on it are least together: where that costs nothing the
+    /// one with the least J, or else the best of some round it.
+    pub fn best_speed(&self, scenario: &Scenario, range: Range, cost: impl Fn(f64) -> f64) -> f64 {
+        let least = self.tally.best_speed(&scenario.problem.goals, range);
+        if cost(least) <= 0.0 {
+            return least;
+        }
+        let total = |speed: f64| self.terms(scenario, speed).total() + cost(speed);
+        let within = |factor: f64| (least * factor).max(range.min).min(range.max);
+        let speeds = (0..=2 * SPEEDS).map(|step| {
+            let offset = f64::from(step) / f64::from(SPEEDS) - 1.0;
+            within(1.0 + FARTHEST_SPEED * offset)
+        });
+        let mut best = (least, total(least));
+        for speed in speeds {
+            let total = total(speed);
+            if total < best.1 {
+                best = (speed, total);
+            }
+        }
+        // Towards the least J as far as it costs no more.
+        let (mut near, mut far) = (best.0, least);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (near + far);
+            let there = total(middle);
+            if there <= best.1 {
+                (near, best) = (middle, (middle, there));
+            } else {
+                far = middle;
+            }
+        }
+        best.0
+    }
+
     /// Violations at a launch speed, m/s.
     pub fn counts(&self, scenario: &Scenario, speed: f64) -> ViolationCounts {
         let goals = &scenario.problem.goals;
@@ -83,6 +133,12 @@ impl LargestImpulses {
         }
     }
 }
+
+/// Speeds on either side of that with the least J, and how far they go.
+const SPEEDS: u32 = 12;
+const FARTHEST_SPEED: f64 = 0.5;
+/// Halvings of the way to it.
+const HALVINGS: u32 = 6;
 
 /// Collects [`LargestImpulses`].
 struct LargestAccumulator {

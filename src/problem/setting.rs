@@ -68,6 +68,15 @@ macro_rules! for_each_setting {
 }
 pub(crate) use for_each_setting;
 
+impl SettingRanges {
+    /// Whether any setting of the nozzle has a range.
+    pub fn is_free(&self) -> bool {
+        let ranges = Setting::OF_THE_NOZZLE.into_iter();
+        let mut ranges = ranges.filter_map(|setting| self.range(setting));
+        ranges.any(|range| !range.is_held())
+    }
+}
+
 macro_rules! define_settings {
     ($($variant:ident $field:ident $key:ident $dimension:ident [$($serde:meta)?] $doc:literal,)+) => {
         /// The ranges that the search may use, in rad, m and m/s.

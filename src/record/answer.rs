@@ -38,6 +38,13 @@ pub struct AnswerRecord {
     pub feasible: bool,
     /// Whether every verdict passes.
     pub passes: bool,
+    /// The largest share of shots that break a goal or a limit, over what is allowed: at most 1 where it passes.
+    /// Where nothing is allowed, 1 more than the shots that do. Absent in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub violation: Option<f64>,
+    /// The least J of this contact, where the settings that have it fail and these pass, or fail by less.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_objective: Option<f64>,
     /// Why the nozzle cannot be there; absent where it can.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub infeasible_because: Option<String>,
@@ -213,6 +220,8 @@ impl AnswerRecord {
             pose: PoseRecord::new(&pose),
             feasible: answer.violation <= 0.0,
             passes: answer.passes(),
+            violation: Some(answer.share_of_allowed()),
+            least_objective: answer.least_objective,
             infeasible_because: answer.obstacle.map(|it| it.reason(scenario)),
             clearance_m: clearance.map(|gap| gap.distance),
             clearance_surface: clearance.map(surface_name),

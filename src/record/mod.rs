@@ -75,6 +75,13 @@ pub fn mesh_sha256(scenario: &Scenario, source: &Source) -> BTreeMap<String, Str
 pub struct Record {
     /// How the search ended.
     pub status: StatusRecord,
+    /// By how much finalists of independent searches differ in J, relative to the best one; absent where nothing
+    /// was searched, and in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
+    /// What ranks the choices; absent where nothing was searched, and in results of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ranking: Option<RankingRecord>,
     /// What was asked.
     pub problem: QuestionRecord,
     /// The recommended settings.
@@ -119,16 +126,28 @@ pub struct Record {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StatusRecord {
-    /// The accuracy asked for was reached.
+    /// The accuracy asked for was reached: finalists of independent searches agree.
     Converged,
-    /// The budget was spent before.
-    BudgetSpent,
+    /// The best settings that were found; finalists differ, or the shots were spent before. In results of older
+    /// versions it is called `budget_spent`.
+    #[serde(alias = "budget_spent")]
+    BestFound,
     /// The nozzle collides with the part everywhere.
     NoFeasiblePose,
     /// The search was asked to stop.
     Interrupted,
     /// Given settings were evaluated; nothing was searched.
     Evaluated,
+}
+
+/// What ranks the choices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RankingRecord {
+    /// The best settings pass; those that pass rank by J.
+    Passing,
+    /// No settings were found that pass: the least violation ranks first, then J.
+    LeastViolation,
 }
 
 /// Work done.
@@ -169,7 +188,7 @@ impl From<Status> for StatusRecord {
     fn from(status: Status) -> Self {
         match status {
             Status::Converged => Self::Converged,
-            Status::BudgetSpent => Self::BudgetSpent,
+            Status::BestFound => Self::BestFound,
             Status::NoFeasiblePose => Self::NoFeasiblePose,
             Status::Interrupted => Self::Interrupted,
         }
@@ -182,6 +201,8 @@ pub struct RunInfo<'a> {
     pub source: &'a Source,
     /// How the run ended.
     pub status: StatusRecord,
+    /// By how much finalists differ, where settings were searched.
+    pub spread: Option<f64>,
     /// The command that gives the same answer again.
     pub command: String,
     /// What each effect of the model does, as far as that was measured.
@@ -211,6 +232,11 @@ impl Record {
             .flatten();
         Some(Self {
             status: run.status,
+            spread: run.spread,
+            ranking: run.spread.map(|_| match best.passes() {
+                true => RankingRecord::Passing,
+                false => RankingRecord::LeastViolation,
+            }),
             problem: QuestionRecord::new(&scenario.problem, run.source),
             best: choices.first()?.clone(),
             windows: windows

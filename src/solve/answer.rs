@@ -22,15 +22,23 @@ pub struct Answer {
     pub violation: f64,
     /// What is in the way then.
     pub obstacle: Option<Obstacle>,
+    /// J of the settings with the least J, where these fail and others were searched that pass or fail less.
+    pub least_objective: Option<f64>,
 }
 
 impl Answer {
     /// Answers are ranked by this.
     pub(super) fn order(&self) -> f64 {
         match &self.evaluation {
-            Some(evaluation) => Fitness::Feasible(evaluation.terms).rank(),
+            Some(evaluation) => Fitness::Feasible(evaluation.terms, 0.0).rank(),
             None => Fitness::Infeasible(self.violation).rank(),
         }
+    }
+
+    /// The largest share of shots that break a goal or a limit, over what is allowed: at most 1 where all pass.
+    pub fn share_of_allowed(&self) -> f64 {
+        let violations = self.verdicts.iter().map(Verdict::violation);
+        violations.fold(0.0, f64::max)
     }
 
     /// J, where the nozzle fits.
@@ -73,7 +81,7 @@ impl Answer {
         let choices: Vec<Settings> = feasible.map(|candidate| candidate.settings).collect();
         let mut evaluations = evaluate_each_adaptively(scenario, &choices, validation).into_iter();
         let answer = |candidate: &&Candidate| match candidate.fitness {
-            Fitness::Feasible(_) => {
+            Fitness::Feasible(..) => {
                 let evaluation = evaluations.next()?;
                 Some(Self::feasible(
                     scenario,
@@ -115,6 +123,7 @@ impl Answer {
             verdicts,
             violation: infeasible.map_or(0.0, |it| it.violation),
             obstacle: infeasible.map(|it| it.obstacle),
+            least_objective: None,
         }
     }
 }

@@ -7,9 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use super::objectives::Objectives;
 use super::pareto_archive::ParetoArchive;
+use super::passing::Penalty;
 use super::race::{LOOKS, Look, Race};
+use super::repair::repaired;
+use super::space::Space;
 use crate::checkpoint::{Checkpoint, Page};
 use crate::control::Control;
+use crate::evaluate::LargestImpulses;
 use crate::feasibility::infeasibility;
 use crate::jet::ShotSample;
 use crate::objective::{Tally, Terms};
@@ -20,8 +24,8 @@ use crate::scenario::Scenario;
 /// Fitness of some settings on a set of shots.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Fitness {
-    /// The nozzle fits.
-    Feasible(Terms),
+    /// The nozzle fits; with what violations cost besides, where that counts.
+    Feasible(Terms, f64),
     /// The nozzle cannot be there, by this much, m.
     Infeasible(f64),
 }
@@ -32,7 +36,7 @@ impl Fitness {
     /// that a common factor on all weights changes nothing.
     pub fn rank(&self) -> f64 {
         match self {
-            Self::Feasible(terms) => terms.total().min(WORST_OBJECTIVE),
+            Self::Feasible(terms, penalty) => (terms.total() + penalty).min(WORST_OBJECTIVE),
             Self::Infeasible(violation) => {
                 // Violations are of the order of millimetres.
                 let millimetres = violation * 1e3;
@@ -44,15 +48,23 @@ impl Fitness {
     /// Whether an evaluation can give this.
     fn is_sound(&self) -> bool {
         match self {
-            Self::Feasible(terms) => terms.are_sound(),
+            Self::Feasible(terms, penalty) => terms.are_sound() && *penalty >= 0.0,
             Self::Infeasible(violation) => *violation >= 0.0 && self.rank().is_finite(),
+        }
+    }
+
+    /// What violations cost.
+    pub fn penalty(&self) -> f64 {
+        match self {
+            Self::Feasible(_, penalty) => *penalty,
+            Self::Infeasible(_) => 0.0,
         }
     }
 
     /// J, when the nozzle fits.
     pub fn objective(&self) -> Option<f64> {
         match self {
-            Self::Feasible(terms) => Some(terms.total()),
+            Self::Feasible(terms, _) => Some(terms.total()),
             Self::Infeasible(_) => None,
         }
     }
@@ -123,6 +135,8 @@ pub struct Evaluator<'a> {
     page: Option<Page<'a>>,
     /// Archive of evaluations, and the factors on the weights.
     archive: Option<(&'a ParetoArchive, Objectives)>,
+    /// What violations cost.
+    penalty: Option<Penalty>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -142,6 +156,16 @@ impl<'a> Evaluator<'a> {
             control,
             page: control.checkpoint.as_deref().map(page),
             archive: None,
+            penalty: None,
+        }
+    }
+
+    /// The same with a penalty on violations.
+    #[must_use]
+    pub(super) fn penalised(self, penalty: Penalty) -> Self {
+        Self {
+            penalty: Some(penalty),
+            ..self
         }
     }
 
@@ -164,6 +188,11 @@ impl<'a> Evaluator<'a> {
         self.control.is_stopped()
     }
 
+    /// A feasible point near an infeasible one, if there is one.
+    pub(super) fn repaired(&self, space: &Space, point: &[f64]) -> Option<Vec<f64>> {
+        repaired(self.scenario, space, point)
+    }
+
     /// The fitness of some settings, the settings with the best speed for them, and J of the first shots.
     ///
     /// Where the first shots decide a race, they are all that is traced, and J is an estimate above the rival's.
@@ -175,7 +204,8 @@ impl<'a> Evaluator<'a> {
     ) -> (Settings, Fitness, Vec<f64>) {
         let none = Race::none();
         let race = if self.ends_early() { race } else { &none };
-        let key = race.numbers();
+        let mut key = race.numbers();
+        key.extend(self.penalty.iter().flat_map(|it| [it.price, it.slack]));
         let range = self.scenario.problem.ranges.speed;
         let is_sound = |evaluated: &Evaluated| evaluated.is_sound(settings, range);
         let page = self.page.as_ref();
@@ -194,7 +224,7 @@ impl<'a> Evaluator<'a> {
             speed: evaluated.speed,
             ..*settings
         };
-        if let (Some((archive, factors)), Fitness::Feasible(terms)) =
+        if let (Some((archive, factors)), Fitness::Feasible(terms, _)) =
             (&self.archive, &evaluated.fitness)
             && !self.is_stopped()
         {
@@ -207,6 +237,7 @@ impl<'a> Evaluator<'a> {
     /// the weights may be the best with others. With `model: full` nothing is left out.
     fn ends_early(&self) -> bool {
         self.archive.is_none()
+            && self.penalty.is_none()
             && self.control.shortcuts.early_ends
             && self.scenario.problem.model != Model::Full
     }
@@ -220,6 +251,9 @@ impl<'a> Evaluator<'a> {
                 rays: 0,
             };
         }
+        if let Some(penalty) = &self.penalty {
+            return self.evaluate_violations(settings, penalty);
+        }
         let (mut tally, mut partial) = (Tally::default(), Vec::new());
         // Whoever enters no race may be the rival of others.
         let looks = if self.ends_early() { &*self.looks } else { &[] };
@@ -230,7 +264,7 @@ impl<'a> Evaluator<'a> {
             if let Some(estimate) = race.lost(index, terms.total(), share) {
                 return Evaluated {
                     speed,
-                    fitness: Fitness::Feasible(terms.scaled_to(estimate)),
+                    fitness: Fitness::Feasible(terms.scaled_to(estimate), 0.0),
                     partial,
                     rays: tally.rays,
                 };
@@ -241,9 +275,30 @@ impl<'a> Evaluator<'a> {
         let (speed, terms) = self.best_speed(settings, &all);
         Evaluated {
             speed,
-            fitness: Fitness::Feasible(terms),
+            fitness: Fitness::Feasible(terms, 0.0),
             partial,
             rays: all.rays,
+        }
+    }
+
+    /// J and what violations cost, at the speed at which both together are least.
+    fn evaluate_violations(&self, settings: &Settings, penalty: &Penalty) -> Evaluated {
+        let scales_out = self.scenario.speed_scales_out(settings.contact);
+        let impulses = LargestImpulses::of(self.scenario, settings, self.shots);
+        let cost = |speed: f64| {
+            let violation = impulses.violation(self.scenario, speed, penalty.slack);
+            penalty.price * (violation - 1.0).max(0.0)
+        };
+        let range = self.scenario.problem.ranges.speed;
+        let speed = match scales_out {
+            true => impulses.best_speed(self.scenario, range, cost),
+            false => settings.speed,
+        };
+        Evaluated {
+            speed,
+            fitness: Fitness::Feasible(impulses.terms(self.scenario, speed), cost(speed)),
+            partial: Vec::new(),
+            rays: impulses.rays(),
         }
     }
 

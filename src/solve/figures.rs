@@ -38,6 +38,11 @@ impl<'a> Figures<'a> {
         self.sharpened(answers, searches)
     }
 
+    /// The answers of other searches, on the same shots.
+    pub fn of_searches(&self, searches: &[Search]) -> Vec<Answer> {
+        self.of(searches)
+    }
+
     /// The answers again, where searches have gone on.
     pub fn renewed(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
         let has_moved =

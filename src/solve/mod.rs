@@ -3,12 +3,15 @@
 //! J over the settings is a flat valley that ends at a cliff, or a needle in a plateau, with a jump wherever one
 //! shot changes surface. So the search
 //!
-//! 1. screens a low-discrepancy set of poses with few shots;
-//! 2. descends from the best few with Nelder-Mead, and goes on with fewer candidates and more shots (successive
-//!    halving); poses are compared on common random numbers, and those that clearly lose end early (racing);
+//! 1. screens a low-discrepancy set of poses with few shots, and looks for more where few can see the target or fit;
+//! 2. descends with Nelder-Mead from those that are better than their neighbours, in independent groups, and goes on
+//!    with fewer candidates and more shots (successive halving); poses are compared on common random numbers, those
+//!    that clearly lose end early (racing), and blocked ones are repaired;
 //! 3. draws a part of the shots with an importance density for the violations of the incumbent;
 //! 4. validates the answer on shots that the search has not seen, and raises the number of shots while the
-//!    optimism gap is too large.
+//!    optimism gap is too large;
+//! 5. starts further groups until the finalists of independent ones agree;
+//! 6. searches again for settings that pass, where those with the least J do not.
 //!
 //! The speed is not searched: its best value follows exactly from the traced paths wherever restitution does not
 //! depend on it.
@@ -17,13 +20,17 @@ mod ablation;
 mod answer;
 mod evaluator;
 mod figures;
+mod finalists;
 mod front;
 mod objectives;
 mod pareto_archive;
+mod passing;
 mod point;
 mod polish;
 mod race;
+mod repair;
 mod sampler;
+mod screening;
 mod search;
 mod space;
 mod status;
@@ -47,6 +54,7 @@ use crate::problem::setting::{Settings, Tolerance};
 use crate::scenario::Scenario;
 use evaluator::Evaluator;
 use figures::Figures;
+use finalists::{Agreement, confirmed};
 use sampler::Sampler;
 use search::{STAGES, STAGES_SET_EXACTLY, Search, Stage};
 use space::Space;
@@ -58,6 +66,8 @@ use tie::ranked;
 pub struct Solution {
     /// How it ended.
     pub status: Status,
+    /// By how much finalists of independent searches differ in J, relative to the best one.
+    pub spread: f64,
     /// The best settings for each contact, best first: by J, and contacts that tie with the best in
     /// the order of the file.
     pub answers: Vec<Answer>,
@@ -107,6 +117,22 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
         || Figures::new(&asked, control, &effort),
     );
     let mut answers = figures.all(&searches);
+    let leader = leading(&searches);
+    // Where the least J fails, finalists of the search for what passes are asked instead.
+    let agreement = if answers[leader].passes() {
+        confirmed(
+            &mut searches[leader],
+            &searched,
+            &sampler,
+            shots,
+            &effort,
+            control,
+        )
+    } else {
+        Agreement::of(&searches[leader], &searched.problem)
+    };
+    searches.iter_mut().for_each(Search::keep_best);
+    answers = figures.renewed(answers, &searches);
     let problem = &asked.problem;
     let not_converged = |searches: &[Search], answers: &[Answer], shots| {
         not_converged(searches, answers, problem, shots, control.validation_shots)
@@ -116,12 +142,20 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
         shots *= RISE;
         sampler.adapt(&searches, &effort, control);
         let samples = sampler.draw(shots);
-        let evaluator = Evaluator::new(&searched, &samples.shots, &effort, control);
+        let evaluator = sampler.evaluator(&searched, &samples, &effort, control);
         refine_in_turn(&mut searches, &open, &evaluator, &Stage::beyond(shots));
         tell(control, &effort, &searches);
         answers = figures.renewed(answers, &searches);
         open = not_converged(&searches, &answers, shots);
     }
+    let sought = passing::sought(
+        &mut answers,
+        (&asked, &searched),
+        &mut figures,
+        &effort,
+        control,
+    );
+    let agreement = sought.unwrap_or(agreement);
     let ablations = if control.is_stopped() {
         Vec::new()
     } else {
@@ -132,11 +166,12 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
     let status = match answers.first() {
         _ if control.is_stopped() => Status::Interrupted,
         Some(best) if best.evaluation.is_none() => Status::NoFeasiblePose,
-        Some(_) if open.is_empty() => Status::Converged,
-        _ => Status::BudgetSpent,
+        Some(_) if open.is_empty() && agreement.is_reached => Status::Converged,
+        _ => Status::BestFound,
     };
     Solution {
         status,
+        spread: agreement.spread,
         answers,
         ablations,
         poses: effort.poses(),
@@ -154,17 +189,11 @@ fn descend(
     control: &Control,
     effort: &Effort,
 ) -> (Vec<Search>, usize) {
-    let affordable = |stage: &&Stage| stage.shots <= control.most_shots;
     let is_set_exactly = scenario.problem.tolerance == Tolerance::default();
-    let all = if is_set_exactly {
-        &STAGES_SET_EXACTLY
-    } else {
-        &STAGES
-    };
-    let stages: Vec<&Stage> = all.iter().filter(affordable).collect();
+    let stages: Vec<&Stage> = stages(scenario, control.most_shots).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
     let samples = sampler.draw(SCREENING_SHOTS);
-    let evaluator = Evaluator::new(scenario, &samples.shots, effort, control);
+    let evaluator = sampler.evaluator(scenario, &samples, effort, control);
     let contacts = scenario.problem.ranges.contact.par_iter();
     let mut searches: Vec<Search> = contacts
         .map(|&contact| Search::screen(scenario, contact, &evaluator))
@@ -177,10 +206,13 @@ fn descend(
             sampler.adapt(&searches, effort, control);
         }
         let samples = sampler.draw(stage.shots);
-        let evaluator = Evaluator::new(scenario, &samples.shots, effort, control);
+        let evaluator = sampler.evaluator(scenario, &samples, effort, control);
         advance(&mut searches, &evaluator, stage);
         tell(control, effort, &searches);
-        let is_between = index > 0 && stage.shots < most_shots;
+        if stage.shots >= CHEAP_SHOTS && sampler.is_far_from_passing(&searches) {
+            return (searches, stage.shots);
+        }
+        let is_between = stage.shots >= CHEAP_SHOTS && stage.shots < most_shots;
         if is_set_exactly
             && is_between
             && !control.is_stopped()
@@ -190,6 +222,49 @@ fn descend(
         }
     }
     (searches, most_shots)
+}
+
+/// The stages of a problem, up to the most shots.
+fn stages(scenario: &Scenario, most_shots: usize) -> impl Iterator<Item = &'static Stage> {
+    let all = if scenario.problem.tolerance == Tolerance::default() {
+        &STAGES_SET_EXACTLY
+    } else {
+        &STAGES
+    };
+    all.iter().filter(move |stage| stage.shots <= most_shots)
+}
+
+/// Takes another group of the same contact through the stages, up to those of so many shots.
+fn descend_group(
+    search: &Search,
+    number: u32,
+    scenario: &Scenario,
+    sampler: &Sampler,
+    shots: usize,
+    effort: &Effort,
+    control: &Control,
+) -> Search {
+    let samples = sampler.draw(SCREENING_SHOTS);
+    let evaluator = sampler.evaluator(scenario, &samples, effort, control);
+    let mut group = search.another_group(number, scenario, &evaluator);
+    for stage in stages(scenario, shots) {
+        if control.is_stopped() {
+            break;
+        }
+        let samples = sampler.draw(stage.shots);
+        let evaluator = sampler.evaluator(scenario, &samples, effort, control);
+        group.refine(&evaluator, stage);
+    }
+    group
+}
+
+/// The index of the search with the best candidate.
+fn leading(searches: &[Search]) -> usize {
+    let rank = |index: &usize| searches[*index].best().fitness.rank();
+    let indices = 0..searches.len();
+    indices
+        .min_by(|a, b| rank(a).total_cmp(&rank(b)))
+        .unwrap_or(0)
 }
 
 /// Takes the searches through a stage: all of them as long as shots are few, then those that could

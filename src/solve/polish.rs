@@ -56,13 +56,46 @@ impl Candidate {
     }
 }
 
+/// A point that a descent has asked for, and the feasible one that stands for it.
+#[derive(Clone)]
+struct Probe {
+    point: Vec<f64>,
+    candidate: Candidate,
+    /// The rank of that one, and more the farther away it is: were it as flat beyond a bound as it is on it, a simplex
+    /// would fall over to the outside and never see that it is better inside.
+    cost: f64,
+}
+
+impl Probe {
+    fn at(race: &Race, space: &Space, evaluator: &Evaluator, point: Vec<f64>) -> Self {
+        let mut candidate = Candidate::in_race(race, space, evaluator, &point);
+        if candidate.fitness.objective().is_none()
+            && let Some(feasible) = evaluator.repaired(space, &point)
+        {
+            candidate = Candidate::in_race(race, space, evaluator, &feasible);
+        }
+        Self::of(point, candidate)
+    }
+
+    fn of(point: Vec<f64>, candidate: Candidate) -> Self {
+        let pairs = point.iter().zip(&candidate.point);
+        let distance: f64 = pairs.map(|(x, feasible)| (x - feasible).abs()).sum();
+        let cost = candidate.fitness.rank() * (1.0 + distance);
+        Self {
+            point,
+            candidate,
+            cost,
+        }
+    }
+}
+
 /// The cost function that argmin sees. It keeps the best points itself: argmin loses them when a run
 /// ends early.
 struct Descent<'a> {
     space: &'a Space,
     evaluator: &'a Evaluator<'a>,
     /// The first simplex: argmin asks for its corners again.
-    corners: &'a [Candidate],
+    corners: &'a [Probe],
     /// As many points as a simplex has, the best one first.
     leading: RefCell<Vec<Candidate>>,
 }
@@ -77,21 +110,17 @@ impl CostFunction for &Descent<'_> {
             return Ok(f64::MAX);
         }
         if let Some(corner) = self.corners.iter().find(|corner| corner.point == *point) {
-            return Ok(corner.fitness.rank());
+            return Ok(corner.cost);
         }
         let mut leading = self.leading.borrow_mut();
         // What is above all corners of the simplex is rejected, however far above.
         let race = Race::against_worst(&leading);
-        let candidate = Candidate::in_race(&race, self.space, self.evaluator, point);
-        let rank = candidate.fitness.rank();
-        let pairs = point.iter().zip(&candidate.point);
-        let outside: f64 = pairs.map(|(x, within)| (x - within).abs()).sum();
+        let probe = Probe::at(&race, self.space, self.evaluator, point.clone());
+        let rank = probe.candidate.fitness.rank();
         let place = leading.partition_point(|other| other.fitness.rank() <= rank);
-        leading.insert(place, candidate);
+        leading.insert(place, probe.candidate);
         leading.truncate(self.corners.len());
-        // Were it as flat beyond a bound as it is on it, a simplex would fall over to the outside and
-        // never see that it is better inside.
-        Ok(rank * (1.0 + outside))
+        Ok(probe.cost)
     }
 }
 
@@ -134,7 +163,7 @@ fn descend(
 ) -> Vec<Candidate> {
     let scale = start.fitness.rank().max(f64::MIN_POSITIVE);
     let corners = first_simplex(space, evaluator, &start, size);
-    let mut leading = corners.clone();
+    let mut leading: Vec<Candidate> = corners.iter().map(|it| it.candidate.clone()).collect();
     leading.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
     let descent = Descent {
         space,
@@ -197,12 +226,7 @@ fn best_bound(space: &Space, evaluator: &Evaluator, start: Candidate) -> Candida
 /// A simplex whose edges are so short that J rises by no more than a moderate share along them:
 /// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
 /// into a narrow valley loses sight of the valley's length.
-fn first_simplex(
-    space: &Space,
-    evaluator: &Evaluator,
-    start: &Candidate,
-    size: f64,
-) -> Vec<Candidate> {
+fn first_simplex(space: &Space, evaluator: &Evaluator, start: &Candidate, size: f64) -> Vec<Probe> {
     let rank = start.fitness.rank();
     let corner = |axis: usize| {
         // Inwards, so that a start on a bound does not make a flat simplex.
@@ -211,9 +235,9 @@ fn first_simplex(
         loop {
             let mut point = start.point.clone();
             point[axis] += towards_middle * edge;
-            let cut = rank * (1.0 + FAR_TOO_STEEP);
-            let corner = Candidate::below(cut, space, evaluator, &point);
-            let rise = corner.fitness.rank() / rank - 1.0;
+            let race = Race::above(rank * (1.0 + FAR_TOO_STEEP));
+            let corner = Probe::at(&race, space, evaluator, point);
+            let rise = corner.cost / rank - 1.0;
             let is_short = edge <= SHORTEST_EDGE * size;
             if is_short || rise <= STEEPEST_EDGE || evaluator.is_stopped() {
                 return corner;
@@ -221,7 +245,7 @@ fn first_simplex(
             edge *= if rise > FAR_TOO_STEEP { 0.25 } else { 0.5 };
         }
     };
-    let mut simplex = vec![start.clone()];
+    let mut simplex = vec![Probe::of(start.point.clone(), start.clone())];
     simplex.extend((0..space.dimensions()).map(corner));
     simplex
 }

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::evaluator::Effort;
+use super::evaluator::{Effort, Evaluator};
+use super::passing::Penalty;
 use super::polish::Candidate;
 use super::search::Search;
 use super::stopping_rule::is_precise;
@@ -17,6 +18,8 @@ pub(super) struct Sampler<'a> {
     scenario: &'a Scenario,
     /// The importance density, once there is one.
     importance: Option<ImportanceDensity>,
+    /// What violations cost; their shares are those of the jet's own shots.
+    penalty: Option<Penalty>,
 }
 
 impl<'a> Sampler<'a> {
@@ -24,7 +27,36 @@ impl<'a> Sampler<'a> {
         Self {
             scenario,
             importance: None,
+            penalty: None,
         }
+    }
+
+    /// Draws shots of the jet alone, of which violations beyond what is allowed cost a penalty.
+    pub fn of_the_jet(scenario: &'a Scenario, penalty: Penalty) -> Self {
+        Self {
+            penalty: Some(penalty),
+            ..Self::new(scenario)
+        }
+    }
+
+    /// An evaluator on shots that were drawn here.
+    pub fn evaluator<'b>(
+        &self,
+        scenario: &'b Scenario,
+        samples: &'b Samples,
+        effort: &'b Effort,
+        control: &'b Control,
+    ) -> Evaluator<'b> {
+        let evaluator = Evaluator::new(scenario, &samples.shots, effort, control);
+        match self.penalty {
+            Some(penalty) => evaluator.penalised(penalty),
+            None => evaluator,
+        }
+    }
+
+    /// What is sampled.
+    pub fn scenario(&self) -> &'a Scenario {
+        self.scenario
     }
 
     /// The importance density in use.
@@ -34,7 +66,7 @@ impl<'a> Sampler<'a> {
 
     /// Adapts the importance density to the violations of the leading candidate.
     pub fn adapt(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
-        if !control.shortcuts.importance {
+        if !control.shortcuts.importance || self.penalty.is_some() {
             return;
         }
         let leader = leader(searches).filter(|it| it.fitness.objective().is_some());
@@ -51,11 +83,27 @@ impl<'a> Sampler<'a> {
     }
 
     fn draw_from(&self, stream: Stream, shots: usize) -> Samples {
-        Samples::with_importance(&self.scenario.problem, stream, shots, self.importance())
+        let problem = &self.scenario.problem;
+        match self.penalty {
+            Some(_) if problem.has_one_ray() => Samples::new(problem, stream, 1),
+            Some(_) => Samples::new(problem, stream, shots),
+            None => Samples::with_importance(problem, stream, shots, self.importance()),
+        }
+    }
+
+    /// Whether what violates least does so by more than twice what is allowed: more shots would not change that.
+    pub fn is_far_from_passing(&self, searches: &[Search]) -> bool {
+        let leader = leader(searches);
+        self.penalty
+            .zip(leader)
+            .is_some_and(|(penalty, leader)| leader.fitness.penalty() > penalty.price)
     }
 
     /// Whether J of the leading candidate is much the same on other samples of this size.
     pub fn is_precise(&self, searches: &[Search], shots: usize, effort: &Effort) -> bool {
+        if self.penalty.is_some() {
+            return false;
+        }
         let problem = &self.scenario.problem;
         let Some(leader) = leader(searches).filter(|it| it.fitness.objective().is_some()) else {
             return false;

@@ -2,16 +2,20 @@
 
 use rayon::prelude::*;
 
-use super::evaluator::Evaluator;
+use super::evaluator::{Effort, Evaluator};
 use super::polish::{Candidate, polish};
+use super::sampler::Sampler;
+use super::screening::screened;
 use super::space::Space;
+use crate::control::Control;
+use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 
 /// A stage of the search.
 #[derive(Clone, Copy)]
 pub(super) struct Stage {
     pub shots: usize,
-    /// Candidates that go on, for each contact.
+    /// Candidates that go on, of each group.
     pub candidates: usize,
     /// Longest edge of the first simplex, as a share of each range.
     pub size: f64,
@@ -23,17 +27,24 @@ pub(super) struct Stage {
 }
 
 /// Successive halving: more shots for fewer candidates.
-pub(super) const STAGES: [Stage; 3] = [
+pub(super) const STAGES: [Stage; 4] = [
+    Stage {
+        shots: 128,
+        candidates: 6,
+        size: 0.4,
+        settled: 1.0,
+        descents: 1,
+    },
     Stage {
         shots: 256,
-        candidates: 6,
+        candidates: 2,
         size: 0.4,
         settled: 0.1,
         descents: 1,
     },
     Stage {
         shots: 1024,
-        candidates: 2,
+        candidates: 1,
         size: 0.3,
         settled: 0.05,
         descents: 1,
@@ -49,16 +60,17 @@ pub(super) const STAGES: [Stage; 3] = [
 
 /// The same for nozzles that are set exactly: a descent that looks more closely finds hollows of the few
 /// shots, which makes more of them necessary than J does.
-pub(super) const STAGES_SET_EXACTLY: [Stage; 3] = [
+pub(super) const STAGES_SET_EXACTLY: [Stage; 4] = [
+    STAGES[0],
     Stage {
         settled: 0.5,
-        ..STAGES[0]
+        ..STAGES[1]
     },
     Stage {
         settled: 0.1,
-        ..STAGES[1]
+        ..STAGES[2]
     },
-    STAGES[2],
+    STAGES[3],
 ];
 
 impl Stage {
@@ -70,6 +82,14 @@ impl Stage {
             size: 0.06,
             settled: 0.1,
             descents: 1,
+        }
+    }
+
+    /// The same with its descents shared out among groups.
+    fn shared_by(&self, groups: usize) -> Self {
+        Self {
+            descents: self.descents.div_ceil(groups),
+            ..*self
         }
     }
 
@@ -93,68 +113,102 @@ impl Stage {
 #[derive(Clone)]
 pub(super) struct Search {
     space: Space,
-    /// Best first.
-    candidates: Vec<Candidate>,
+    /// Groups of candidates, each best first. They start from points of their own and know nothing of each other, so
+    /// that their best candidates, the finalists, tell whether a search ends where it does by chance.
+    groups: Vec<Vec<Candidate>>,
 }
 
+/// Groups that a search begins with.
+const GROUPS: u32 = 2;
+
 impl Search {
-    /// Evaluates a low-discrepancy set of points all over the space.
+    /// Evaluates poses all over the space.
     pub fn screen(scenario: &Scenario, contact: usize, evaluator: &Evaluator) -> Self {
         let space = Space::new(
             &scenario.problem,
             contact,
             !scenario.speed_scales_out(contact),
         );
-        let dimensions = space.dimensions();
-        let points = match dimensions {
-            0 => 1,
-            1 => 32,
-            2 => 96,
-            3 => 192,
-            _ => 128 * dimensions,
+        let groups = if space.dimensions() == 0 { 1 } else { GROUPS };
+        let mut search = Self {
+            space,
+            groups: Vec::new(),
         };
-        let seed = scenario.problem.seed as u32;
-        // When it is asked to stop, one is enough to answer with.
-        let candidates: Vec<Candidate> = (0..points as u32)
+        search.groups = (0..groups)
             .into_par_iter()
-            .filter(|&index| index == 0 || !evaluator.is_stopped())
-            .map(|index| Candidate::at(&space, evaluator, &space.spread(index, seed)))
+            .map(|number| screened(&search.space, scenario, evaluator, number))
             .collect();
-        let mut search = Self { space, candidates };
-        search.sort();
         search
+    }
+
+    /// A search of the same contact that begins with another group.
+    pub fn another_group(&self, number: u32, scenario: &Scenario, evaluator: &Evaluator) -> Self {
+        let space = self.space.clone();
+        let groups = vec![screened(&space, scenario, evaluator, number)];
+        Self { space, groups }
     }
 
     /// The best candidate so far.
     pub fn best(&self) -> &Candidate {
-        &self.candidates[0]
+        let finalists = self.finalists();
+        finalists
+            .min_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()))
+            .expect("a search has a candidate")
     }
 
-    fn sort(&mut self) {
-        self.candidates
-            .sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
+    /// The best candidate of each group.
+    pub fn finalists(&self) -> impl Iterator<Item = &Candidate> {
+        self.groups.iter().filter_map(|group| group.first())
     }
 
-    /// Goes on from the best few candidates with more shots.
+    /// How many settings are searched.
+    pub fn dimensions(&self) -> usize {
+        self.space.dimensions()
+    }
+
+    /// Adds the finalists of another search of the same contact.
+    pub fn join(&mut self, other: Self) {
+        self.groups.extend(other.groups);
+    }
+
+    /// Adds what is found from settings on the shots of the last stage.
+    pub fn add(
+        &mut self,
+        settings: &Settings,
+        sampler: &Sampler,
+        shots: usize,
+        effort: &Effort,
+        control: &Control,
+    ) {
+        let samples = sampler.draw(shots);
+        let evaluator = sampler.evaluator(sampler.scenario(), &samples, effort, control);
+        let point = self.space.point(settings);
+        let start = Candidate::at(&self.space, &evaluator, &point);
+        let found = Stage::beyond(shots).descent(&self.space, &evaluator, start);
+        self.groups.push(vec![found]);
+    }
+
+    /// Leaves out all candidates but the best one.
+    pub fn keep_best(&mut self) {
+        self.groups = vec![vec![self.best().clone()]];
+    }
+
+    /// Goes on from the best few candidates of each group with more shots.
     pub fn refine(&mut self, evaluator: &Evaluator, stage: &Stage) {
         let space = &self.space;
-        let mut starts: Vec<Candidate> = Vec::new();
-        for candidate in &self.candidates {
-            let is_new = |other: &Candidate| {
-                space.distance(&candidate.point, &other.point) > 0.2 * stage.size
-            };
-            if starts.len() < stage.candidates && starts.iter().all(is_new) {
-                starts.push(candidate.clone());
-            }
-        }
-        self.candidates = starts
-            .into_par_iter()
-            .map(|start| {
-                let start = Candidate::at(space, evaluator, &start.point);
-                stage.descent(space, evaluator, start)
-            })
-            .collect();
-        self.sort();
+        let stage = stage.shared_by(self.groups.len());
+        let refined = |group: &Vec<Candidate>| {
+            let starts = starts(space, group, &stage).into_par_iter();
+            let mut ends: Vec<Candidate> = starts
+                .map(|start| {
+                    let start = Candidate::at(space, evaluator, &start.point);
+                    stage.descent(space, evaluator, start)
+                })
+                .collect();
+            ends.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
+            ends
+        };
+        self.groups = self.groups.par_iter().map(refined).collect();
     }
 
     /// Goes on from the best candidate with more shots, or warm from the incumbent of another contact.
@@ -167,14 +221,14 @@ impl Search {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
         let found = self.beside(&here, leader, evaluator, stage);
         let own = || stage.descent(&self.space, evaluator, here);
-        self.candidates = vec![found.unwrap_or_else(own)];
+        self.groups = vec![vec![found.unwrap_or_else(own)]];
     }
 
     /// Goes on from the incumbent of another contact, if that is better here than this contact's own.
     pub fn follow(&mut self, leader: &Candidate, evaluator: &Evaluator, stage: &Stage) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
         if let Some(found) = self.beside(&here, leader, evaluator, stage) {
-            self.candidates = vec![found];
+            self.groups = vec![vec![found]];
         }
     }
 
@@ -215,6 +269,43 @@ impl Search {
     }
 }
 
+/// Candidates of a group to go on with: first those that are better than all their neighbours, as each of them may be
+/// in a basin of its own (topographical global optimisation: Toern and Viitanen, 1992), then the best of the others.
+fn starts(space: &Space, group: &[Candidate], stage: &Stage) -> Vec<Candidate> {
+    let mut starts: Vec<Candidate> = Vec::new();
+    let (minima, others): (Vec<usize>, Vec<usize>) =
+        (0..group.len()).partition(|&index| is_minimum(space, group, index));
+    for index in minima.into_iter().chain(others) {
+        let candidate = &group[index];
+        let is_new =
+            |other: &Candidate| space.distance(&candidate.point, &other.point) > 0.2 * stage.size;
+        if starts.len() < stage.candidates && starts.iter().all(is_new) {
+            starts.push(candidate.clone());
+        }
+    }
+    starts
+}
+
+/// Whether a candidate is better than its nearest neighbours in its group, which is in order.
+fn is_minimum(space: &Space, group: &[Candidate], index: usize) -> bool {
+    let here = &group[index].point;
+    let others = group
+        .iter()
+        .enumerate()
+        .filter(|&(other, _)| other != index);
+    let mut distances: Vec<(f64, usize)> = others
+        .map(|(other, it)| (space.distance(here, &it.point), other))
+        .collect();
+    let count = NEIGHBOURS_PER_DIMENSION * space.dimensions();
+    if distances.len() > count {
+        distances.select_nth_unstable_by(count, |a, b| a.0.total_cmp(&b.0));
+        distances.truncate(count);
+    }
+    distances.iter().all(|&(_, other)| other > index)
+}
+
+/// Neighbours that a candidate is compared with, for each setting that is searched.
+const NEIGHBOURS_PER_DIMENSION: usize = 2;
 /// Where to look between the best place of another contact and one's own, as shares of the way.
 const WAY_BACK: [f64; 3] = [0.5, 0.25, 0.125];
 
@@ -236,7 +327,7 @@ mod tests {
     const DRY: usize = 0;
     const DAMP: usize = 1;
     const OILED: usize = 2;
-    const STAGE: &Stage = &STAGES[2];
+    const STAGE: &Stage = &STAGES[3];
 
     fn scenario() -> Scenario {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway-long.yaml");
@@ -259,8 +350,12 @@ mod tests {
                 standoff: 6e-3,
                 ..space.settings(&space.spread(0, 0))
             };
-            let candidates = vec![Candidate::at(&space, &evaluator, &space.point(&settings))];
-            Search { space, candidates }
+            let groups = vec![vec![Candidate::at(
+                &space,
+                &evaluator,
+                &space.point(&settings),
+            )]];
+            Search { space, groups }
         };
         check(&evaluator, &search);
     }
@@ -290,11 +385,11 @@ mod tests {
         let shots = Samples::with_boundary(&scenario.problem, Stream::Search, 1024).shots;
         let (effort, control) = (Effort::default(), Control::default());
         let evaluator = Evaluator::new(&scenario, &shots, &effort, &control);
-        let candidates = vec![Candidate::at(&space, &evaluator, &point)];
-        let mut search = Search { space, candidates };
+        let groups = vec![vec![Candidate::at(&space, &evaluator, &point)]];
+        let mut search = Search { space, groups };
         // J falls by 3 % from the bound to the cliff at 33.3 deg, and is higher again beyond.
         let on_bound = rank(&search);
-        search.refine(&evaluator, &STAGES_SET_EXACTLY[1]);
+        search.refine(&evaluator, &STAGES_SET_EXACTLY[2]);
         assert!(rank(&search) < 0.98 * on_bound, "{}", rank(&search));
     }
 

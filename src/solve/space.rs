@@ -62,6 +62,14 @@ impl Space {
         (0..self.dimensions()).map(coordinate).collect()
     }
 
+    /// Whether the nozzle stands elsewhere along an axis.
+    pub fn moves_nozzle(&self, axis: usize) -> bool {
+        !matches!(
+            self.axes[axis].setting,
+            Setting::Speed | Setting::StaticFriction
+        )
+    }
+
     /// Number of searched settings.
     pub fn dimensions(&self) -> usize {
         self.axes.len()

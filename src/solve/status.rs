@@ -3,10 +3,10 @@
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The accuracy asked for was reached.
+    /// The accuracy asked for was reached: finalists of independent searches agree, and J is known as well.
     Converged,
-    /// The budget was spent before.
-    BudgetSpent,
+    /// These are the best settings that were found, but finalists differ, or the shots were spent before J was known.
+    BestFound,
     /// The nozzle collides with the part at every pose that was tried.
     NoFeasiblePose,
     /// It was interrupted.

@@ -44,7 +44,10 @@ pub(super) fn not_converged(
         let wanted = wanted(found, problem);
         let error = answer.standard_error();
         let lowest = claimed - CONFIDENCE * answer.standard_error_on(shots);
-        let could_win = found <= least || lowest <= least - WORTHWHILE * problem.accuracy * least;
+        // More shots than there are validation shots would promise what nobody can check.
+        let promises =
+            shots < validation_shots && lowest <= least - WORTHWHILE * problem.accuracy * least;
+        let could_win = found <= least || promises;
         let is_noisy = error > NOISY * wanted && shots < validation_shots;
         let tolerable = if shots < validation_shots {
             TOLERABLE * wanted

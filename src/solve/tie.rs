@@ -1,5 +1,7 @@
 //! Contacts between which J makes no difference, and which of them is recommended.
 
+use std::cmp::Ordering;
+
 use super::answer::Answer;
 use crate::problem::Problem;
 
@@ -19,10 +21,28 @@ pub fn is_tie((least, least_error): Measured, (other, error): Measured, accuracy
     (other - least).abs() <= tolerated
 }
 
-/// The answers, best first: by J, but those that tie with the best, and fail no more verdicts nor
-/// fewer than it, stand in the order of the file's contacts.
+/// Whether an answer is better than another: one at which the nozzle fits before others, then one that passes by J,
+/// then by the largest violation.
+pub(super) fn is_better(one: &Answer, other: &Answer) -> bool {
+    order(one, other).is_lt()
+}
+
+fn order(one: &Answer, other: &Answer) -> Ordering {
+    let tier = |answer: &Answer| (answer.evaluation.is_none(), !answer.passes());
+    let violation = |answer: &Answer| match tier(answer) {
+        (false, true) => answer.share_of_allowed(),
+        _ => 0.0,
+    };
+    tier(one)
+        .cmp(&tier(other))
+        .then(violation(one).total_cmp(&violation(other)))
+        .then(one.order().total_cmp(&other.order()))
+}
+
+/// The answers, best first: those that pass by J, then others by their largest violation. Those that tie with the
+/// best, and fail no more verdicts nor fewer than it, stand in the order of the file's contacts.
 pub(super) fn ranked(mut answers: Vec<Answer>, problem: &Problem) -> Vec<Answer> {
-    answers.sort_by(|a, b| a.order().total_cmp(&b.order()));
+    answers.sort_by(order);
     let Some(best) = answers.first().and_then(fitness) else {
         return answers;
     };
@@ -37,7 +57,7 @@ pub(super) fn ranked(mut answers: Vec<Answer>, problem: &Problem) -> Vec<Answer>
 /// The one that is ranked first.
 pub(super) fn recommended<'a>(answers: &'a [Answer], problem: &Problem) -> Option<&'a Answer> {
     let all = answers.iter();
-    let least = all.min_by(|a, b| a.order().total_cmp(&b.order()))?;
+    let least = all.min_by(|a, b| order(a, b))?;
     let Some(best) = fitness(least) else {
         return Some(least);
     };

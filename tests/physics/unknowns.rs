@@ -191,6 +191,7 @@ fn record(case: &Case) -> Record {
     let run = RunInfo {
         source: &case.source,
         status: StatusRecord::Evaluated,
+        spread: None,
         command: "peenpose evaluate plate.yaml".into(),
         ablations: &[],
         work: WorkRecord {

@@ -251,6 +251,7 @@ mod sheets {
             ablations: &solution.ablations,
             source: &reading.source,
             status: solution.status.into(),
+            spread: None,
             command: "peenpose solve test.yaml".into(),
             work: WorkRecord {
                 poses: 1,

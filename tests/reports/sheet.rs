@@ -3,7 +3,7 @@
 
 use peenpose::record::{
     AnswerRecord, CalibrationRecord, CoverageRecord, DensityRecord, DentedRecord, EstimateRecord,
-    NoteRecord, Record, StatusRecord,
+    NoteRecord, RankingRecord, Record, StatusRecord,
 };
 use peenpose::report::{self, sheet};
 
@@ -168,12 +168,44 @@ fn an_accuracy_beyond_what_is_known_of_the_objective_is_not_claimed() {
 }
 
 #[test]
+fn what_passing_costs_and_what_would_pass_is_said() {
+    let mut record = record("keyway");
+    record.ranking = Some(RankingRecord::Passing);
+    change(&mut record, |answer| {
+        let total = answer.objective.as_ref().unwrap().total;
+        answer.least_objective = Some(total / 2.0);
+    });
+    let text = words(&sheet(&record));
+    assert!(text.contains("fails; passing costs 2 times that"), "{text}");
+    change(&mut record, |answer| {
+        answer.passes = false;
+        answer.verdicts[1].passes = false;
+        answer.verdicts[1].share = 0.1234;
+    });
+    record.ranking = Some(RankingRecord::LeastViolation);
+    let text = words(&sheet(&record));
+    for said in [
+        "No settings were found that pass; these are the nearest.",
+        "They would pass with these shares allowed: normal_impulse 13 %",
+    ] {
+        assert!(text.contains(said), "{text}");
+    }
+    record.status = StatusRecord::BestFound;
+    record.spread = Some(0.0256);
+    let text = words(&sheet(&record));
+    assert!(
+        text.contains("independent searches end 2.6 % apart"),
+        "{text}"
+    );
+}
+
+#[test]
 fn a_search_that_ended_early_says_so() {
     let mut record = record("keyway");
     record.status = StatusRecord::Interrupted;
     assert!(sheet(&record).contains("INTERRUPTED"));
-    record.status = StatusRecord::BudgetSpent;
-    assert!(sheet(&record).contains("BUDGET SPENT"));
+    record.status = StatusRecord::BestFound;
+    assert!(sheet(&record).contains("BEST FOUND"));
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn a_search_that_cannot_be_accurate_enough_stops_at_the_most_shots() {
     };
     let solution = solve(&scenario, &control);
     checkpoint.finish().unwrap();
-    assert_eq!(solution.status, Status::BudgetSpent);
+    assert_eq!(solution.status, Status::BestFound);
     assert_eq!(solution.shots_per_pose, MOST_SHOTS);
     let rays = rays_of_poses(&folder.path().join("checkpoint.txt"));
     let most = rays.iter().max().unwrap();

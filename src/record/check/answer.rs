@@ -44,7 +44,18 @@ pub(super) fn check(at: &Place, it: &AnswerRecord, record: &Record) -> Outcome {
     verdict::all(&at.of("verdicts"), it)?;
     let passes = it.feasible && it.objective.is_some() && it.verdicts.iter().all(|one| one.passes);
     at.of("passes")
-        .concludes(it.passes, passes, "`feasible` with all verdicts")
+        .concludes(it.passes, passes, "`feasible` with all verdicts")?;
+    if let Some(violation) = it.violation {
+        let at = at.of("violation");
+        at.within(violation, 0.0, f64::MAX)?;
+        at.holds(
+            (violation <= 1.0) == it.verdicts.iter().all(|one| one.passes),
+            "is above 1 where a verdict fails, and only there",
+        )?;
+    }
+    it.least_objective.map_or(Ok(()), |least| {
+        at.of("least_objective").within(least, 0.0, f64::MAX)
+    })
 }
 
 fn contact(at: &Place, it: &ContactRecord) -> Outcome {

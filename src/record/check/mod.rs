@@ -12,7 +12,9 @@ mod window;
 
 use place::{Outcome, Place};
 
-use super::{CoverageRecord, FrontRecord, Record, StatusRecord, UnknownsRecord, WorkRecord};
+use super::{
+    CoverageRecord, FrontRecord, RankingRecord, Record, StatusRecord, UnknownsRecord, WorkRecord,
+};
 
 /// Finds the first contradiction in a record.
 pub(super) fn record(record: &Record) -> Outcome {
@@ -20,6 +22,7 @@ pub(super) fn record(record: &Record) -> Outcome {
     question::check(&root.of("problem"), &record.problem)?;
     answers(&root, record)?;
     status(&root, record)?;
+    ranking(&root, record)?;
     for (index, window) in record.windows.iter().enumerate() {
         window::check(&root.of("windows").item(index), window, record)?;
     }
@@ -60,12 +63,24 @@ fn status(root: &Place, record: &Record) -> Outcome {
             !fits && !record.best.passes,
             "is no_feasible_pose, but the nozzle fits at `best`",
         ),
-        StatusRecord::Converged | StatusRecord::BudgetSpent => at.holds(
+        StatusRecord::Converged | StatusRecord::BestFound => at.holds(
             fits,
             "says that settings were found, but `best` has no objective",
         ),
         StatusRecord::Interrupted | StatusRecord::Evaluated => Ok(()),
     }
+}
+
+fn ranking(root: &Place, record: &Record) -> Outcome {
+    if let Some(spread) = record.spread {
+        root.of("spread").within(spread, 0.0, f64::MAX)?;
+    }
+    record.ranking.map_or(Ok(()), |ranking| {
+        root.of("ranking").holds(
+            (ranking == RankingRecord::Passing) == record.best.passes,
+            "is `passing` where `best` passes, and only there",
+        )
+    })
 }
 
 fn front(at: &Place, front: &[FrontRecord]) -> Outcome {

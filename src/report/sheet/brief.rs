@@ -27,7 +27,7 @@ pub fn brief(record: &Record) -> String {
 fn next_step(record: &Record) -> &'static str {
     match record.status {
         StatusRecord::NoFeasiblePose => "`--full` says what is in the way and what would make room",
-        StatusRecord::BudgetSpent | StatusRecord::Interrupted => {
+        StatusRecord::BestFound | StatusRecord::Interrupted => {
             "`--full` shows the whole sheet; another run with `--checkpoint DIR` goes on from where it ends"
         }
         _ if record.passes() => {

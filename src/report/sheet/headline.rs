@@ -2,7 +2,7 @@
 //! limits it.
 
 use super::{blocked, cause, subject};
-use crate::record::{AnswerRecord, Record, StatusRecord, VerdictRecord};
+use crate::record::{AnswerRecord, RankingRecord, Record, StatusRecord, VerdictRecord};
 use crate::report::layout::Block;
 use crate::report::number::{plural, share_asked, significant};
 use crate::validity::STRONG_INTERFERENCE;
@@ -63,6 +63,9 @@ pub fn verdict(record: &Record) -> Vec<String> {
     }
     if lines.is_empty() {
         lines.push(pass(best));
+        lines.extend(cost_of_passing(best));
+    } else if record.ranking == Some(RankingRecord::LeastViolation) && best.feasible {
+        lines.extend(nearest(best));
     } else if let Some(other) = record.choices.iter().find(|answer| answer.passes) {
         lines.push(format!(
             "but {} passes every verdict, with a larger J: see CONTACTS",
@@ -96,6 +99,46 @@ fn pass(best: &AnswerRecord) -> String {
     } else {
         format!("{all}, but too near to be certain: {}", near.join(", "))
     }
+}
+
+/// What it costs in J that these settings pass.
+fn cost_of_passing(best: &AnswerRecord) -> Option<String> {
+    let (least, objective) = (best.least_objective?, best.objective.as_ref()?);
+    Some(format!(
+        "the least J, {}, fails; passing costs {} times that",
+        significant(least, 3),
+        significant(objective.total / least, 3)
+    ))
+}
+
+/// That nothing passes, and which shares would have to be allowed.
+fn nearest(best: &AnswerRecord) -> Vec<String> {
+    let failing = subject::failing(best);
+    let shares = failing.iter().filter(|verdict| verdict.counted > 0);
+    let mut shares: Vec<String> = shares
+        .map(|verdict| format!("{} {}", verdict.subject, rounded_up(verdict.share)))
+        .collect();
+    let more = shares.len().saturating_sub(SPELT_OUT);
+    shares.truncate(SPELT_OUT);
+    if more > 0 {
+        shares.push(format!("{more} more"));
+    }
+    let mut lines = vec!["No settings were found that pass; these are the nearest.".to_owned()];
+    if !shares.is_empty() {
+        lines.push(format!(
+            "They would pass with these shares allowed: {}",
+            shares.join(", ")
+        ));
+    }
+    lines
+}
+
+/// A share that is surely enough, %.
+fn rounded_up(share: f64) -> String {
+    let percent = 100.0 * share;
+    let step = if percent < 10.0 { 0.1 } else { 1.0 };
+    let up = ((percent / step).floor() + 1.0) * step;
+    format!("{} %", significant(up.min(100.0), 3))
 }
 
 /// A line for each of the worst that fail.
@@ -134,9 +177,16 @@ pub fn status(record: &Record) -> String {
                 significant(error * 100.0, 2)
             ),
         },
-        StatusRecord::BudgetSpent => format!(
-            "BUDGET SPENT before {accuracy} of the score J was reached: better settings may exist"
-        ),
+        StatusRecord::BestFound => match record.spread {
+            Some(spread) if spread > record.problem.accuracy => format!(
+                "BEST FOUND: independent searches end {} % apart, {accuracy} is asked for; better settings may exist",
+                significant(spread * 100.0, 2)
+            ),
+            _ => format!(
+                "BEST FOUND: the shots were spent before {accuracy} of the score J was reached; better settings \
+                 may exist"
+            ),
+        },
         StatusRecord::NoFeasiblePose => "the nozzle fits at no pose that was tried".into(),
         StatusRecord::Interrupted => {
             "INTERRUPTED: the best settings until then; better ones may exist".into()

@@ -124,6 +124,7 @@ pub fn recorded(scenario: &Scenario, source: &Source, solution: &Solution) -> Re
         ablations: &solution.ablations,
         source,
         status: solution.status.into(),
+        spread: None,
         command: "peenpose solve any.yaml".into(),
         work: WorkRecord {
             poses: solution.poses,
