@@ -4,6 +4,9 @@
 mod common;
 #[path = "../../examples/common/mod.rs"]
 mod examples;
+#[path = "../../examples/suite/known.rs"]
+#[allow(dead_code, reason = "the table is written by the example alone")]
+mod suite_known;
 
 mod best_known;
 mod deflector;
@@ -15,3 +18,4 @@ mod pareto;
 mod shortcuts;
 mod stability;
 mod starting;
+mod suite;
