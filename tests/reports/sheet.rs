@@ -176,7 +176,10 @@ fn what_passing_costs_and_what_would_pass_is_said() {
         answer.least_objective = Some(total / 2.0);
     });
     let text = words(&sheet(&record));
-    assert!(text.contains("fails; passing costs 2 times that"), "{text}");
+    assert!(
+        text.contains("fails; passing costs 2.00 times that"),
+        "{text}"
+    );
     change(&mut record, |answer| {
         answer.passes = false;
         answer.verdicts[1].passes = false;

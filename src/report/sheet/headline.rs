@@ -136,9 +136,9 @@ fn nearest(best: &AnswerRecord) -> Vec<String> {
 /// A share that is surely enough, %.
 fn rounded_up(share: f64) -> String {
     let percent = 100.0 * share;
-    let step = if percent < 10.0 { 0.1 } else { 1.0 };
+    let (step, digits) = if percent < 10.0 { (0.1, 1) } else { (1.0, 0) };
     let up = ((percent / step).floor() + 1.0) * step;
-    format!("{} %", significant(up.min(100.0), 3))
+    format!("{:.digits$} %", up.min(100.0))
 }
 
 /// A line for each of the worst that fail.
