@@ -43,9 +43,7 @@ pub struct Gap {
 pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
     let pose = Pose::new(&scenario.target.frame, settings);
     let clearance = scenario.problem.nozzle.clearance;
-    if let Some(infeasible) = in_material(scenario, settings, &pose)
-        .or_else(|| through_own_body(scenario, settings, &pose))
-    {
+    if let Some(infeasible) = not_in_free_space(scenario, settings, &pose) {
         return Some(infeasible);
     }
     let room = room_for_errors(scenario, settings);
@@ -74,6 +72,11 @@ pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasi
     None
 }
 
+/// Infeasible because of what no distance to a wall tells.
+fn not_in_free_space(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<Infeasible> {
+    in_material(scenario, settings, pose).or_else(|| through_own_body(scenario, settings, pose))
+}
+
 /// Infeasible because the exit is in material.
 fn in_material(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<Infeasible> {
     let part = scenario
@@ -94,9 +97,7 @@ fn in_material(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<
 /// material or in the way of its own jet it is the violation.
 pub(crate) fn closeness(scenario: &Scenario, settings: &Settings) -> f64 {
     let pose = Pose::new(&scenario.target.frame, settings);
-    if let Some(infeasible) = in_material(scenario, settings, &pose)
-        .or_else(|| through_own_body(scenario, settings, &pose))
-    {
+    if let Some(infeasible) = not_in_free_space(scenario, settings, &pose) {
         return infeasible.violation;
     }
     let gap = gap_as_set(scenario, settings, f64::INFINITY);

@@ -166,7 +166,7 @@ impl Verdict {
 
     /// The share over a part `slack` of what is allowed, less what the share of so few shots may be off: a finite
     /// number, above 1 where that does not pass.
-    pub(crate) fn share_of_allowed(&self, slack: f64) -> f64 {
+    pub(crate) fn violation_on_few_shots(&self, slack: f64) -> f64 {
         let share = if self.counted == 0 { 1.0 } else { self.share() };
         let allowed = self.allowed * slack;
         let counted = self.counted.max(1) as f64;
@@ -189,7 +189,7 @@ impl Verdict {
     pub fn violation(&self) -> f64 {
         match (self.passes(), self.allowed > 0.0) {
             (true, false) => 0.0,
-            (_, true) if self.counted > 0 => self.share() / self.allowed,
+            (_, true) if self.counted > 0 => self.utilisation(),
             (_, true) => 1.0 / self.allowed,
             (false, false) => 1.0 + self.broken.max(1) as f64,
         }

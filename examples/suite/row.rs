@@ -40,7 +40,7 @@ impl Run {
             settings: best.settings,
             fits: best.evaluation.is_some(),
             passes: best.passes(),
-            violation: best.share_of_allowed(),
+            violation: best.largest_violation(),
             status: solution.status,
             rays: solution.rays,
             seconds,

@@ -74,7 +74,7 @@ impl LargestImpulses {
         let verdicts = Verdict::on(scenario, &self.counts(scenario, speed));
         let shares = verdicts
             .iter()
-            .map(|verdict| verdict.share_of_allowed(slack));
+            .map(|verdict| verdict.violation_on_few_shots(slack));
         shares.fold(0.0, f64::max)
     }
 

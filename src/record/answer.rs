@@ -220,7 +220,7 @@ impl AnswerRecord {
             pose: PoseRecord::new(&pose),
             feasible: answer.violation <= 0.0,
             passes: answer.passes(),
-            violation: Some(answer.share_of_allowed()),
+            violation: Some(answer.largest_violation()),
             least_objective: answer.least_objective,
             infeasible_because: answer.obstacle.map(|it| it.reason(scenario)),
             clearance_m: clearance.map(|gap| gap.distance),

@@ -33,6 +33,8 @@ mod sampler;
 mod screening;
 mod search;
 mod space;
+mod stage;
+mod starts;
 mod status;
 mod stopping_rule;
 mod tie;
@@ -55,9 +57,11 @@ use crate::scenario::Scenario;
 use evaluator::Evaluator;
 use figures::Figures;
 use finalists::{Agreement, confirmed};
+use polish::Candidate;
 use sampler::Sampler;
-use search::{STAGES, STAGES_SET_EXACTLY, Search, Stage};
+use search::Search;
 use space::Space;
+use stage::{STAGES, STAGES_SET_EXACTLY, Stage};
 use stopping_rule::{is_in_reach, least_objective, not_converged};
 use tie::ranked;
 
@@ -189,7 +193,6 @@ fn descend(
     control: &Control,
     effort: &Effort,
 ) -> (Vec<Search>, usize) {
-    let is_set_exactly = scenario.problem.tolerance == Tolerance::default();
     let stages: Vec<&Stage> = stages(scenario, control.most_shots).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
     let samples = sampler.draw(SCREENING_SHOTS);
@@ -213,7 +216,7 @@ fn descend(
             return (searches, stage.shots);
         }
         let is_between = stage.shots >= CHEAP_SHOTS && stage.shots < most_shots;
-        if is_set_exactly
+        if is_set_exactly(scenario)
             && is_between
             && !control.is_stopped()
             && sampler.is_precise(&searches, stage.shots, effort)
@@ -224,9 +227,14 @@ fn descend(
     (searches, most_shots)
 }
 
+/// Whether a shop hits the settings exactly.
+fn is_set_exactly(scenario: &Scenario) -> bool {
+    scenario.problem.tolerance == Tolerance::default()
+}
+
 /// The stages of a problem, up to the most shots.
 fn stages(scenario: &Scenario, most_shots: usize) -> impl Iterator<Item = &'static Stage> {
-    let all = if scenario.problem.tolerance == Tolerance::default() {
+    let all = if is_set_exactly(scenario) {
         &STAGES_SET_EXACTLY
     } else {
         &STAGES
@@ -260,11 +268,9 @@ fn descend_group(
 
 /// The index of the search with the best candidate.
 fn leading(searches: &[Search]) -> usize {
-    let rank = |index: &usize| searches[*index].best().fitness.rank();
-    let indices = 0..searches.len();
-    indices
-        .min_by(|a, b| rank(a).total_cmp(&rank(b)))
-        .unwrap_or(0)
+    let best = searches.iter().map(Search::best).enumerate();
+    let leader = best.min_by(|(_, a), (_, b)| Candidate::by_rank(a, b));
+    leader.map_or(0, |(index, _)| index)
 }
 
 /// Takes the searches through a stage: all of them as long as shots are few, then those that could

@@ -10,7 +10,8 @@ use super::evaluator::Effort;
 use super::figures::Figures;
 use super::finalists::{Agreement, confirmed};
 use super::sampler::Sampler;
-use super::search::{Search, Stage};
+use super::search::Search;
+use super::stage::Stage;
 use super::{RISE, leading, tie};
 use crate::control::Control;
 use crate::scenario::Scenario;
@@ -54,8 +55,10 @@ pub(super) fn sought(
         scenario.problem.ranges.contact = contacts.collect();
         let mut sampler = Sampler::of_the_jet(&scenario, penalty);
         let (mut searches, shots) = descend(&scenario, &mut sampler, control, effort);
+        let samples = sampler.draw(shots);
+        let evaluator = sampler.evaluator(&scenario, &samples, effort, control);
         for (search, &index) in searches.iter_mut().zip(&failing) {
-            search.add(&answers[index].settings, &sampler, shots, effort, control);
+            search.add(&answers[index].settings, &evaluator, &Stage::beyond(shots));
         }
         let leader = leading(&searches);
         let found = confirmed(
@@ -80,7 +83,7 @@ pub(super) fn sought(
             .iter()
             .map(|search| search.best().fitness.objective());
         for ((answer, claimed), &index) in new.into_iter().zip(claims).zip(&failing) {
-            worst = worst.min(answer.share_of_allowed());
+            worst = worst.min(answer.largest_violation());
             let old = &mut answers[index];
             if tie::is_better(&answer, old) {
                 let is_known = is_known(claimed, &answer, asked.problem.accuracy);

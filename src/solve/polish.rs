@@ -1,6 +1,7 @@
 //! Local search: argmin's Nelder-Mead method inside the unit cube.
 
 use std::cell::RefCell;
+use std::cmp::Ordering;
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::neldermead::NelderMead;
@@ -46,6 +47,11 @@ impl Candidate {
         }
     }
 
+    /// The order of two candidates, the better one first.
+    pub fn by_rank(a: &Self, b: &Self) -> Ordering {
+        a.fitness.rank().total_cmp(&b.fitness.rank())
+    }
+
     /// This one, or another that is better.
     pub fn or_better(self, other: Self) -> Self {
         if other.fitness.rank() < self.fitness.rank() {
@@ -56,7 +62,7 @@ impl Candidate {
     }
 }
 
-/// A point that a descent has asked for, and the feasible one that stands for it.
+/// A point that a descent has asked for, and the feasible one that is evaluated in its place.
 #[derive(Clone)]
 struct Probe {
     point: Vec<f64>,
@@ -164,7 +170,7 @@ fn descend(
     let scale = start.fitness.rank().max(f64::MIN_POSITIVE);
     let corners = first_simplex(space, evaluator, &start, size);
     let mut leading: Vec<Candidate> = corners.iter().map(|it| it.candidate.clone()).collect();
-    leading.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
+    leading.sort_by(Candidate::by_rank);
     let descent = Descent {
         space,
         evaluator,

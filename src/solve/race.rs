@@ -60,7 +60,9 @@ impl Race {
     /// On common random numbers the difference of two poses on the first shots is close to that on all shots. How
     /// close, the corners show among themselves: a difference several times larger than theirs is clear.
     pub fn against_worst(corners: &[Candidate]) -> Self {
-        let (worst, others) = corners.split_last().expect("a simplex has corners");
+        let [others @ .., worst] = corners else {
+            return Self::none();
+        };
         let objective = worst.fitness.rank();
         let looks = worst.partial.len();
         let others = others.iter().filter(|it| it.partial.len() == looks);

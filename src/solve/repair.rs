@@ -2,7 +2,7 @@
 //!
 //! Often the best pose is where the nozzle just fits, and where a lance nearly fills its bore those where it fits
 //! are a thin band that no sample of poses meets. A descent that is told no more than "blocked" collapses there. So
-//! an infeasible pose stands for the feasible one next to it, at a cost that grows with the distance between both
+//! the feasible pose next to an infeasible one is evaluated in its place, at a cost that grows with the distance between both
 //! (an exact penalty).
 
 use super::space::Space;

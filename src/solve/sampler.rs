@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::evaluator::{Effort, Evaluator};
+use super::leading;
 use super::passing::Penalty;
 use super::polish::Candidate;
 use super::search::Search;
@@ -52,11 +53,6 @@ impl<'a> Sampler<'a> {
             Some(penalty) => evaluator.penalised(penalty),
             None => evaluator,
         }
-    }
-
-    /// What is sampled.
-    pub fn scenario(&self) -> &'a Scenario {
-        self.scenario
     }
 
     /// The importance density in use.
@@ -126,8 +122,7 @@ impl<'a> Sampler<'a> {
 
 /// The best candidate of all contacts.
 fn leader(searches: &[Search]) -> Option<&Candidate> {
-    let best = searches.iter().map(Search::best);
-    best.min_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()))
+    searches.get(leading(searches)).map(Search::best)
 }
 
 /// Samples for the variance of J.

@@ -15,7 +15,8 @@ use crate::scene::ray::Ray;
 ///
 /// Where many poses are blocked or aimed at something else, more of them are drawn, as whether the axis of the jet
 /// meets the target and whether the nozzle fits costs far less than tracing shots. A window that one pose in a
-/// thousand can see through is found like that; a band in which a lance just fits is found by repair.///
+/// thousand can see through is found like that; a band in which a lance just fits is found by repair.
+///
 /// Groups of different numbers have points of their own.
 pub(super) fn screened(
     space: &Space,
@@ -39,7 +40,7 @@ pub(super) fn screened(
         .filter(|(index, _)| *index == 0 || !evaluator.is_stopped())
         .map(|(_, point)| Candidate::at(space, evaluator, &point))
         .collect();
-    candidates.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
+    candidates.sort_by(Candidate::by_rank);
     candidates
 }
 
@@ -54,12 +55,10 @@ struct Pool {
     blocked: Vec<(f64, Vec<f64>)>,
     /// Neither.
     others: Vec<Vec<f64>>,
-    /// How often it was asked whether the nozzle fits.
-    asked: usize,
 }
 
 /// A point as far as it was looked at.
-enum Look {
+enum Outlook {
     Promising,
     Feasible,
     Blocked(f64),
@@ -77,30 +76,34 @@ impl Pool {
         for round in 0..MOST_ROUNDS {
             let is_first = round == 0;
             let first = (round * wanted) as u32;
-            let looks: Vec<(Vec<f64>, Look)> = (first..first + wanted as u32)
+            let outlooks: Vec<(Vec<f64>, Outlook)> = (first..first + wanted as u32)
                 .into_par_iter()
                 .map(|index| {
                     let point = space.spread(index, seed);
-                    let look = look(scenario, &space.settings(&point), is_first);
-                    (point, look)
+                    let outlook = outlook(scenario, &space.settings(&point), is_first);
+                    (point, outlook)
                 })
                 .collect();
-            for (point, look) in looks {
-                pool.asked += usize::from(is_first || !matches!(look, Look::Other));
-                match look {
-                    Look::Promising => pool.promising.push(point),
-                    Look::Feasible => pool.feasible.push(point),
-                    Look::Blocked(violation) => pool.blocked.push((violation, point)),
-                    Look::Other if is_first => pool.others.push(point),
-                    Look::Other => {}
+            for (point, outlook) in outlooks {
+                match outlook {
+                    Outlook::Promising => pool.promising.push(point),
+                    Outlook::Feasible => pool.feasible.push(point),
+                    Outlook::Blocked(violation) => pool.blocked.push((violation, point)),
+                    Outlook::Other if is_first => pool.others.push(point),
+                    Outlook::Other => {}
                 }
             }
             let is_enough = pool.promising.len() >= wanted || space.dimensions() == 0;
-            if is_enough || pool.asked >= MOST_ASKED * wanted || evaluator.is_stopped() {
+            if is_enough || pool.asked() >= MOST_ASKED * wanted || evaluator.is_stopped() {
                 break;
             }
         }
         pool
+    }
+
+    /// Of how many points it was asked whether the nozzle fits: all that are kept.
+    fn asked(&self) -> usize {
+        self.promising.len() + self.feasible.len() + self.blocked.len() + self.others.len()
     }
 
     /// The points to evaluate.
@@ -131,16 +134,16 @@ impl Pool {
 
 /// What is known of some settings without a shot. Whether the nozzle fits where its axis meets something else
 /// is asked in the first round alone.
-fn look(scenario: &Scenario, settings: &Settings, is_first: bool) -> Look {
+fn outlook(scenario: &Scenario, settings: &Settings, is_first: bool) -> Outlook {
     let is_aimed = meets_target(scenario, settings);
     if !is_aimed && !is_first {
-        return Look::Other;
+        return Outlook::Other;
     }
     match (is_aimed, infeasibility(scenario, settings)) {
-        (true, None) => Look::Promising,
-        (false, None) => Look::Feasible,
-        (true, Some(infeasible)) => Look::Blocked(infeasible.violation),
-        (false, Some(_)) => Look::Other,
+        (true, None) => Outlook::Promising,
+        (false, None) => Outlook::Feasible,
+        (true, Some(infeasible)) => Outlook::Blocked(infeasible.violation),
+        (false, Some(_)) => Outlook::Other,
     }
 }
 

@@ -1,113 +1,17 @@
-//! The search for one contact, stage by stage.
+//! The search for one contact.
+
+use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use super::evaluator::{Effort, Evaluator};
-use super::polish::{Candidate, polish};
-use super::sampler::Sampler;
+use super::evaluator::Evaluator;
+use super::polish::Candidate;
 use super::screening::screened;
 use super::space::Space;
-use crate::control::Control;
+use super::stage::Stage;
+use super::starts::starts;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-
-/// A stage of the search.
-#[derive(Clone, Copy)]
-pub(super) struct Stage {
-    pub shots: usize,
-    /// Candidates that go on, of each group.
-    pub candidates: usize,
-    /// Longest edge of the first simplex, as a share of each range.
-    pub size: f64,
-    /// A descent ends when J differs by less than this share of the accuracy over its simplex.
-    pub settled: f64,
-    /// Descents at most, each from where the one before ended: a new simplex leaves hollows in which
-    /// an old one has shrunk.
-    pub descents: usize,
-}
-
-/// Successive halving: more shots for fewer candidates.
-pub(super) const STAGES: [Stage; 4] = [
-    Stage {
-        shots: 128,
-        candidates: 6,
-        size: 0.4,
-        settled: 1.0,
-        descents: 1,
-    },
-    Stage {
-        shots: 256,
-        candidates: 2,
-        size: 0.4,
-        settled: 0.1,
-        descents: 1,
-    },
-    Stage {
-        shots: 1024,
-        candidates: 1,
-        size: 0.3,
-        settled: 0.05,
-        descents: 1,
-    },
-    Stage {
-        shots: 4096,
-        candidates: 1,
-        size: 0.15,
-        settled: 0.1,
-        descents: 2,
-    },
-];
-
-/// The same for nozzles that are set exactly: a descent that looks more closely finds hollows of the few
-/// shots, which makes more of them necessary than J does.
-pub(super) const STAGES_SET_EXACTLY: [Stage; 4] = [
-    STAGES[0],
-    Stage {
-        settled: 0.5,
-        ..STAGES[1]
-    },
-    Stage {
-        settled: 0.1,
-        ..STAGES[2]
-    },
-    STAGES[3],
-];
-
-impl Stage {
-    /// The stage after the last one, while the answer is not accurate enough.
-    pub fn beyond(shots: usize) -> Self {
-        Self {
-            shots,
-            candidates: 1,
-            size: 0.06,
-            settled: 0.1,
-            descents: 1,
-        }
-    }
-
-    /// The same with its descents shared out among groups.
-    fn shared_by(&self, groups: usize) -> Self {
-        Self {
-            descents: self.descents.div_ceil(groups),
-            ..*self
-        }
-    }
-
-    /// Where the descents from a candidate end.
-    fn descent(&self, space: &Space, evaluator: &Evaluator, start: Candidate) -> Candidate {
-        let descents = 0..self.descents;
-        descents.fold(start, |best, _| {
-            let next = polish(
-                space,
-                evaluator,
-                best.clone(),
-                self.size,
-                self.settled * evaluator.accuracy(),
-            );
-            best.or_better(next)
-        })
-    }
-}
 
 /// The search for one contact.
 #[derive(Clone)]
@@ -150,10 +54,11 @@ impl Search {
 
     /// The best candidate so far.
     pub fn best(&self) -> &Candidate {
-        let finalists = self.finalists();
-        finalists
-            .min_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()))
-            .expect("a search has a candidate")
+        let better = |best, other| match Candidate::by_rank(other, best) {
+            Ordering::Less => other,
+            _ => best,
+        };
+        self.finalists().fold(&self.groups[0][0], better)
     }
 
     /// The best candidate of each group.
@@ -171,20 +76,11 @@ impl Search {
         self.groups.extend(other.groups);
     }
 
-    /// Adds what is found from settings on the shots of the last stage.
-    pub fn add(
-        &mut self,
-        settings: &Settings,
-        sampler: &Sampler,
-        shots: usize,
-        effort: &Effort,
-        control: &Control,
-    ) {
-        let samples = sampler.draw(shots);
-        let evaluator = sampler.evaluator(sampler.scenario(), &samples, effort, control);
+    /// Adds what is found from settings, as a finalist of its own.
+    pub fn add(&mut self, settings: &Settings, evaluator: &Evaluator, stage: &Stage) {
         let point = self.space.point(settings);
-        let start = Candidate::at(&self.space, &evaluator, &point);
-        let found = Stage::beyond(shots).descent(&self.space, &evaluator, start);
+        let start = Candidate::at(&self.space, evaluator, &point);
+        let found = stage.descent(&self.space, evaluator, start);
         self.groups.push(vec![found]);
     }
 
@@ -205,7 +101,7 @@ impl Search {
                     stage.descent(space, evaluator, start)
                 })
                 .collect();
-            ends.sort_by(|a, b| a.fitness.rank().total_cmp(&b.fitness.rank()));
+            ends.sort_by(Candidate::by_rank);
             ends
         };
         self.groups = self.groups.par_iter().map(refined).collect();
@@ -269,43 +165,6 @@ impl Search {
     }
 }
 
-/// Candidates of a group to go on with: first those that are better than all their neighbours, as each of them may be
-/// in a basin of its own (topographical global optimisation: Toern and Viitanen, 1992), then the best of the others.
-fn starts(space: &Space, group: &[Candidate], stage: &Stage) -> Vec<Candidate> {
-    let mut starts: Vec<Candidate> = Vec::new();
-    let (minima, others): (Vec<usize>, Vec<usize>) =
-        (0..group.len()).partition(|&index| is_minimum(space, group, index));
-    for index in minima.into_iter().chain(others) {
-        let candidate = &group[index];
-        let is_new =
-            |other: &Candidate| space.distance(&candidate.point, &other.point) > 0.2 * stage.size;
-        if starts.len() < stage.candidates && starts.iter().all(is_new) {
-            starts.push(candidate.clone());
-        }
-    }
-    starts
-}
-
-/// Whether a candidate is better than its nearest neighbours in its group, which is in order.
-fn is_minimum(space: &Space, group: &[Candidate], index: usize) -> bool {
-    let here = &group[index].point;
-    let others = group
-        .iter()
-        .enumerate()
-        .filter(|&(other, _)| other != index);
-    let mut distances: Vec<(f64, usize)> = others
-        .map(|(other, it)| (space.distance(here, &it.point), other))
-        .collect();
-    let count = NEIGHBOURS_PER_DIMENSION * space.dimensions();
-    if distances.len() > count {
-        distances.select_nth_unstable_by(count, |a, b| a.0.total_cmp(&b.0));
-        distances.truncate(count);
-    }
-    distances.iter().all(|&(_, other)| other > index)
-}
-
-/// Neighbours that a candidate is compared with, for each setting that is searched.
-const NEIGHBOURS_PER_DIMENSION: usize = 2;
 /// Where to look between the best place of another contact and one's own, as shares of the way.
 const WAY_BACK: [f64; 3] = [0.5, 0.25, 0.125];
 
@@ -321,7 +180,7 @@ mod tests {
     use super::*;
     use crate::jet::{Samples, Stream};
     use crate::problem::model::Effect;
-    use crate::problem::setting::Settings;
+    use crate::solve::stage::{STAGES, STAGES_SET_EXACTLY};
     use crate::solve::{Control, Effort};
 
     const DRY: usize = 0;

@@ -30,7 +30,7 @@ pub(super) fn is_better(one: &Answer, other: &Answer) -> bool {
 fn order(one: &Answer, other: &Answer) -> Ordering {
     let tier = |answer: &Answer| (answer.evaluation.is_none(), !answer.passes());
     let violation = |answer: &Answer| match tier(answer) {
-        (false, true) => answer.share_of_allowed(),
+        (false, true) => answer.largest_violation(),
         _ => 0.0,
     };
     tier(one)

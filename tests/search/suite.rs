@@ -18,7 +18,7 @@ const NOISE: f64 = 0.005;
 /// Whether an answer is as good as the best known.
 fn is_good(known: &KnownBest, scenario: &peenpose::scenario::Scenario, answer: &Answer) -> bool {
     if !known.passes {
-        return answer.share_of_allowed() <= known.violation * (1.0 + NEARLY);
+        return answer.largest_violation() <= known.violation * (1.0 + NEARLY);
     }
     let choices = [known.settings, answer.settings];
     let objectives = validation::objectives(scenario, &choices, 1 << 20, SHOTS);
