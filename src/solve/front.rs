@@ -49,7 +49,7 @@ pub fn front(scenario: &Scenario, found: &[Answer], control: &Control) -> Front 
         .into_iter()
         .flat_map(|weights| contacts.iter().map(move |&contact| (weights, contact)))
         .collect();
-    let samples = Samples::with_boundary(&scenario.problem, Stream::Search, STAGES[1].shots);
+    let samples = Samples::with_boundary(&scenario.problem, Stream::Search, STAGES[2].shots);
     runs.par_iter().for_each(|&(weights, contact)| {
         search(
             scenario, weights, contact, &samples, &archive, &effort, control,
@@ -156,9 +156,9 @@ fn search(
         return;
     }
     let mut search = Search::screen(&weighted, contact, &evaluator(SCREENING_SHOTS));
-    search.refine(&evaluator(STAGES[0].shots), &STAGES[0]);
-    let last = evaluator(STAGES[1].shots).keeping(archive, weights);
-    search.refine(&last, &STAGES[1]);
+    search.refine(&evaluator(STAGES[1].shots), &STAGES[1]);
+    let last = evaluator(STAGES[2].shots).keeping(archive, weights);
+    search.refine(&last, &STAGES[2]);
     control.tell(Progress::Search {
         poses: effort.poses(),
         best: None,
