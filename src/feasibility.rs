@@ -8,7 +8,7 @@ use crate::jet::Pose;
 use crate::problem::equipment::Body;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use crate::scene::swept::{Core, Swept};
+use crate::scene::swept::{Core, Directions, Swept};
 
 /// Why the nozzle cannot be where settings put it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,7 +172,7 @@ fn gap_as_set(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Ga
     let swept = |core| Swept {
         aim: aim(&pose, settings),
         shifts: [Vector3::zeros(); 3],
-        directions: vec![pose.direction],
+        directions: Directions::new(&[pose.direction]),
         standoff: [settings.standoff; 2],
         core,
     };
@@ -201,6 +201,7 @@ fn gap_swept(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap
         })
         .map(|set| Pose::new(frame, &set).direction)
         .collect();
+    let directions = Directions::new(&directions);
     // Between two directions of the grid the body lies outside the chord by no more than this.
     let half_steps = [tolerance.incidence, tolerance.azimuth].map(|it| it / STEPS as f64);
     let sag = reach(scenario, settings) * half_steps.iter().map(|it| it * it / 2.0).sum::<f64>();

@@ -74,8 +74,13 @@ impl TriangleMesh {
     ) -> Option<(f64, u32)> {
         let segment = Segment::new(from.coords.into(), to.coords.into());
         let (low, high) = (segment.a.min(segment.b), segment.a.max(segment.b));
-        self.nearest_triangle(limit, low, high, |index, _| {
-            segment_triangle(&segment, &self.triangle(index))
+        let height = |toward: Vector| segment.a.dot(toward).max(segment.b.dot(toward));
+        self.nearest_triangle(limit, low, high, |index, limit| {
+            let triangle = self.triangle(index);
+            if is_beyond(&triangle, limit, &segment, height) {
+                return f64::INFINITY;
+            }
+            segment_triangle(&segment, &triangle)
         })
     }
 
@@ -106,6 +111,29 @@ impl TriangleMesh {
 fn gap(node: &BvhNode, low: Vector, high: Vector) -> f64 {
     let apart = (node.mins() - high).max(low - node.maxs());
     apart.max(Vector::ZERO).length()
+}
+
+/// Whether a plane across the way from a line to a triangle proves that the triangle is at least `limit` away from something convex round that line: one look at how far that reaches along a direction, `height`, where a
+/// distance takes many.
+pub(super) fn is_beyond(
+    triangle: &Triangle,
+    limit: f64,
+    line: &Segment,
+    height: impl Fn(Vector) -> f64,
+) -> bool {
+    // Nearly the nearest points of both.
+    let middle = (triangle.a + triangle.b + triangle.c) / 3.0;
+    let from = line.project_local_point(middle, true).point;
+    let to = triangle.project_local_point(from, true).point;
+    let from = line.project_local_point(to, true).point;
+    let apart = (to - from).length();
+    if apart <= limit {
+        return false;
+    }
+    let toward = (to - from) / apart;
+    let corners = [triangle.a, triangle.b, triangle.c];
+    let nearest = corners.map(|corner| corner.dot(toward));
+    nearest.into_iter().fold(f64::INFINITY, f64::min) - height(toward) >= limit
 }
 
 fn segment_triangle(segment: &Segment, triangle: &Triangle) -> f64 {

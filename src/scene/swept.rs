@@ -8,9 +8,11 @@
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::gjk::{self, CsoPoint, GJKResult, VoronoiSimplex};
-use parry3d_f64::shape::SupportMap;
+use parry3d_f64::shape::{Segment, SupportMap};
+use wide::f64x4;
 
 use super::Scene;
+use super::clearance::is_beyond;
 use super::triangle_mesh::TriangleMesh;
 
 /// What of the nozzle must not touch a wall, round the exit.
@@ -39,24 +41,78 @@ pub struct Swept {
     pub aim: Point3<f64>,
     /// Half the edges of their box, m.
     pub shifts: [Vector3<f64>; 3],
-    /// Directions of the jet: unit vectors.
-    pub directions: Vec<Vector3<f64>>,
+    /// Directions of the jet.
+    pub directions: Directions,
     /// Smallest and largest standoff, m.
     pub standoff: [f64; 2],
     /// What is swept.
     pub core: Core,
 }
 
+/// Unit vectors, four to a lane: most of the work of a distance is to find the one that reaches farthest.
+#[derive(Clone, Debug)]
+pub struct Directions {
+    /// Coordinates of four at a time; the last one fills up what is left.
+    lanes: Vec<[f64x4; 3]>,
+}
+
+impl Directions {
+    /// Of at least one unit vector.
+    pub fn new(directions: &[Vector3<f64>]) -> Self {
+        let lane = |four: &[Vector3<f64>]| {
+            let at = |index: usize| four[index.min(four.len() - 1)];
+            [0, 1, 2].map(|axis| f64x4::from([0, 1, 2, 3].map(|index| at(index)[axis])))
+        };
+        Self {
+            lanes: directions.chunks(4).map(lane).collect(),
+        }
+    }
+
+    /// The unit vector in the middle of them.
+    fn mean(&self) -> Vector3<f64> {
+        let lanes = self.lanes.iter();
+        let sum = lanes.map(|lane| Vector3::from(lane.map(|it| it.reduce_add())));
+        sum.sum::<Vector3<f64>>().normalize()
+    }
+
+    /// The first one of those for which `height` is largest, given how far each goes ahead in a direction.
+    fn farthest(&self, toward: &Vector3<f64>, height: impl Fn(f64x4) -> f64x4) -> Vector3<f64> {
+        let [x, y, z] = [toward.x, toward.y, toward.z].map(f64x4::splat);
+        let heights = |[a, b, c]: &[f64x4; 3]| height(*a * x + *b * y + *c * z);
+        let (mut most, mut lanes) = (f64x4::splat(f64::NEG_INFINITY), [f64x4::ZERO; 3]);
+        for lane in &self.lanes {
+            let here = heights(lane);
+            let is_more = here.simd_gt(most);
+            most = is_more.select(here, most);
+            for (kept, lane) in lanes.iter_mut().zip(lane) {
+                *kept = is_more.select(*lane, *kept);
+            }
+        }
+        let most = most.to_array();
+        let index = (1..4).fold(0, |best, it| if most[it] > most[best] { it } else { best });
+        Vector3::from(lanes.map(|lane| lane.to_array()[index]))
+    }
+}
+
 impl SupportMap for Swept {
     fn local_support_point(&self, dir: Vector) -> Vector {
         let toward: Vector3<f64> = dir.into();
-        let mut farthest = (f64::NEG_INFINITY, Vector3::zeros());
-        for jet in &self.directions {
-            let height = self.height(jet, &toward);
-            if height > farthest.0 {
-                farthest = (height, *jet);
-            }
-        }
+        let [near, far] = self.standoff.map(f64x4::splat);
+        let back = |ahead: f64x4| ahead.simd_gt(f64x4::ZERO).select(near, far) * ahead;
+        // How far the core of a jet reaches that goes so far ahead.
+        let jet = match self.core {
+            Core::Exit
+            | Core::Line {
+                direction: Some(_), ..
+            } => self.directions.farthest(&toward, |ahead| -back(ahead)),
+            Core::Line { length, .. } => self.directions.farthest(&toward, |ahead| {
+                (-ahead * length).fast_max(f64x4::ZERO) - back(ahead)
+            }),
+            Core::Disc { radius } => self.directions.farthest(&toward, |ahead| {
+                let across = f64x4::splat(toward.norm_squared()) - ahead * ahead;
+                across.fast_max(f64x4::ZERO).sqrt() * radius - back(ahead)
+            }),
+        };
         let shifts = self.shifts.iter().map(|shift| {
             if shift.dot(&toward) < 0.0 {
                 -shift
@@ -64,33 +120,21 @@ impl SupportMap for Swept {
                 *shift
             }
         });
-        let point = self.farthest_point(&farthest.1, &toward);
+        let point = self.farthest_point(&jet, &toward);
         (self.aim.coords + point + shifts.sum::<Vector3<f64>>()).into()
     }
 }
 
 impl Swept {
-    /// The standoff at which the exit of a jet is farthest in a direction in which the jet goes so far ahead.
-    fn farthest_standoff(&self, ahead: f64) -> f64 {
-        let [near, far] = self.standoff;
-        if ahead > 0.0 { near } else { far }
-    }
-
-    /// How far the core of a jet reaches in a direction: less work than where it does.
-    fn height(&self, jet: &Vector3<f64>, toward: &Vector3<f64>) -> f64 {
-        let ahead = jet.dot(toward);
-        let beyond = match self.core {
-            Core::Exit => 0.0,
-            Core::Line { length, direction } => {
-                let end = direction.map_or(-ahead, |direction| direction.dot(toward));
-                (end * length).max(0.0)
-            }
-            Core::Disc { radius } => {
-                let across = toward.norm_squared() - ahead * ahead;
-                across.max(0.0).sqrt() * radius
-            }
+    /// The core somewhere in the middle of all.
+    fn middle(&self) -> Segment {
+        let jet = self.directions.mean();
+        let exit = self.aim.coords - jet * ((self.standoff[0] + self.standoff[1]) / 2.0);
+        let end = match self.core {
+            Core::Line { length, direction } => exit + direction.unwrap_or(-jet) * length,
+            Core::Exit | Core::Disc { .. } => exit,
         };
-        beyond - self.farthest_standoff(ahead) * ahead
+        Segment::new(exit.into(), end.into())
     }
 
     /// The point of the core of a jet that is farthest in a direction, from where it is aimed.
@@ -111,7 +155,8 @@ impl Swept {
                 across.try_normalize(0.0).unwrap_or_default() * radius
             }
         };
-        beyond - jet * self.farthest_standoff(ahead)
+        let [near, far] = self.standoff;
+        beyond - jet * if ahead > 0.0 { near } else { far }
     }
 }
 
@@ -138,8 +183,14 @@ impl TriangleMesh {
             Vector::from_array(reach(-1.0)),
             Vector::from_array(reach(1.0)),
         );
+        let height = |toward: Vector| swept.local_support_point(toward).dot(toward);
+        let line = swept.middle();
         self.nearest_triangle(limit, low, high, |index, limit| {
-            distance(swept, &self.triangle(index), limit)
+            let triangle = self.triangle(index);
+            if is_beyond(&triangle, limit, &line, height) {
+                return f64::INFINITY;
+            }
+            distance(swept, &triangle, limit)
         })
     }
 }
@@ -187,7 +238,7 @@ mod tests {
         Swept {
             aim: Point3::origin(),
             shifts: [Vector3::x() * x, Vector3::y() * y, Vector3::z() * z],
-            directions: vec![direction.normalize()],
+            directions: Directions::new(&[direction.normalize()]),
             standoff: [2.0, 3.0],
             core,
         }
@@ -255,7 +306,7 @@ mod tests {
             let swept = Swept {
                 aim: Point3::new(1.05, 0.0, 0.1),
                 shifts: [Vector3::x() * 0.02, Vector3::y() * 0.02, Vector3::zeros()],
-                directions,
+                directions: Directions::new(&directions),
                 standoff: [0.9, 1.1],
                 core: Core::Line {
                     length: 1.0,
