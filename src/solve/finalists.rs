@@ -1,19 +1,16 @@
 //! Whether a search ends where it does by chance: finalists of independent groups must agree.
 
-use super::descend_group;
-use super::evaluator::Effort;
-use super::sampler::Sampler;
 use super::search::Search;
 use super::stopping_rule::rounding_of_objective;
-use crate::control::Control;
 use crate::problem::Problem;
-use crate::scenario::Scenario;
 
 /// What the finalists of a search say about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Agreement {
     /// Whether enough of them are as good as the best one, within the accuracy.
     pub is_reached: bool,
+    /// How many more would have to agree at least.
+    pub missing: u32,
     /// By how much the last of those that had to agree is above the best one, relative to that.
     pub spread: f64,
 }
@@ -31,6 +28,7 @@ impl Agreement {
     /// Where there is nothing to search.
     const CERTAIN: Self = Self {
         is_reached: true,
+        missing: 0,
         spread: 0.0,
     };
 
@@ -55,9 +53,11 @@ impl Agreement {
         let is_near = |rank: f64| rank - best <= (tolerated.share * best).max(tolerated.rounding);
         let is_simple = dimensions < MANY && ranks.iter().all(|&rank| is_near(rank));
         let needed = if is_simple { 2 } else { 3 };
+        let agreeing = ranks.iter().filter(|&&rank| is_near(rank)).count();
         let last = ranks.get(needed - 1).copied();
         Self {
-            is_reached: last.is_some_and(is_near),
+            is_reached: agreeing >= needed,
+            missing: needed.saturating_sub(agreeing) as u32,
             spread: above(last.or(ranks.last().copied()).unwrap_or(best)),
         }
     }
@@ -69,35 +69,6 @@ const LARGEST_SPREAD: f64 = 1e6;
 const NEAR: f64 = 0.5;
 /// From this number of searched settings on.
 const MANY: usize = 4;
-
-/// Adds groups to the leading search until its finalists agree, or there are too many of them.
-pub(super) fn confirmed(
-    search: &mut Search,
-    scenario: &Scenario,
-    sampler: &Sampler,
-    shots: usize,
-    effort: &Effort,
-    control: &Control,
-) -> Agreement {
-    let mut agreement = Agreement::of(search, &scenario.problem);
-    for number in FIRST..MOST_GROUPS {
-        let fails = search.best().fitness.penalty() > 0.0;
-        if agreement.is_reached || control.is_stopped() || (fails && number >= MOST_THAT_FAIL) {
-            break;
-        }
-        let group = descend_group(search, number, scenario, sampler, shots, effort, control);
-        search.join(group);
-        agreement = Agreement::of(search, &scenario.problem);
-    }
-    agreement
-}
-
-/// The number of the first group that is added.
-const FIRST: u32 = 2;
-/// Numbers of groups end here.
-const MOST_GROUPS: u32 = 8;
-/// Here where the best of them fails.
-const MOST_THAT_FAIL: u32 = 3;
 
 #[cfg(test)]
 mod tests {
@@ -120,6 +91,21 @@ mod tests {
         // Many settings have many places to end in.
         assert_eq!(agreement(&[1.0, 1.004], 4), (false, 0.004));
         assert_eq!(agreement(&[1.0, 1.004, 1.001], 4), (true, 0.004));
+    }
+
+    #[test]
+    fn as_many_more_are_asked_as_are_missing() {
+        let missing = |ranks: &[f64], dimensions: usize| {
+            let tolerated = Tolerated {
+                share: 0.005,
+                rounding: 0.0,
+            };
+            Agreement::of_ranks(ranks.to_vec(), dimensions, tolerated).missing
+        };
+        assert_eq!(missing(&[1.0, 1.001], 2), 0);
+        assert_eq!(missing(&[1.0, 1.001], 4), 1);
+        assert_eq!(missing(&[1.0, 2.0], 2), 2);
+        assert_eq!(missing(&[1.0, 2.0, 3.0], 2), 2);
     }
 
     #[test]

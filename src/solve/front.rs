@@ -7,8 +7,8 @@
 
 use rayon::prelude::*;
 
-use super::SCREENING_SHOTS;
 use super::answer::Answer;
+use super::descent::SCREENING_SHOTS;
 use super::evaluator::{Effort, Evaluator};
 use super::objectives::{Objectives, objectives};
 use super::pareto_archive::{Evaluated, ParetoArchive, dominates, not_dominated, spread_out};

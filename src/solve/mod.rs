@@ -9,7 +9,7 @@
 //!    that clearly lose end early (racing), and blocked ones are repaired;
 //! 3. draws a part of the shots with an importance density for the violations of the incumbent;
 //! 4. validates the answer on shots that the search has not seen, and raises the number of shots while the
-//!    optimism gap is too large;
+//!    optimism gap is too large and the search still gains by it;
 //! 5. starts further groups until the finalists of independent ones agree;
 //! 6. searches again for settings that pass, where those with the least J do not.
 //!
@@ -18,6 +18,7 @@
 
 mod ablation;
 mod answer;
+mod descent;
 mod evaluator;
 mod figures;
 mod finalists;
@@ -49,20 +50,19 @@ pub use status::Status;
 pub use tie::is_tie;
 pub use window::{Drift, Turn, Window, passing_windows, windows};
 
-use rayon::prelude::*;
-
-use crate::control::{Control, Progress};
-use crate::problem::setting::{Settings, Tolerance};
+use crate::control::Control;
+use crate::problem::Problem;
+use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use evaluator::Evaluator;
+use descent::{Descent, refine_in_turn, tell};
 use figures::Figures;
-use finalists::{Agreement, confirmed};
-use polish::Candidate;
+use finalists::Agreement;
+use passing::Sought;
 use sampler::Sampler;
 use search::Search;
 use space::Space;
-use stage::{STAGES, STAGES_SET_EXACTLY, Stage};
-use stopping_rule::{is_in_reach, least_objective, not_converged};
+use stage::Stage;
+use stopping_rule::{has_gained, not_converged};
 use tie::ranked;
 
 /// What a search found.
@@ -93,10 +93,6 @@ impl Solution {
     }
 }
 
-const SCREENING_SHOTS: usize = 64;
-/// Up to this many shots every contact is refined for itself; beyond only those that could win, the
-/// best one first.
-const CHEAP_SHOTS: usize = 1024;
 /// Factor on the number of shots when the last stage was not accurate enough.
 const RISE: usize = 4;
 
@@ -115,57 +111,59 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
     let effort = Effort::default();
     let asked = scenario.as_asked();
     let searched = asked.as_searched();
-    let mut sampler = Sampler::new(&searched);
-    let ((mut searches, mut shots), mut figures) = rayon::join(
-        || descend(&searched, &mut sampler, control, &effort),
+    let (mut descent, mut figures) = rayon::join(
+        || Descent::run(&searched, Sampler::new(&searched), &effort, control),
         || Figures::new(&asked, control, &effort),
     );
-    let mut answers = figures.all(&searches);
-    let leader = leading(&searches);
+    let mut answers = figures.all(&descent.searches);
+    let mut agreements = vec![None; answers.len()];
+    let leader = descent.leading();
     // Where the least J fails, finalists of the search for what passes are asked instead.
-    let agreement = if answers[leader].passes() {
-        confirmed(
-            &mut searches[leader],
-            &searched,
-            &sampler,
-            shots,
-            &effort,
-            control,
-        )
-    } else {
-        Agreement::of(&searches[leader], &searched.problem)
-    };
-    searches.iter_mut().for_each(Search::keep_best);
+    agreements[leader] = Some(match answers[leader].passes() {
+        true => descent.confirmed(leader),
+        false => descent.agreement(leader),
+    });
+    let mut searches = descent.best();
     answers = figures.renewed(answers, &searches);
     let problem = &asked.problem;
     let not_converged = |searches: &[Search], answers: &[Answer], shots| {
         not_converged(searches, answers, problem, shots, control.validation_shots)
     };
+    let (mut sampler, mut shots) = (descent.sampler.clone(), descent.shots);
     let mut open = not_converged(&searches, &answers, shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         sampler.adapt(&searches, &effort, control);
         let samples = sampler.draw(shots);
         let evaluator = sampler.evaluator(&searched, &samples, &effort, control);
+        let ranks = open
+            .iter()
+            .map(|&index| searches[index].rank_on(&evaluator));
+        let before: Vec<(usize, f64)> = open.iter().copied().zip(ranks).collect();
         refine_in_turn(&mut searches, &open, &evaluator, &Stage::beyond(shots));
         tell(control, &effort, &searches);
         answers = figures.renewed(answers, &searches);
         open = not_converged(&searches, &answers, shots);
+        open.retain(|index| {
+            let before = before.iter().find(|(open, _)| open == index);
+            before.is_none_or(|&(_, rank)| has_gained(&searches[*index], rank, problem))
+        });
     }
-    let sought = passing::sought(
-        &mut answers,
-        (&asked, &searched),
-        &mut figures,
-        &effort,
+    let sought = Sought {
+        asked: &asked,
+        searched: &searched,
+        effort: &effort,
         control,
-    );
-    let agreement = sought.unwrap_or(agreement);
+    };
+    sought.passing(&mut answers, &mut agreements, &mut figures);
     let ablations = if control.is_stopped() {
         Vec::new()
     } else {
         let importance = sampler.importance();
         ablation::measure(scenario, &asked, importance, &searches, &effort, control)
     };
+    let agreement = agreement_on_best(&answers, &agreements, problem)
+        .unwrap_or_else(|contact| descent.confirmed(contact));
     let answers = ranked(answers, problem);
     let status = match answers.first() {
         _ if control.is_stopped() => Status::Interrupted,
@@ -184,137 +182,18 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
     }
 }
 
-/// Screens the settings of every contact and goes down through the stages; to the end, unless the nozzle
-/// is set exactly and J is precise before. Returns the searches and the shots at each pose of the last
-/// stage.
-fn descend(
-    scenario: &Scenario,
-    sampler: &mut Sampler,
-    control: &Control,
-    effort: &Effort,
-) -> (Vec<Search>, usize) {
-    let stages: Vec<&Stage> = stages(scenario, control.most_shots).collect();
-    let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);
-    let samples = sampler.draw(SCREENING_SHOTS);
-    let evaluator = sampler.evaluator(scenario, &samples, effort, control);
-    let contacts = scenario.problem.ranges.contact.par_iter();
-    let mut searches: Vec<Search> = contacts
-        .map(|&contact| Search::screen(scenario, contact, &evaluator))
-        .collect();
-    for (index, stage) in stages.into_iter().enumerate() {
-        if control.is_stopped() {
-            break;
-        }
-        if index > 0 {
-            sampler.adapt(&searches, effort, control);
-        }
-        let samples = sampler.draw(stage.shots);
-        let evaluator = sampler.evaluator(scenario, &samples, effort, control);
-        advance(&mut searches, &evaluator, stage);
-        tell(control, effort, &searches);
-        if stage.shots >= CHEAP_SHOTS && sampler.is_far_from_passing(&searches) {
-            return (searches, stage.shots);
-        }
-        let is_between = stage.shots >= CHEAP_SHOTS && stage.shots < most_shots;
-        if is_set_exactly(scenario)
-            && is_between
-            && !control.is_stopped()
-            && sampler.is_precise(&searches, stage.shots, effort)
-        {
-            return (searches, stage.shots);
-        }
-    }
-    (searches, most_shots)
-}
-
-/// Whether a shop hits the settings exactly.
-fn is_set_exactly(scenario: &Scenario) -> bool {
-    scenario.problem.tolerance == Tolerance::default()
-}
-
-/// The stages of a problem, up to the most shots.
-fn stages(scenario: &Scenario, most_shots: usize) -> impl Iterator<Item = &'static Stage> {
-    let all = if is_set_exactly(scenario) {
-        &STAGES_SET_EXACTLY
-    } else {
-        &STAGES
-    };
-    all.iter().filter(move |stage| stage.shots <= most_shots)
-}
-
-/// Takes another group of the same contact through the stages, up to those of so many shots.
-fn descend_group(
-    search: &Search,
-    number: u32,
-    scenario: &Scenario,
-    sampler: &Sampler,
-    shots: usize,
-    effort: &Effort,
-    control: &Control,
-) -> Search {
-    let samples = sampler.draw(SCREENING_SHOTS);
-    let evaluator = sampler.evaluator(scenario, &samples, effort, control);
-    let mut group = search.another_group(number, scenario, &evaluator);
-    for stage in stages(scenario, shots) {
-        if control.is_stopped() {
-            break;
-        }
-        let samples = sampler.draw(stage.shots);
-        let evaluator = sampler.evaluator(scenario, &samples, effort, control);
-        group.refine(&evaluator, stage);
-    }
-    group
-}
-
-/// The index of the search with the best candidate.
-fn leading(searches: &[Search]) -> usize {
-    let best = searches.iter().map(Search::best).enumerate();
-    let leader = best.min_by(|(_, a), (_, b)| Candidate::by_rank(a, b));
-    leader.map_or(0, |(index, _)| index)
-}
-
-/// Takes the searches through a stage: all of them as long as shots are few, then those that could
-/// win.
-fn advance(searches: &mut [Search], evaluator: &Evaluator, stage: &Stage) {
-    if stage.shots > CHEAP_SHOTS {
-        let least = least_objective(searches);
-        let could_win = |&index: &usize| is_in_reach(&searches[index], least);
-        let open: Vec<usize> = (0..searches.len()).filter(could_win).collect();
-        return refine_in_turn(searches, &open, evaluator, stage);
-    }
-    let each = searches.par_iter_mut();
-    each.for_each(|search| search.refine(evaluator, stage));
-}
-
-/// Refines some of the searches, the best one first, so that the others can profit from it; the
-/// others, and those that went before the best one, go where that one is if they are better there.
-fn refine_in_turn(searches: &mut [Search], which: &[usize], evaluator: &Evaluator, stage: &Stage) {
-    let rank = |search: &Search| search.best().fitness.rank();
-    let mut order = which.to_vec();
-    order.sort_by(|&a, &b| rank(&searches[a]).total_cmp(&rank(&searches[b])));
-    let mut leader = order[0];
-    let mut beside = vec![None; searches.len()];
-    searches[leader].refine(evaluator, stage);
-    for &index in &order[1..] {
-        let leading = searches[leader].best().clone();
-        searches[index].refine_from_incumbent(&leading, evaluator, stage);
-        beside[index] = Some(leader);
-        if rank(&searches[index]) < rank(&searches[leader]) {
-            leader = index;
-        }
-    }
-    let leading = searches[leader].best().clone();
-    for (index, search) in searches.iter_mut().enumerate() {
-        if index != leader && beside[index] != Some(leader) {
-            search.follow(&leading, evaluator, stage);
-        }
-    }
-}
-
-fn tell(control: &Control, effort: &Effort, searches: &[Search]) {
-    let best = least_objective(searches);
-    control.tell(Progress::Search {
-        poses: effort.poses(),
-        best: best.is_finite().then_some(best),
-    });
+/// How far the finalists agree of the contact with the best answer, or of one that ties with it; else the contact
+/// whose finalists have to be asked.
+fn agreement_on_best(
+    answers: &[Answer],
+    agreements: &[Option<Agreement>],
+    problem: &Problem,
+) -> Result<Agreement, usize> {
+    let best = tie::best(answers);
+    let of_best = agreements[best];
+    let pairs = answers.iter().zip(agreements);
+    let mut tied = pairs.filter(|(answer, _)| tie::tie_with(&answers[best], answer, problem));
+    of_best
+        .or_else(|| tied.find_map(|(_, agreement)| *agreement))
+        .ok_or(best)
 }

@@ -5,14 +5,13 @@
 //! that J.
 
 use super::answer::Answer;
-use super::descend;
+use super::descent::Descent;
 use super::evaluator::Effort;
 use super::figures::Figures;
-use super::finalists::{Agreement, confirmed};
+use super::finalists::Agreement;
 use super::sampler::Sampler;
-use super::search::Search;
 use super::stage::Stage;
-use super::{RISE, leading, tie};
+use super::{RISE, tie};
 use crate::control::Control;
 use crate::scenario::Scenario;
 
@@ -25,86 +24,116 @@ pub(super) struct Penalty {
     pub slack: f64,
 }
 
-/// Searches again for the contacts whose answers fail and could be recommended if they passed; returns how far the
-/// finalists of the leading one agree, where there was something to search.
-pub(super) fn sought(
-    answers: &mut [Answer],
-    (asked, searched): (&Scenario, &Scenario),
-    figures: &mut Figures,
-    effort: &Effort,
-    control: &Control,
-) -> Option<Agreement> {
-    let mut agreement = None;
-    let mut slack = 1.0;
-    for _ in 0..MOST_ROUNDS {
-        let failing = worthwhile(answers, asked);
-        if failing.is_empty() || control.is_stopped() {
-            break;
+/// The search for what passes, of a problem as it is asked and as it is searched.
+pub(super) struct Sought<'a> {
+    pub asked: &'a Scenario,
+    pub searched: &'a Scenario,
+    pub effort: &'a Effort,
+    pub control: &'a Control,
+}
+
+impl Sought<'_> {
+    /// Searches again for the contacts whose answers fail and could be recommended if they passed. Of the best answer,
+    /// where it was found here, it is asked how far the finalists agree.
+    pub fn passing(
+        &self,
+        answers: &mut [Answer],
+        agreements: &mut [Option<Agreement>],
+        figures: &mut Figures,
+    ) {
+        let mut slack = 1.0;
+        for _ in 0..MOST_ROUNDS {
+            let failing = worthwhile(answers, self.asked);
+            if failing.is_empty() || self.control.is_stopped() {
+                break;
+            }
+            let worst = self.round(&failing, slack, answers, agreements, figures);
+            // Near misses pass with a little more room.
+            if worst <= 1.0 || worst > NEAR {
+                break;
+            }
+            slack *= ROOM / worst;
         }
-        let least = failing
-            .iter()
-            .filter_map(|&index| answers[index].objective());
-        let scale = least.fold(f64::INFINITY, f64::min);
-        let scale = if scale > 0.0 { scale } else { 1.0 };
+    }
+
+    /// One search; returns the least violation that it has found.
+    fn round(
+        &self,
+        failing: &[usize],
+        slack: f64,
+        answers: &mut [Answer],
+        agreements: &mut [Option<Agreement>],
+        figures: &mut Figures,
+    ) -> f64 {
+        let (effort, control) = (self.effort, self.control);
         let penalty = Penalty {
-            price: PRICE * scale,
+            price: PRICE * scale(answers, failing),
             slack,
         };
-        let mut scenario = searched.clone();
+        let mut scenario = self.searched.clone();
         let contacts = failing.iter().map(|&index| answers[index].settings.contact);
         scenario.problem.ranges.contact = contacts.collect();
-        let mut sampler = Sampler::of_the_jet(&scenario, penalty);
-        let (mut searches, shots) = descend(&scenario, &mut sampler, control, effort);
-        let samples = sampler.draw(shots);
-        let evaluator = sampler.evaluator(&scenario, &samples, effort, control);
-        for (search, &index) in searches.iter_mut().zip(&failing) {
+        let sampler = Sampler::of_the_jet(&scenario, penalty);
+        let mut descent = Descent::run(&scenario, sampler, effort, control);
+        let shots = descent.shots;
+        let samples = descent.sampler.draw(shots);
+        let evaluator = descent
+            .sampler
+            .evaluator(&scenario, &samples, effort, control);
+        for (search, &index) in descent.searches.iter_mut().zip(failing) {
             search.add(&answers[index].settings, &evaluator, &Stage::beyond(shots));
         }
-        let leader = leading(&searches);
-        let found = confirmed(
-            &mut searches[leader],
-            &scenario,
-            &sampler,
-            shots,
-            effort,
-            control,
-        );
-        searches.iter_mut().for_each(Search::keep_best);
+        let leader = descent.leading();
+        let of_leader = descent.confirmed(leader);
+        let mut searches = descent.best();
         // The fewer the shots, the farther the search stays below what is allowed.
         let more = shots * RISE;
         if searches[leader].best().fitness.penalty() <= 0.0 && more <= control.most_shots {
-            let samples = sampler.draw(more);
-            let evaluator = sampler.evaluator(&scenario, &samples, effort, control);
+            let samples = descent.sampler.draw(more);
+            let evaluator = descent
+                .sampler
+                .evaluator(&scenario, &samples, effort, control);
             searches[leader].refine(&evaluator, &Stage::beyond(more));
         }
         let new = figures.of_searches(&searches);
+        let claims = searches.iter().map(|it| it.best().fitness.objective());
         let mut worst = f64::INFINITY;
-        let claims = searches
-            .iter()
-            .map(|search| search.best().fitness.objective());
-        for ((answer, claimed), &index) in new.into_iter().zip(claims).zip(&failing) {
+        // Whether J of what was found here is known.
+        let mut known = vec![None; failing.len()];
+        for (place, (answer, claimed)) in new.into_iter().zip(claims).enumerate() {
             worst = worst.min(answer.largest_violation());
-            let old = &mut answers[index];
+            let old = &mut answers[failing[place]];
             if tie::is_better(&answer, old) {
-                let is_known = is_known(claimed, &answer, asked.problem.accuracy);
+                known[place] = Some(is_known(claimed, &answer, self.asked.problem.accuracy));
                 let least = old.least_objective.or(old.objective());
                 *old = Answer {
                     least_objective: least,
                     ..answer
                 };
-                agreement = Some(Agreement {
-                    is_reached: found.is_reached && is_known,
-                    ..found
-                });
+                agreements[failing[place]] = None;
             }
         }
-        // Near misses pass with a little more room.
-        if worst <= 1.0 || worst > NEAR {
-            break;
+        let best = tie::best(answers);
+        let place = failing.iter().position(|&index| index == best);
+        if let Some((place, is_known)) = place.and_then(|it| Some((it, known[it]?))) {
+            let found = match place == leader {
+                true => of_leader,
+                false => descent.confirmed(place),
+            };
+            agreements[best] = Some(Agreement {
+                is_reached: found.is_reached && is_known,
+                ..found
+            });
         }
-        slack *= ROOM / worst;
+        worst
     }
-    agreement
+}
+
+/// What J is measured by.
+fn scale(answers: &[Answer], which: &[usize]) -> f64 {
+    let objectives = which.iter().filter_map(|&index| answers[index].objective());
+    let least = objectives.fold(f64::INFINITY, f64::min);
+    if least > 0.0 { least } else { 1.0 }
 }
 
 /// Whether J on the shots of the search is J on validation shots, within the accuracy.

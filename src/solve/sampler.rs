@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::descent::leading;
 use super::evaluator::{Effort, Evaluator};
-use super::leading;
 use super::passing::Penalty;
 use super::polish::Candidate;
 use super::search::Search;
@@ -15,6 +15,7 @@ use crate::objective::Tally;
 use crate::scenario::Scenario;
 
 /// Draws the shots of a search, a part of them with an importance density for the violations of the incumbent.
+#[derive(Clone)]
 pub(super) struct Sampler<'a> {
     scenario: &'a Scenario,
     /// The importance density, once there is one.

@@ -23,7 +23,7 @@ pub(super) struct Search {
 }
 
 /// Groups that a search begins with.
-const GROUPS: u32 = 2;
+pub(super) const GROUPS: u32 = 2;
 
 impl Search {
     /// Evaluates poses all over the space.
@@ -59,6 +59,12 @@ impl Search {
             _ => best,
         };
         self.finalists().fold(&self.groups[0][0], better)
+    }
+
+    /// The rank of its settings on other shots.
+    pub fn rank_on(&self, evaluator: &Evaluator) -> f64 {
+        let best = Candidate::at(&self.space, evaluator, &self.best().point);
+        best.fitness.rank()
     }
 
     /// The best candidate of each group.

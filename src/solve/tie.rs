@@ -54,10 +54,21 @@ pub(super) fn ranked(mut answers: Vec<Answer>, problem: &Problem) -> Vec<Answer>
     tied
 }
 
+/// The index of the best answer, which one that ties with it may be recommended before.
+pub(super) fn best(answers: &[Answer]) -> usize {
+    let all = answers.iter().enumerate();
+    let best = all.min_by(|(_, a), (_, b)| order(a, b));
+    best.map_or(0, |(index, _)| index)
+}
+
+/// Whether two answers tie, and fail as many verdicts.
+pub(super) fn tie_with(one: &Answer, other: &Answer, problem: &Problem) -> bool {
+    fitness(one).is_some_and(|best| ties(other, best, problem))
+}
+
 /// The one that is ranked first.
 pub(super) fn recommended<'a>(answers: &'a [Answer], problem: &Problem) -> Option<&'a Answer> {
-    let all = answers.iter();
-    let least = all.min_by(|a, b| order(a, b))?;
+    let least = answers.get(best(answers))?;
     let Some(best) = fitness(least) else {
         return Some(least);
     };
