@@ -13,10 +13,11 @@ mod grid;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use crate::elementary::{ln_1p, square};
-use crate::jet::{Replicate, Replicates, purpose};
+use crate::elementary::{exp_m1, ln_1p, square};
+use crate::jet::{Replicate, Replicates, ShotSample, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Settings;
+use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
 use crate::trace::Tracer;
 use dented::Question;
@@ -35,7 +36,7 @@ const HITS_IN_A_CELL: f64 = 32.0;
 const LOWEST: f64 = 0.05;
 
 /// How densely first hits fall on the target while the nozzle stands still.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Coverage {
     /// What is wanted.
     pub wish: CoverageWish,
@@ -61,6 +62,8 @@ pub struct Coverage {
     pub shots_per_kilogram: f64,
     /// Mass of shot per time, kg/s, where it is known.
     pub mass_flow: Option<f64>,
+    /// Area, m2, and first hits per shot and area, 1/m2, of each cell.
+    density_of_cells: Vec<(f64, f64)>,
 }
 
 /// First hits per shot and area.
@@ -73,13 +76,23 @@ pub struct Density {
 }
 
 impl Coverage {
-    /// The coverage of some settings; `None` when the problem does not ask for it.
+    /// The coverage of some settings while the nozzle stands still; `None` when the problem does not ask for it.
     pub fn of(scenario: &Scenario, settings: &Settings) -> Option<Self> {
+        Self::of_stroke(scenario, &[Leg::whole(settings)], 0.0)
+    }
+
+    /// The same over a stroke, whose run-out goes on by so many places beyond both ends.
+    pub fn of_stroke(scenario: &Scenario, legs: &[Leg], beyond: f64) -> Option<Self> {
         let wish = scenario.problem.coverage?;
-        let validation = Replicates::without_boundary(&scenario.problem, purpose::COVERAGE, SHOTS);
+        let mut validation =
+            Replicates::without_boundary(&scenario.problem, purpose::COVERAGE, SHOTS);
+        let samples = validation.sets.iter_mut();
+        for sample in samples.flat_map(|set| &mut set.jet.shots) {
+            sample.place *= 1.0 + 2.0 * beyond;
+        }
         let samples = validation.sets.len();
         let (target, _) = scenario.target.cut_out(&scenario.scene);
-        let hits = hits(scenario, settings, &validation.sets);
+        let hits = hits(scenario, legs, &validation.sets);
         let Cells { side, cells } = Cells::new(scenario, &target, CELLS, &hits);
         let area: f64 = cells.iter().map(|cell| cell.area).sum();
         let whole = Cell {
@@ -140,6 +153,10 @@ impl Coverage {
             dented,
             shots_per_kilogram,
             mass_flow: scenario.problem.jet.mass_flow,
+            density_of_cells: cells
+                .iter()
+                .map(|cell| (cell.area, cell.density(shots).value))
+                .collect(),
         })
     }
 
@@ -147,6 +164,24 @@ impl Coverage {
     /// where nothing hits.
     pub fn mass_until_wanted(&self, density: Density) -> Option<f64> {
         mass_until(&self.wish, density, self.shots_per_kilogram)
+    }
+
+    /// The share of the area that so much shot dents, kg: mean, least and most over the cells of the target.
+    pub fn dented_by(&self, mass: f64) -> [f64; 3] {
+        let dent = std::f64::consts::PI * square(self.wish.dent_diameter) / 4.0;
+        let share = |density: f64| -exp_m1(-dent * density * mass * self.shots_per_kilogram);
+        let cells = self.density_of_cells.iter();
+        let mean = cells
+            .clone()
+            .map(|(area, density)| area * share(*density))
+            .sum::<f64>()
+            / self.area;
+        let shares = || cells.clone().map(|(_, density)| share(*density));
+        [
+            mean,
+            shares().fold(1.0, f64::min),
+            shares().fold(0.0, f64::max),
+        ]
     }
 
     /// The time that takes, s; `None` also where the mass flow is not known.
@@ -163,15 +198,24 @@ fn mass_until(wish: &CoverageWish, density: Density, shots_per_kilogram: f64) ->
 }
 
 /// Where the first hits of each sample are on the target.
-fn hits(scenario: &Scenario, settings: &Settings, samples: &[Replicate]) -> Vec<Vec<Point3<f64>>> {
+fn hits(scenario: &Scenario, legs: &[Leg], samples: &[Replicate]) -> Vec<Vec<Point3<f64>>> {
     let mut scenario = scenario.clone();
     scenario.problem.paths.impacts = 1;
-    let tracer = Tracer::new(&scenario, settings, settings.speed);
     let points = |sample: &Replicate| {
-        let paths = tracer.paths(&sample.jet.shots);
-        let counted = paths.iter().flat_map(|path| &path.impacts);
-        let first = counted.filter(|impact| impact.number == 1 && impact.on_target);
-        first.map(|impact| impact.point).collect()
+        let of_leg = |leg: &Leg| -> Vec<Point3<f64>> {
+            let shots = sample
+                .jet
+                .shots
+                .iter()
+                .filter(|shot| legs.len() == 1 || std::ptr::eq(Leg::at(legs, shot.place), leg));
+            let shots: Vec<ShotSample> = shots.copied().collect();
+            let tracer = Tracer::new(&scenario, &leg.settings, leg.settings.speed);
+            let paths = tracer.paths(&shots);
+            let counted = paths.iter().flat_map(|path| &path.impacts);
+            let first = counted.filter(|impact| impact.number == 1 && impact.on_target);
+            first.map(|impact| impact.point).collect()
+        };
+        legs.iter().flat_map(of_leg).collect()
     };
     samples.par_iter().map(points).collect()
 }

@@ -40,7 +40,13 @@ pub struct Gap {
 }
 
 /// Why settings are infeasible; `None` where they are feasible.
+///
+/// Of a stroke it is the worst of its stations.
 pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
+    if !is_straight(scenario) {
+        let each = standing(scenario).filter_map(|scenario| infeasibility(scenario, settings));
+        return each.max_by(|a, b| a.violation.total_cmp(&b.violation));
+    }
     let pose = Pose::new(&scenario.target.frame, settings);
     let clearance = scenario.problem.nozzle.clearance;
     if let Some(infeasible) = not_in_free_space(scenario, settings, &pose) {
@@ -72,8 +78,30 @@ pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasi
     None
 }
 
+/// Whether what the nozzle sweeps is convex: of a spot, and of a stroke on which it moves straight on without turning.
+fn is_straight(scenario: &Scenario) -> bool {
+    scenario.stations.is_empty() || scenario.sweep.is_some()
+}
+
+/// Half the way of the nozzle, m; 0 for a spot.
+fn half_way(scenario: &Scenario) -> Vector3<f64> {
+    scenario.sweep.unwrap_or_default()
+}
+
+/// A stroke at each of its stations.
+fn standing(scenario: &Scenario) -> impl Iterator<Item = &Scenario> {
+    scenario.stations.iter().map(|station| &station.scenario)
+}
+
 /// Infeasible because of what no distance to a wall tells.
 fn not_in_free_space(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<Infeasible> {
+    if scenario.sweep.is_some() {
+        let each = standing(scenario).filter_map(|standing| {
+            let pose = Pose::new(&standing.target.frame, settings);
+            not_in_free_space(standing, settings, &pose)
+        });
+        return each.max_by(|a, b| a.violation.total_cmp(&b.violation));
+    }
     in_material(scenario, settings, pose).or_else(|| through_own_body(scenario, settings, pose))
 }
 
@@ -96,6 +124,10 @@ fn in_material(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<
 /// How much nearer than the clearance the nozzle is to a wall as it is set, m; negative where it is farther off. In
 /// material or in the way of its own jet it is the violation.
 pub(crate) fn closeness(scenario: &Scenario, settings: &Settings) -> f64 {
+    if !is_straight(scenario) {
+        let each = standing(scenario).map(|scenario| closeness(scenario, settings));
+        return each.fold(f64::NEG_INFINITY, f64::max);
+    }
     let pose = Pose::new(&scenario.target.frame, settings);
     if let Some(infeasible) = not_in_free_space(scenario, settings, &pose) {
         return infeasible.violation;
@@ -106,12 +138,20 @@ pub(crate) fn closeness(scenario: &Scenario, settings: &Settings) -> f64 {
 
 /// How near the nozzle comes to a surface as it is set; `None` in an empty scene.
 pub fn gap(scenario: &Scenario, settings: &Settings) -> Option<Gap> {
+    if !is_straight(scenario) {
+        let each = standing(scenario).filter_map(|scenario| gap(scenario, settings));
+        return each.min_by(|a, b| a.distance.total_cmp(&b.distance));
+    }
     gap_as_set(scenario, settings, f64::INFINITY)
 }
 
 /// How near it comes with the worst errors within the setup tolerance: a bound from below that is closer
 /// than the bulge of an arc over the angles' tolerance, 10 micrometres at 2 deg and 12 mm.
 pub fn gap_within_tolerance(scenario: &Scenario, settings: &Settings) -> Option<Gap> {
+    if !is_straight(scenario) {
+        let each = standing(scenario).filter_map(|it| gap_within_tolerance(it, settings));
+        return each.min_by(|a, b| a.distance.total_cmp(&b.distance));
+    }
     let gap = gap(scenario, settings)?;
     if !scenario.problem.tolerance.moves_nozzle() {
         return Some(gap);
@@ -163,7 +203,7 @@ fn cores(scenario: &Scenario) -> impl Iterator<Item = (Core, f64)> + '_ {
 fn gap_as_set(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap> {
     let pose = Pose::new(&scenario.target.frame, settings);
     let nozzle = &scenario.problem.nozzle;
-    if !nozzle.body.is_empty() {
+    if !nozzle.body.is_empty() && scenario.sweep.is_none() {
         let found = scenario
             .scene
             .clearance(nozzle, &pose.exit, &pose.direction, limit);
@@ -171,7 +211,12 @@ fn gap_as_set(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Ga
     }
     let swept = |core| Swept {
         aim: aim(&pose, settings),
-        shifts: [Vector3::zeros(); 3],
+        shifts: [
+            half_way(scenario),
+            Vector3::zeros(),
+            Vector3::zeros(),
+            Vector3::zeros(),
+        ],
         directions: Directions::new(&[pose.direction]),
         standoff: [settings.standoff; 2],
         core,
@@ -211,6 +256,7 @@ fn gap_swept(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap
             frame.along * tolerance.aim_along,
             frame.across * tolerance.aim_across,
             frame.normal * tolerance.aim_above,
+            half_way(scenario),
         ],
         directions: directions.clone(),
         standoff: [

@@ -103,6 +103,7 @@ pub mod validity;
 
 pub mod coverage;
 pub mod evidence;
+pub mod stroke;
 
 pub mod record;
 

@@ -4,6 +4,8 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+
 use crate::elementary::sin;
 use crate::impact::Contact;
 use crate::printable;
@@ -15,6 +17,7 @@ use crate::problem::part::{Part, Target};
 use crate::problem::setting::Settings;
 use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
+use crate::scene::traverse::Traverse;
 use crate::scene::{Scene, Walls};
 
 /// A problem, its scene, its target and the rules of each surface.
@@ -28,6 +31,21 @@ pub struct Scenario {
     pub target: Patch,
     /// One for each surface of the scene.
     pub surfaces: Vec<SurfaceLimits>,
+    /// The way of the nozzle; absent for a spot.
+    pub traverse: Option<Arc<Traverse>>,
+    /// Half the way of the nozzle, m, on a stroke on which it moves straight on and nothing turns.
+    pub sweep: Option<Vector3<f64>>,
+    /// The same at each station of the stroke, where the nozzle stands still; none for a spot.
+    pub stations: Arc<[Station]>,
+}
+
+/// A place of a stroke.
+#[derive(Clone)]
+pub struct Station {
+    /// -0.5 at the beginning of the stroke, 0.5 at its end.
+    pub place: f64,
+    /// What there is for a nozzle that stands there.
+    pub scenario: Scenario,
 }
 
 /// What holds for one surface.
@@ -125,7 +143,55 @@ impl Scenario {
                 contact.restitution = contact.restitution.held_at(normal_speed);
             }
         }
-        reduced
+        reduced.with_stations()
+    }
+
+    /// The same for a nozzle that stands still at a place of the stroke.
+    #[must_use]
+    pub fn standing_at(&self, place: f64) -> Self {
+        let mut standing = self.clone();
+        standing.stations = Arc::new([]);
+        standing.problem.stroke = None;
+        standing.sweep = None;
+        let Some(traverse) = standing.traverse.take() else {
+            return standing;
+        };
+        standing.target.frame = traverse.frame_at(place);
+        if let Some(turn) = traverse.turn_at(place) {
+            let bodies = standing.problem.nozzle.body.iter_mut();
+            bodies.for_each(|body| body.turn(&turn));
+        }
+        standing
+    }
+
+    /// A part of the stroke, between two places, with so many stations besides its ends' own.
+    #[must_use]
+    pub fn part_of_stroke(&self, span: [f64; 2], stations: usize) -> Self {
+        let mut part = self.clone();
+        if let (Some(traverse), Some(stroke)) = (&self.traverse, &mut part.problem.stroke) {
+            let traverse = traverse.part(span);
+            stroke.stations = stations + 1;
+            part.target.frame = traverse.frame_at(0.0);
+            part.traverse = Some(Arc::new(traverse));
+        }
+        part.with_stations()
+    }
+
+    fn with_stations(mut self) -> Self {
+        let Some(stroke) = &self.problem.stroke else {
+            return self;
+        };
+        let last = (stroke.stations - 1) as f64;
+        let stations = (0..stroke.stations).map(|index| {
+            let place = index as f64 / last - 0.5;
+            Station {
+                place,
+                scenario: self.standing_at(place),
+            }
+        });
+        self.stations = stations.collect();
+        self.sweep = self.traverse.as_ref().and_then(|it| it.sweep());
+        self
     }
 
     /// The effects that the problem has and that its model does not name.
@@ -153,7 +219,7 @@ impl Scenario {
         if self.problem.model != Model::Full && !self.surfaces.iter().any(costs) {
             searched.problem.paths.impacts = 1;
         }
-        searched
+        searched.with_stations()
     }
 
     /// Whether the paths of shots stay the same when every speed is multiplied by one factor.
@@ -170,15 +236,26 @@ impl Scenario {
             .unwrap_or_else(|| self.problem.contacts[settings.contact].at(settings.static_friction))
     }
 
-    fn assemble(problem: Problem, mut scene: Scene, target: Patch) -> Result<Self, Vec<Fault>> {
+    fn assemble(problem: Problem, mut scene: Scene, mut target: Patch) -> Result<Self, Vec<Fault>> {
         let surfaces = surface_limits(&problem, &scene, target.surface)?;
         scene.settle(&target);
-        Ok(Self {
+        let stroke = problem.stroke.as_ref();
+        let traverse = stroke
+            .map(|stroke| Traverse::find(&scene, &target, &problem, stroke))
+            .transpose()?;
+        if let Some(traverse) = &traverse {
+            target.frame = traverse.frame_at(0.0);
+        }
+        let scenario = Self {
             problem,
             scene: Arc::new(scene),
             target,
             surfaces,
-        })
+            traverse: traverse.map(Arc::new),
+            sweep: None,
+            stations: Arc::new([]),
+        };
+        Ok(scenario.with_stations())
     }
 }
 

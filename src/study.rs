@@ -16,7 +16,7 @@ use crate::problem::{self, Problem, Source};
 use crate::record::{FrontRecord, Record, RunInfo, StatusRecord, WorkRecord};
 use crate::scenario::{Rejection, Scenario};
 use crate::scene::Walls;
-use crate::solve::{Answer, front, passing_windows, solve};
+use crate::solve::{Answer, Segment, front, passing_windows, solve_stroke};
 use crate::unknowns::Unknowns;
 use crate::{evaluate, validity, warnings};
 pub use command::quoted;
@@ -36,6 +36,17 @@ pub struct Extras {
     /// What pictures are drawn from.
     pub evidence: bool,
 }
+
+/// Of several segments of a stroke the one whose settings are the best answer's.
+fn limiting<'a>(segments: &'a [Segment], best: &Answer) -> Option<&'a Segment> {
+    let is_limiting = |segment: &&Segment| segment.answer.settings == best.settings;
+    (segments.len() > 1)
+        .then(|| segments.iter().find(is_limiting))
+        .flatten()
+}
+
+/// Stations of a segment at which its windows are looked at, less one.
+const STATIONS: usize = 2;
 
 /// Chords that stand in for arcs turn by at most this angle, rad.
 const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
@@ -151,7 +162,7 @@ impl Study {
     /// Finds the best settings; `None` where the problem has no contact to choose.
     pub fn solve(&self, extras: Extras, control: &Control) -> Option<Record> {
         let began = control.clock.seconds();
-        let solution = solve(&self.scenario, control);
+        let (solution, segments) = solve_stroke(&self.scenario, control);
         let asked = self.scenario.as_asked();
         let front = extras
             .pareto
@@ -161,8 +172,14 @@ impl Study {
             false => solution.status.into(),
         };
         let finishing = control.of_finishing();
-        let windows = passing_windows(&asked, &solution, &finishing.cancel);
         let best = solution.answers.first()?;
+        let windows = match limiting(&segments, best) {
+            Some(limiting) => {
+                let part = asked.part_of_stroke(limiting.span, STATIONS);
+                passing_windows(&part, &limiting.answer, &finishing.cancel)
+            }
+            None => passing_windows(&asked, best, &finishing.cancel),
+        };
         let notes = validity::notes(&asked, &best.settings, best.evaluation.as_ref());
         let unknowns = (best.evaluation.is_some() && !finishing.is_stopped())
             .then(|| Unknowns::of(&asked, &best.settings))
@@ -172,6 +189,7 @@ impl Study {
             status,
             spread: Some(solution.spread),
             command: command::solve(self, extras),
+            segments: &segments,
             ablations: &solution.ablations,
             work: WorkRecord {
                 poses: solution.poses + front.as_ref().map_or(0, |front| front.poses),
@@ -211,6 +229,7 @@ impl Study {
             status: StatusRecord::Evaluated,
             spread: None,
             command: command::evaluate(self, settings, shots),
+            segments: &[],
             ablations: &[],
             work: WorkRecord {
                 poses: 1,

@@ -18,6 +18,7 @@ use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
 use crate::scene::nozzle_frame::NozzleFrame;
+use crate::scene::patch::Frame;
 use crate::scene::ray::Ray;
 use crate::triple::{Triple, dot};
 use packet::fire;
@@ -104,7 +105,7 @@ impl<'a> Tracer<'a> {
     /// The ray along which a shot of the jet leaves the nozzle.
     #[inline]
     pub fn launch(&self, sample: &ShotSample) -> Ray {
-        self.aim.shot(&self.scenario.target.frame, sample)
+        self.aim.shot(&self.frame_of(sample), sample)
     }
 
     /// Fires shots in packets for an observer; `end_packet` gets the shots of each packet and the number of rays
@@ -126,10 +127,19 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// Where a shot is aimed: on a stroke, at its place.
+    #[inline]
+    fn frame_of(&self, sample: &ShotSample) -> Frame {
+        match &self.scenario.traverse {
+            Some(traverse) => traverse.frame_at(sample.place),
+            None => self.scenario.target.frame,
+        }
+    }
+
     /// The nozzle frame of a shot, with its setup errors.
     fn nozzle_frame(&self, sample: &ShotSample) -> NozzleFrame {
-        let frame = &self.scenario.target.frame;
-        self.aim.pose_set_for(frame, sample).nozzle_frame()
+        let frame = self.frame_of(sample);
+        self.aim.pose_set_for(&frame, sample).nozzle_frame()
     }
 
     /// The contact of a shot with a surface, when restitution and friction are not exactly known.

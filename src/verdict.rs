@@ -1,6 +1,9 @@
 //! Whether settings pass: one verdict for each goal and each secondary surface.
 
 mod interval;
+mod stations;
+
+pub use stations::StationVerdicts;
 
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +43,8 @@ pub struct Verdict {
     pub allowed: f64,
     /// Whether all shots are the same, so that the share has no error.
     pub is_exact: bool,
+    /// The place of the station that it is about, -0.5 to 0.5; absent for a spot, and for a stroke as a whole.
+    pub place: Option<f64>,
 }
 
 /// Standard errors by which a search stays below what is allowed,
@@ -64,6 +69,7 @@ impl Verdict {
                 counted: counts.shots,
                 allowed: goals.miss.share,
                 is_exact,
+                place: None,
             },
             Self {
                 subject: Subject::NormalImpulse,
@@ -71,6 +77,7 @@ impl Verdict {
                 counted: counts.hits,
                 allowed: goals.normal_impulse.share,
                 is_exact,
+                place: None,
             },
         ];
         if let Some(goal) = goals.tangential_impulse {
@@ -80,6 +87,7 @@ impl Verdict {
                 counted: counts.hits,
                 allowed: goal.share,
                 is_exact,
+                place: None,
             });
         }
         for (index, (limits, &over)) in scenario.surfaces.iter().zip(&counts.over).enumerate() {
@@ -90,6 +98,7 @@ impl Verdict {
                     counted: counts.shots,
                     allowed: limits.share,
                     is_exact,
+                    place: None,
                 });
             }
         }
@@ -115,6 +124,7 @@ impl Verdict {
             counted: 1,
             allowed: 0.0,
             is_exact: true,
+            place: None,
         };
         [
             verdict(Subject::Clearance, too_near),

@@ -43,10 +43,11 @@ pub(super) enum Dimension {
     AimAcross,
     AimAbove,
     Tilts,
+    Place,
 }
 
 /// How many there are.
-pub(super) const DIMENSIONS: usize = 16;
+pub(super) const DIMENSIONS: usize = 17;
 
 /// The density that points are drawn with.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -84,7 +85,7 @@ enum Sequence {
     Sobol {
         index: u32,
         seed: u32,
-        known: [Option<[f32; 4]>; 4],
+        known: [Option<[f32; 4]>; 5],
     },
     /// SplitMix64, for each coordinate on its own.
     Random { seed: u64 },
@@ -112,7 +113,7 @@ impl<'a> QmcPoint<'a> {
         let sequence = Sequence::Sobol {
             index: index % POINTS_PER_SEED,
             seed: (mixed >> 32) as u32,
-            known: [None; 4],
+            known: [None; 5],
         };
         Self {
             by,

@@ -29,6 +29,8 @@ pub struct ShotSample {
     pub restitution: f64,
     /// Factor on the friction coefficients.
     pub friction: f64,
+    /// Where on a stroke it is fired from, -0.5 to 0.5; 0 for a nozzle that stands still.
+    pub place: f64,
     /// What the tilts of rough surfaces are drawn from, in 0 to 1; 0 where none is rough.
     pub tilts: f64,
     /// Importance weight: 1, or less for a boundary sample.
@@ -50,13 +52,14 @@ impl ShotSample {
         aim: [0.0; 3],
         restitution: 0.0,
         friction: 1.0,
+        place: 0.0,
         tilts: 0.0,
         weight: 1.0,
         of_jet: true,
     };
 
     /// All of them, for checksums.
-    pub fn numbers(&self) -> [f64; 20] {
+    pub fn numbers(&self) -> [f64; 21] {
         let Self {
             exit: [exit_x, exit_y],
             cone: [cone_x, cone_y, cone_z],
@@ -68,6 +71,7 @@ impl ShotSample {
             aim: [along, across, above],
             restitution,
             friction,
+            place,
             tilts,
             weight,
             of_jet,
@@ -90,6 +94,7 @@ impl ShotSample {
             above,
             restitution,
             friction,
+            place,
             tilts,
             weight,
             f64::from(u8::from(of_jet)),
@@ -117,6 +122,7 @@ impl ShotSample {
             & (along == 0.0)
             & (across == 0.0)
             & (above == 0.0)
+            & (self.place == 0.0)
     }
 
     /// The shot at a point of the unit cube.
@@ -138,6 +144,10 @@ impl ShotSample {
             ],
             restitution: point.within(tolerance.restitution, Dimension::Restitution),
             friction: 1.0 + point.within(tolerance.friction, Dimension::Friction),
+            place: match problem.stroke {
+                Some(_) => point.within(0.5, Dimension::Place),
+                None => 0.0,
+            },
             tilts: if Effect::Roughness.is_in(problem) {
                 point.uniform(Dimension::Tilts)
             } else {

@@ -146,7 +146,7 @@ impl<'a> Draw<'a> {
     }
 
     /// Those of the jet alone.
-    pub(super) fn without_boundary(self) -> Self {
+    pub fn without_boundary(self) -> Self {
         let parts = Parts {
             jet: self.parts.jet,
             ..Parts::NONE

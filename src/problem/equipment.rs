@@ -1,6 +1,6 @@
 //! What the jet is made of: shot, jet, nozzle, contacts, and surfaces with rules of their own.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use crate::impact::{Contact, Sphere};
 use crate::problem::fault::Fault;
@@ -114,6 +114,19 @@ pub enum Body {
         /// Fixed unit direction in the scene; back along the jet axis when absent.
         direction: Option<Vector3<f64>>,
     },
+}
+
+impl Body {
+    /// Turns a fixed direction.
+    pub fn turn(&mut self, turn: &Rotation3<f64>) {
+        if let Self::Capsule {
+            direction: Some(direction),
+            ..
+        } = self
+        {
+            *direction = turn * *direction;
+        }
+    }
 }
 
 /// A contact that may be chosen.

@@ -187,6 +187,8 @@ listed! {
         AimOffTarget,
         /// A target whose own centre is beside it.
         CentreOffTarget,
+        /// A stroke that is not on the target.
+        StrokeOffTarget,
         /// Azimuth 0 along the normal of the target.
         AlongPerpendicular,
 

@@ -10,6 +10,7 @@ pub(super) mod equipment;
 mod form;
 pub(super) mod scene;
 pub(super) mod settings;
+pub(super) mod stroke;
 
 use std::borrow::Cow;
 use std::fmt;
@@ -23,6 +24,7 @@ use contact::ContactsItem;
 use equipment::{CoverageEntry, JetEntry, NozzleEntry, PathsEntry, ShotEntry, SurfaceEntry};
 use scene::{PartEntry, TargetEntry};
 use settings::{GoalsEntry, OneOrMany, SettingsEntry, SolveEntry, ToleranceEntry};
+use stroke::StrokeEntry;
 
 use super::field::{Field, Needed};
 use crate::problem::LengthUnit;
@@ -64,6 +66,8 @@ pub(super) struct ProblemFile {
         extend("minProperties" = 1, "propertyNames" = form::names())
     )]
     pub contacts: Needed<Named<ContactsItem>>,
+    /// Where the nozzle travels while it peens; nowhere, for a spot, where absent.
+    pub stroke: Field<StrokeEntry>,
     /// What may be chosen.
     pub settings: Needed<SettingsEntry>,
     /// What must be reached and what must not happen.

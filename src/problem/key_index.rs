@@ -51,7 +51,10 @@ fn collect(
         if !known.iter().any(|home| home == group) {
             known.push(group.to_owned());
         }
-        collect(below, definitions, &child_key(group, name), homes);
+        // Most keys of a stroke are those of other groups, where they are meant.
+        if !(group.is_empty() && name == "stroke") {
+            collect(below, definitions, &child_key(group, name), homes);
+        }
     }
 }
 

@@ -29,6 +29,7 @@ pub mod model;
 pub mod part;
 pub mod setting;
 pub mod size;
+pub mod stroke;
 pub mod warning;
 
 mod check;
@@ -65,6 +66,7 @@ use goal::Goals;
 use model::Model;
 use part::{Part, Target};
 use setting::{SettingRanges, Tolerance};
+use stroke::Stroke;
 
 /// A checked problem in SI units. Nothing downstream checks it again.
 #[derive(Clone, Debug)]
@@ -93,6 +95,8 @@ pub struct Problem {
     pub surfaces: Vec<SurfaceRule>,
     /// When a path ends.
     pub paths: PathLimits,
+    /// Where the nozzle travels while it peens; absent for a spot.
+    pub stroke: Option<Stroke>,
     /// What is to be said about coverage, if anything.
     pub coverage: Option<CoverageWish>,
     /// How exactly a shop can set it.

@@ -188,7 +188,9 @@ impl Problem {
             Effect::SizeScatter,
             Effect::Roughness,
         ];
-        self.tolerance == Tolerance::default() && !scatters.iter().any(|effect| effect.is_in(self))
+        self.stroke.is_none()
+            && self.tolerance == Tolerance::default()
+            && !scatters.iter().any(|effect| effect.is_in(self))
     }
 }
 

@@ -181,6 +181,8 @@ pub struct Target {
     pub within: Option<(Point3<f64>, Point3<f64>)>,
     /// Where the jet axis meets the target (m); the centre of the patch when absent.
     pub aim: Option<Point3<f64>>,
+    /// The key that gives the aim point: its own, or that of the stroke which begins there.
+    pub aim_key: &'static str,
     /// The direction that azimuth 0 means; laid into the target's plane later.
     pub along: Option<Vector3<f64>>,
     /// A direction that points to the nozzle's side of the target; the surface's own

@@ -182,6 +182,14 @@ macro_rules! define_settings {
                 }
             }
 
+            /// Sets the range of a setting of the nozzle; friction belongs to the contact.
+            pub const fn set(&mut self, setting: Setting, range: Range) {
+                match setting {
+                    $(Setting::$variant => self.$field = range,)+
+                    Setting::StaticFriction => {}
+                }
+            }
+
             /// The range of a setting of the nozzle; `None` for friction, which belongs to the contact.
             pub const fn range(&self, setting: Setting) -> Option<Range> {
                 match setting {

@@ -181,6 +181,9 @@ pub struct VerdictRecord {
     pub passes: bool,
     /// Whether the interval lies on one side of what is allowed.
     pub certain: bool,
+    /// Where on a stroke it is worst, from its beginning, m; absent for a spot, and where no place is worse than the whole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_m: Option<f64>,
 }
 
 impl AnswerRecord {
@@ -269,7 +272,7 @@ impl ContactRecord {
 }
 
 impl PoseRecord {
-    fn new(pose: &Pose) -> Self {
+    pub(super) fn new(pose: &Pose) -> Self {
         Self {
             exit_m: pose.exit.coords.into(),
             direction: pose.direction.into(),
@@ -307,7 +310,7 @@ impl ObjectiveRecord {
 }
 
 impl VerdictRecord {
-    fn new(scenario: &Scenario, verdict: &Verdict) -> Self {
+    pub(super) fn new(scenario: &Scenario, verdict: &Verdict) -> Self {
         Self {
             subject: subject_name(scenario, verdict.subject),
             share: verdict.share(),
@@ -316,6 +319,10 @@ impl VerdictRecord {
             counted: verdict.counted,
             passes: verdict.passes(),
             certain: verdict.is_certain(),
+            at_m: verdict
+                .place
+                .zip(scenario.traverse.as_ref())
+                .map(|(place, traverse)| traverse.travelled(place)),
         }
     }
 }

@@ -15,6 +15,7 @@ mod model;
 mod question;
 mod receipt;
 mod room;
+mod stroke;
 mod unknowns;
 mod window;
 
@@ -34,6 +35,9 @@ pub use map::MapTerm;
 pub use model::{EffectRecord, ModelRecord};
 pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use receipt::{ReceiptRecord, SpreadRecord, TargetRecord};
+pub use stroke::{
+    SegmentRecord, SpotRecord, StationRecord, StrokeDentedRecord, StrokeRecord, WaypointRecord,
+};
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,
 };
@@ -50,9 +54,12 @@ use crate::evidence::{Evidence, SHOTS};
 use crate::map::standard_maps;
 use crate::printable;
 use crate::problem::Source;
+use crate::problem::setting::Settings;
+use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
 use crate::scene::MeshSource;
-use crate::solve::{Ablation, Answer, Status, Window};
+use crate::solve::{Ablation, Answer, Segment, Status, Window};
+use crate::stroke::{Program, Spot};
 use crate::unknowns::Unknowns;
 use crate::validity::Note;
 
@@ -106,6 +113,13 @@ pub struct Record {
     /// nozzle does not fit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coverage: Option<CoverageRecord>,
+    /// Where first hits fall while the nozzle stands still; absent where hardly any shot hits, and in results of older
+    /// versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spot: Option<SpotRecord>,
+    /// The stroke; absent for a spot, or where the nozzle does not fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stroke: Option<StrokeRecord>,
     /// What pictures are drawn from; absent where none were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<EvidenceRecord>,
@@ -205,10 +219,24 @@ pub struct RunInfo<'a> {
     pub spread: Option<f64>,
     /// The command that gives the same answer again.
     pub command: String,
+    /// Segments of a stroke with settings of their own; none for a spot, or where one setting holds.
+    pub segments: &'a [Segment],
     /// What each effect of the model does, as far as that was measured.
     pub ablations: &'a [Ablation],
     /// Work done.
     pub work: WorkRecord,
+}
+
+/// The legs of segments, or one all along.
+fn legs(segments: &[Segment], settings: &Settings) -> Vec<Leg> {
+    let legs = segments.iter().map(|segment| Leg {
+        span: segment.span,
+        settings: segment.answer.settings,
+    });
+    match segments.is_empty() {
+        true => vec![Leg::whole(settings)],
+        false => legs.collect(),
+    }
 }
 
 impl Record {
@@ -227,9 +255,15 @@ impl Record {
             .collect();
         let best = answers.first()?;
         let fits = best.evaluation.is_some();
-        let coverage = fits
-            .then(|| Coverage::of(scenario, &best.settings))
+        let program = fits
+            .then(|| Program::of(scenario, &legs(run.segments, &best.settings)))
             .flatten();
+        let coverage = match &program {
+            Some(program) => program.coverage.clone(),
+            None if fits => Coverage::of(scenario, &best.settings),
+            None => None,
+        };
+        let spot = fits.then(|| Spot::of(scenario, &best.settings)).flatten();
         Some(Self {
             status: run.status,
             spread: run.spread,
@@ -249,6 +283,10 @@ impl Record {
             notes: notes.into_iter().map(NoteRecord::from).collect(),
             unknowns: unknowns.map(|unknowns| UnknownsRecord::new(scenario, &unknowns)),
             coverage: coverage.as_ref().map(CoverageRecord::new),
+            spot: spot.as_ref().map(SpotRecord::new),
+            stroke: program
+                .as_ref()
+                .and_then(|program| StrokeRecord::new(scenario, best, program)),
             evidence: None,
             work: run.work,
             problem_sha256: run.source.sha256.clone(),

@@ -5,6 +5,7 @@ use std::io;
 use super::figure::Figure;
 use super::map::MAPS;
 use super::page::page_with;
+use super::program;
 use super::sheet;
 use super::table::Table;
 use crate::record::Record;
@@ -30,6 +31,7 @@ pub fn names() -> impl Iterator<Item = String> {
     let texts = ["sheet.txt", "report.html"].map(str::to_owned);
     texts
         .into_iter()
+        .chain(program::NAMES.map(str::to_owned))
         .chain(tables)
         .chain(figures.into_iter().flatten())
 }
@@ -47,6 +49,9 @@ pub fn files(record: &Record) -> io::Result<Vec<(String, Vec<u8>)>> {
     let figures = Figure::of_record(record).map_err(io::Error::other)?;
     let page = page_with(record, &figures).map_err(io::Error::other)?;
     files.push(("report.html".to_owned(), page.into_bytes()));
+    if let Some(stroke) = &record.stroke {
+        files.extend(program::files(stroke, 1)?);
+    }
     for figure in figures {
         let png = figure.png().map_err(io::Error::other)?;
         files.push((format!("{}.png", figure.name), png));

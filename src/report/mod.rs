@@ -10,6 +10,7 @@ mod library;
 mod map;
 mod number;
 mod page;
+pub mod program;
 mod series;
 mod sheet;
 pub mod table;

@@ -24,6 +24,7 @@ pub mod ray;
 pub mod rays;
 pub mod swept;
 pub mod tessellate;
+pub mod traverse;
 mod triangle;
 mod triangle_mesh;
 mod triangle_packet;

@@ -85,6 +85,13 @@ impl Patch {
         (inside, outside)
     }
 
+    /// The point of its surface nearest to a given one, and the unit normal there towards its free side.
+    pub fn nearest(&self, scene: &Scene, to: &Point3<f64>) -> Option<(Point3<f64>, Vector3<f64>)> {
+        let foot = scene.foot(to, self.surface)?;
+        let normal = if self.front { foot.front } else { -foot.front };
+        Some((foot.point, normal))
+    }
+
     /// Finds the patch in a scene.
     ///
     /// # Errors
@@ -201,6 +208,15 @@ fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
     let [x, y, z] = [aim.x, aim.y, aim.z].map(|it| unit.text(it));
     let place = format!("[{x}, {y}, {z}] {}", unit.name());
     match target.aim {
+        Some(_) if target.aim_key != "target.aim" => Fault::at_key(
+            FaultCode::StrokeOffTarget,
+            target.aim_key,
+            format!("the stroke leaves the target at {place}"),
+        )
+        .expecting(format!(
+            "points on `{}`, inside `target.within` if that is given",
+            target.surface
+        )),
         Some(_) => Fault::at_key(
             FaultCode::AimOffTarget,
             "target.aim",

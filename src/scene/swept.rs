@@ -39,8 +39,8 @@ pub enum Core {
 pub struct Swept {
     /// Centre of the aim points, m.
     pub aim: Point3<f64>,
-    /// Half the edges of their box, m.
-    pub shifts: [Vector3<f64>; 3],
+    /// Half the edges of their box, m, and half the way of a stroke.
+    pub shifts: [Vector3<f64>; 4],
     /// Directions of the jet.
     pub directions: Directions,
     /// Smallest and largest standoff, m.
@@ -237,7 +237,12 @@ mod tests {
         let [x, y, z] = shifts;
         Swept {
             aim: Point3::origin(),
-            shifts: [Vector3::x() * x, Vector3::y() * y, Vector3::z() * z],
+            shifts: [
+                Vector3::x() * x,
+                Vector3::y() * y,
+                Vector3::z() * z,
+                Vector3::zeros(),
+            ],
             directions: Directions::new(&[direction.normalize()]),
             standoff: [2.0, 3.0],
             core,
@@ -305,7 +310,12 @@ mod tests {
             }
             let swept = Swept {
                 aim: Point3::new(1.05, 0.0, 0.1),
-                shifts: [Vector3::x() * 0.02, Vector3::y() * 0.02, Vector3::zeros()],
+                shifts: [
+                    Vector3::x() * 0.02,
+                    Vector3::y() * 0.02,
+                    Vector3::zeros(),
+                    Vector3::zeros(),
+                ],
                 directions: Directions::new(&directions),
                 standoff: [0.9, 1.1],
                 core: Core::Line {

@@ -7,7 +7,7 @@ use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::ValidationSample;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use crate::verdict::Verdict;
+use crate::verdict::{StationVerdicts, Verdict};
 
 /// The best settings found for one contact.
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub struct Answer {
     pub evaluation: Option<Evaluation>,
     /// Its verdicts.
     pub verdicts: Vec<Verdict>,
+    /// Those at each station of a stroke; none for a spot.
+    pub stations: Vec<StationVerdicts>,
     /// By how much the pose is infeasible, m; 0 when it is feasible.
     pub violation: f64,
     /// What is in the way then.
@@ -113,14 +115,20 @@ impl Answer {
         evaluation: Option<Evaluation>,
     ) -> Self {
         let infeasible = infeasibility(scenario, settings);
-        let mut verdicts = evaluation
+        let stations = match &evaluation {
+            Some(_) => StationVerdicts::all(scenario, settings),
+            None => Vec::new(),
+        };
+        let whole = evaluation
             .as_ref()
             .map_or_else(Vec::new, |evaluation| Verdict::all(scenario, evaluation));
+        let mut verdicts = StationVerdicts::worst(whole, &stations);
         verdicts.extend(Verdict::of_pose(scenario, settings, infeasible.as_ref()));
         Self {
             settings: *settings,
             evaluation,
             verdicts,
+            stations,
             violation: infeasible.map_or(0.0, |it| it.violation),
             obstacle: infeasible.map(|it| it.obstacle),
             least_objective: None,

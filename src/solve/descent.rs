@@ -147,7 +147,7 @@ impl<'a> Descent<'a> {
             }
             let samples = sampler.draw(stage.shots);
             let evaluator = sampler.evaluator(scenario, &samples, effort, control);
-            group.refine(&evaluator, &stage.shared_by(GROUPS as usize));
+            group.refine(&evaluator, stage);
         }
         group
     }

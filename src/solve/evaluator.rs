@@ -205,7 +205,7 @@ impl<'a> Evaluator<'a> {
         let none = Race::none();
         let race = if self.ends_early() { race } else { &none };
         let mut key = race.numbers();
-        key.extend(self.penalty.iter().flat_map(|it| [it.price, it.slack]));
+        key.extend(self.penalty.iter().flat_map(Penalty::numbers));
         let range = self.scenario.problem.ranges.speed;
         let is_sound = |evaluated: &Evaluated| evaluated.is_sound(settings, range);
         let page = self.page.as_ref();
@@ -285,9 +285,19 @@ impl<'a> Evaluator<'a> {
     fn evaluate_violations(&self, settings: &Settings, penalty: &Penalty) -> Evaluated {
         let scales_out = self.scenario.speed_scales_out(settings.contact);
         let impulses = LargestImpulses::of(self.scenario, settings, self.shots);
+        let watched = penalty.watched.iter().map(|&station| {
+            let scenario = &self.scenario.stations[station].scenario;
+            let impulses = LargestImpulses::of(scenario, settings, self.shots);
+            (scenario, impulses)
+        });
+        let watched: Vec<(&Scenario, LargestImpulses)> = watched.collect();
         let cost = |speed: f64| {
-            let violation = impulses.violation(self.scenario, speed, penalty.slack);
-            penalty.price * (violation - 1.0).max(0.0)
+            let whole = impulses.violation(self.scenario, speed, penalty.slack);
+            let at_stations = watched.iter();
+            let worst = at_stations
+                .map(|(scenario, impulses)| impulses.violation(scenario, speed, penalty.slack))
+                .fold(whole, f64::max);
+            penalty.price * (worst - 1.0).max(0.0)
         };
         let range = self.scenario.problem.ranges.speed;
         let speed = match scales_out {
@@ -298,7 +308,7 @@ impl<'a> Evaluator<'a> {
             speed,
             fitness: Fitness::Feasible(impulses.terms(self.scenario, speed), cost(speed)),
             partial: Vec::new(),
-            rays: impulses.rays(),
+            rays: impulses.rays() + watched.iter().map(|(_, it)| it.rays()).sum::<usize>(),
         }
     }
 

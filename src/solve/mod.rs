@@ -9,7 +9,7 @@
 //!    that clearly lose end early (racing), and blocked ones are repaired;
 //! 3. draws a part of the shots with an importance density for the violations of the incumbent;
 //! 4. validates the answer on shots that the search has not seen, and raises the number of shots while the
-//!    optimism gap is too large and the search still gains by it;
+//!    optimism gap is too large;
 //! 5. starts further groups until the finalists of independent ones agree;
 //! 6. searches again for settings that pass, where those with the least J do not.
 //!
@@ -33,6 +33,7 @@ mod repair;
 mod sampler;
 mod screening;
 mod search;
+mod segments;
 mod space;
 mod stage;
 mod starts;
@@ -46,6 +47,7 @@ pub use answer::Answer;
 pub use evaluator::{Effort, Fitness};
 pub use front::{Front, front};
 pub use objectives::{Objectives, objectives};
+pub use segments::{Segment, solve_stroke};
 pub use status::Status;
 pub use tie::is_tie;
 pub use window::{Drift, Turn, Window, passing_windows, windows};
@@ -62,7 +64,7 @@ use sampler::Sampler;
 use search::Search;
 use space::Space;
 use stage::Stage;
-use stopping_rule::{has_gained, not_converged};
+use stopping_rule::not_converged;
 use tie::ranked;
 
 /// What a search found.
@@ -108,6 +110,26 @@ pub fn spread_settings(scenario: &Scenario, contact: usize, count: usize) -> Vec
 
 /// Finds the best settings of a problem.
 pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
+    best_of(scenario, control, Wanted::ALL)
+}
+
+/// What a search is to find besides the settings with the least J.
+#[derive(Clone, Copy)]
+struct Wanted {
+    /// Others that pass, where those fail.
+    passing: bool,
+    /// What each effect of the model does.
+    ablations: bool,
+}
+
+impl Wanted {
+    const ALL: Self = Self {
+        passing: true,
+        ablations: true,
+    };
+}
+
+fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
     let effort = Effort::default();
     let asked = scenario.as_asked();
     let searched = asked.as_searched();
@@ -136,18 +158,10 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
         sampler.adapt(&searches, &effort, control);
         let samples = sampler.draw(shots);
         let evaluator = sampler.evaluator(&searched, &samples, &effort, control);
-        let ranks = open
-            .iter()
-            .map(|&index| searches[index].rank_on(&evaluator));
-        let before: Vec<(usize, f64)> = open.iter().copied().zip(ranks).collect();
         refine_in_turn(&mut searches, &open, &evaluator, &Stage::beyond(shots));
         tell(control, &effort, &searches);
         answers = figures.renewed(answers, &searches);
         open = not_converged(&searches, &answers, shots);
-        open.retain(|index| {
-            let before = before.iter().find(|(open, _)| open == index);
-            before.is_none_or(|&(_, rank)| has_gained(&searches[*index], rank, problem))
-        });
     }
     let sought = Sought {
         asked: &asked,
@@ -155,8 +169,10 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
         effort: &effort,
         control,
     };
-    sought.passing(&mut answers, &mut agreements, &mut figures);
-    let ablations = if control.is_stopped() {
+    if wanted.passing {
+        sought.passing(&mut answers, &mut agreements, &mut figures);
+    }
+    let ablations = if control.is_stopped() || !wanted.ablations {
         Vec::new()
     } else {
         let importance = sampler.importance();

@@ -16,12 +16,25 @@ use crate::control::Control;
 use crate::scenario::Scenario;
 
 /// What violations cost in a search.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Penalty {
     /// J that a violation of 2, twice the share that is allowed, costs.
     pub price: f64,
     /// Share of what is allowed that the search allows.
     pub slack: f64,
+    /// Stations of a stroke, by their numbers, at which nothing may be violated either.
+    pub watched: Vec<usize>,
+}
+
+impl Penalty {
+    /// All that it depends on, for checkpoints.
+    pub fn numbers(&self) -> Vec<f64> {
+        let watched = self.watched.iter().map(|&station| station as f64);
+        [self.price, self.slack]
+            .into_iter()
+            .chain(watched)
+            .collect()
+    }
 }
 
 /// The search for what passes, of a problem as it is asked and as it is searched.
@@ -42,34 +55,73 @@ impl Sought<'_> {
         figures: &mut Figures,
     ) {
         let mut slack = 1.0;
-        for _ in 0..MOST_ROUNDS {
+        let mut watched = self.ends_and_middle();
+        for _ in 0..self.most_rounds() {
             let failing = worthwhile(answers, self.asked);
             if failing.is_empty() || self.control.is_stopped() {
                 break;
             }
-            let worst = self.round(&failing, slack, answers, agreements, figures);
-            // Near misses pass with a little more room.
-            if worst <= 1.0 || worst > NEAR {
+            let is_new = self.watch_worst(&failing, answers, &mut watched);
+            let penalty = Penalty {
+                price: PRICE * scale(answers, &failing),
+                slack,
+                watched: watched.clone(),
+            };
+            let worst = self.round(&failing, penalty, answers, agreements, figures);
+            let unseen = self.watch_worst(&failing, answers, &mut watched);
+            if worst <= 1.0 || (worst > NEAR && !unseen && !is_new) {
                 break;
             }
-            slack *= ROOM / worst;
+            // Near misses pass with a little more room.
+            if worst <= NEAR && !unseen {
+                slack *= ROOM / worst;
+            }
         }
+    }
+
+    /// The stations that are watched from the beginning, where a stroke mostly fails.
+    fn ends_and_middle(&self) -> Vec<usize> {
+        match self.searched.stations.len() {
+            0 => Vec::new(),
+            2 => vec![0, 1],
+            stations => vec![0, stations / 2, stations - 1],
+        }
+    }
+
+    /// A stroke may need to watch more and more stations.
+    fn most_rounds(&self) -> usize {
+        match self.searched.stations.is_empty() {
+            true => MOST_ROUNDS,
+            false => 2 * MOST_ROUNDS,
+        }
+    }
+
+    /// Watches the stations as well at which answers fail most; whether there are any new ones.
+    fn watch_worst(&self, failing: &[usize], answers: &[Answer], watched: &mut Vec<usize>) -> bool {
+        let before = watched.len();
+        let verdicts = failing.iter().flat_map(|&index| &answers[index].verdicts);
+        let places = verdicts
+            .filter(|verdict| !verdict.passes())
+            .filter_map(|verdict| verdict.place);
+        for place in places {
+            let mut stations = self.searched.stations.iter();
+            let station = stations.position(|station| station.place == place);
+            watched.extend(station.filter(|station| !watched.contains(station)));
+        }
+        watched.sort_unstable();
+        watched.len() > before
     }
 
     /// One search; returns the least violation that it has found.
     fn round(
         &self,
         failing: &[usize],
-        slack: f64,
+        penalty: Penalty,
         answers: &mut [Answer],
         agreements: &mut [Option<Agreement>],
         figures: &mut Figures,
     ) -> f64 {
         let (effort, control) = (self.effort, self.control);
-        let penalty = Penalty {
-            price: PRICE * scale(answers, failing),
-            slack,
-        };
         let mut scenario = self.searched.clone();
         let contacts = failing.iter().map(|&index| answers[index].settings.contact);
         scenario.problem.ranges.contact = contacts.collect();

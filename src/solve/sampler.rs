@@ -50,8 +50,8 @@ impl<'a> Sampler<'a> {
         control: &'b Control,
     ) -> Evaluator<'b> {
         let evaluator = Evaluator::new(scenario, &samples.shots, effort, control);
-        match self.penalty {
-            Some(penalty) => evaluator.penalised(penalty),
+        match &self.penalty {
+            Some(penalty) => evaluator.penalised(penalty.clone()),
             None => evaluator,
         }
     }
@@ -81,7 +81,7 @@ impl<'a> Sampler<'a> {
 
     fn draw_from(&self, stream: Stream, shots: usize) -> Samples {
         let problem = &self.scenario.problem;
-        match self.penalty {
+        match &self.penalty {
             Some(_) if problem.has_one_ray() => Samples::new(problem, stream, 1),
             Some(_) => Samples::new(problem, stream, shots),
             None => Samples::with_importance(problem, stream, shots, self.importance()),
@@ -92,6 +92,7 @@ impl<'a> Sampler<'a> {
     pub fn is_far_from_passing(&self, searches: &[Search]) -> bool {
         let leader = leader(searches);
         self.penalty
+            .as_ref()
             .zip(leader)
             .is_some_and(|(penalty, leader)| leader.fitness.penalty() > penalty.price)
     }

@@ -61,12 +61,6 @@ impl Search {
         self.finalists().fold(&self.groups[0][0], better)
     }
 
-    /// The rank of its settings on other shots.
-    pub fn rank_on(&self, evaluator: &Evaluator) -> f64 {
-        let best = Candidate::at(&self.space, evaluator, &self.best().point);
-        best.fitness.rank()
-    }
-
     /// The best candidate of each group.
     pub fn finalists(&self) -> impl Iterator<Item = &Candidate> {
         self.groups.iter().filter_map(|group| group.first())

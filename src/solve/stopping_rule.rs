@@ -63,16 +63,6 @@ pub(super) fn not_converged(
         .collect()
 }
 
-/// Whether more shots have improved a search by more than a part of the accuracy, from this rank on the same shots.
-///
-/// What a search gains on shots of its own bounds how far from the best settings it began, from above on average (Mak,
-/// Morton and Wood, Operations Research Letters 24, 1999), and much more closely than J itself is known: both are
-/// computed on common random numbers.
-pub(super) fn has_gained(search: &Search, before: f64, problem: &Problem) -> bool {
-    let rank = search.best().fitness.rank();
-    before - rank > TOLERABLE * wanted(rank, problem)
-}
-
 /// Whether J of a contact that could win is too noisy.
 pub(super) fn is_noisy(answers: &[Answer], problem: &Problem) -> bool {
     let least = least_found(answers);

@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::Solution;
+use super::answer::Answer;
 use crate::control::Cancel;
 use crate::elementary::whole_power;
 use crate::evaluate::{LargestImpulses, ViolationCounts};
 use crate::feasibility::{Obstacle, infeasibility};
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::setting::{Range, Setting, Settings};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Station};
 use crate::verdict::{Subject, Verdict};
 
 /// The tolerance window of one setting.
@@ -52,10 +52,7 @@ const DOUBLINGS: i32 = 5;
 
 /// The windows round the best answer, for the verdicts that it passes; none without a pose that fits, and
 /// none of those that are not known when the request to end comes.
-pub fn passing_windows(scenario: &Scenario, solution: &Solution, cancel: &Cancel) -> Vec<Window> {
-    let Some(best) = solution.answers.first() else {
-        return Vec::new();
-    };
+pub fn passing_windows(scenario: &Scenario, best: &Answer, cancel: &Cancel) -> Vec<Window> {
     if best.evaluation.is_none() {
         return Vec::new();
     }
@@ -67,13 +64,44 @@ pub fn passing_windows(scenario: &Scenario, solution: &Solution, cancel: &Cancel
         .collect();
     let validation =
         Replicates::without_boundary(&scenario.problem, purpose::WINDOWS, WINDOW_SHOTS);
-    windows(scenario, &best.settings, &passing, &validation, cancel)
+    // Of a stroke, where it fails first: at its ends, in its middle, and where a verdict is the worst.
+    let worst: Vec<f64> = best.verdicts.iter().filter_map(|it| it.place).collect();
+    let stations = scenario.stations.iter();
+    let last = scenario.stations.len().saturating_sub(1);
+    let is_watched = |index: usize, station: &Station| {
+        [0, last / 2, last].contains(&index) || worst.contains(&station.place)
+    };
+    let watched = stations
+        .enumerate()
+        .filter(|(index, station)| is_watched(*index, station))
+        .map(|(_, station)| &station.scenario);
+    let mut standing: Vec<&Scenario> = watched.collect();
+    if standing.is_empty() {
+        standing.push(scenario);
+    }
+    let asked = Asked {
+        scenario,
+        standing,
+        passing: &passing,
+        cancel,
+    };
+    asked.windows(&best.settings, &validation)
+}
+
+/// What windows are asked of.
+struct Asked<'a> {
+    scenario: &'a Scenario,
+    /// A spot itself, or some stations of a stroke: a verdict turns where it turns at one of them.
+    standing: Vec<&'a Scenario>,
+    /// Verdicts that pass.
+    passing: &'a [Subject],
+    cancel: &'a Cancel,
 }
 
 /// Shots behind each verdict of a window at most.
 const WINDOW_SHOTS: usize = 4096;
 
-/// The windows of all settings that have a range, each as far as its range goes.
+/// The windows of all settings that have a range, each as far as its range goes; of a stroke as a whole.
 pub fn windows(
     scenario: &Scenario,
     settings: &Settings,
@@ -81,37 +109,48 @@ pub fn windows(
     validation: &Replicates,
     cancel: &Cancel,
 ) -> Vec<Window> {
-    let is_stopped = || cancel.is_set();
-    let ranges: Vec<(Setting, Range)> = Setting::OF_THE_NOZZLE
-        .into_iter()
-        .filter_map(|setting| Some((setting, scenario.problem.ranges.range(setting)?)))
-        .filter(|(_, range)| !range.is_held())
-        .collect();
-    let shares_paths = scenario.speed_scales_out(settings.contact);
-    let window = |&(setting, Range { min, max }): &(Setting, Range)| {
-        // A window that is cut short says nothing.
-        let drift = |end: f64, shots: &mut dyn Shots| {
-            drift(scenario, settings, (setting, end), passing, shots, cancel)
-        };
-        let (down, up) = if setting == Setting::Speed && shares_paths {
-            let mut shots = Recorded::of(scenario, settings, validation);
-            (drift(min, &mut shots), drift(max, &mut shots))
-        } else {
-            let traced = || Traced {
-                scenario,
-                validation,
-            };
-            rayon::join(|| drift(min, &mut traced()), || drift(max, &mut traced()))
-        };
-        (!is_stopped()).then_some(Window { setting, down, up })
+    let asked = Asked {
+        scenario,
+        standing: vec![scenario],
+        passing,
+        cancel,
     };
-    ranges.par_iter().filter_map(window).collect()
+    asked.windows(settings, validation)
+}
+
+impl Asked<'_> {
+    fn windows(&self, settings: &Settings, validation: &Replicates) -> Vec<Window> {
+        let ranges: Vec<(Setting, Range)> = Setting::OF_THE_NOZZLE
+            .into_iter()
+            .filter_map(|setting| Some((setting, self.scenario.problem.ranges.range(setting)?)))
+            .filter(|(_, range)| !range.is_held())
+            .collect();
+        let shares_paths = self.scenario.speed_scales_out(settings.contact);
+        let window = |&(setting, Range { min, max }): &(Setting, Range)| {
+            // A window that is cut short says nothing.
+            let drift =
+                |end: f64, shots: &mut dyn Shots| self.drift(settings, (setting, end), shots);
+            let standing = &self.standing;
+            let (down, up) = if setting == Setting::Speed && shares_paths {
+                let mut shots = Recorded::of(standing, settings, validation);
+                (drift(min, &mut shots), drift(max, &mut shots))
+            } else {
+                let traced = || Traced {
+                    standing,
+                    validation,
+                };
+                rayon::join(|| drift(min, &mut traced()), || drift(max, &mut traced()))
+            };
+            (!self.cancel.is_set()).then_some(Window { setting, down, up })
+        };
+        ranges.par_iter().filter_map(window).collect()
+    }
 }
 
 /// Shots that show which verdicts would change, replicate by replicate.
 trait Shots {
-    /// What some of them do; `None` beyond the last.
-    fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts>;
+    /// What some of them do, at each station; `None` beyond the last.
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Vec<ViolationCounts>>;
 }
 
 /// Replicates that are fired together.
@@ -144,30 +183,37 @@ fn counts(
 
 /// Shots that are traced at all settings.
 struct Traced<'a> {
-    scenario: &'a Scenario,
+    standing: &'a [&'a Scenario],
     validation: &'a Replicates,
 }
 
 impl Shots for Traced<'_> {
-    fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts> {
-        let largest_impulses = largest_impulses(self.scenario, settings, self.validation, part)?;
-        Some(counts(self.scenario, &largest_impulses, settings.speed))
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Vec<ViolationCounts>> {
+        let at = |scenario: &&Scenario| {
+            let largest_impulses = largest_impulses(scenario, settings, self.validation, part)?;
+            Some(counts(scenario, &largest_impulses, settings.speed))
+        };
+        self.standing.iter().map(at).collect()
     }
 }
 
 /// Shots at settings that differ in the speed only, on which their paths do not depend.
 struct Recorded<'a> {
-    scenario: &'a Scenario,
+    standing: &'a [&'a Scenario],
     settings: &'a Settings,
     validation: &'a Replicates,
-    /// Those that were asked for.
-    seen: Vec<Vec<LargestImpulses>>,
+    /// Those that were asked for, of each station.
+    seen: Vec<Vec<Vec<LargestImpulses>>>,
 }
 
 impl<'a> Recorded<'a> {
-    fn of(scenario: &'a Scenario, settings: &'a Settings, validation: &'a Replicates) -> Self {
+    fn of(
+        standing: &'a [&'a Scenario],
+        settings: &'a Settings,
+        validation: &'a Replicates,
+    ) -> Self {
         Self {
-            scenario,
+            standing,
             settings,
             validation,
             seen: Vec::new(),
@@ -176,112 +222,109 @@ impl<'a> Recorded<'a> {
 }
 
 impl Shots for Recorded<'_> {
-    fn counts(&mut self, settings: &Settings, part: usize) -> Option<ViolationCounts> {
+    fn counts(&mut self, settings: &Settings, part: usize) -> Option<Vec<ViolationCounts>> {
         if part == self.seen.len() {
-            let largest_impulses =
-                largest_impulses(self.scenario, self.settings, self.validation, part)?;
-            self.seen.push(largest_impulses);
+            let at = |scenario: &&Scenario| {
+                largest_impulses(scenario, self.settings, self.validation, part)
+            };
+            let of_all = self.standing.iter().map(at).collect::<Option<_>>()?;
+            self.seen.push(of_all);
         }
-        Some(counts(self.scenario, self.seen.get(part)?, settings.speed))
+        let pairs = self.standing.iter().zip(self.seen.get(part)?);
+        let counts = pairs.map(|(scenario, impulses)| counts(scenario, impulses, settings.speed));
+        Some(counts.collect())
     }
 }
 
-fn drift(
-    scenario: &Scenario,
-    settings: &Settings,
-    (setting, end): (Setting, f64),
-    passing: &[Subject],
-    shots: &mut dyn Shots,
-    cancel: &Cancel,
-) -> Drift {
-    let start = setting.of(settings);
-    let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
-    let mut turn = |fraction: f64| {
-        if cancel.is_set() {
-            return None;
-        }
-        turned(
-            scenario,
-            &setting.with(settings, at(fraction)),
-            passing,
-            shots,
-        )
-    };
-    if start == end {
-        return Drift {
-            to: end,
-            within: 0.0,
-            turns: None,
+impl Asked<'_> {
+    fn drift(
+        &self,
+        settings: &Settings,
+        (setting, end): (Setting, f64),
+        shots: &mut dyn Shots,
+    ) -> Drift {
+        let start = setting.of(settings);
+        let at = |fraction: f64| start * (1.0 - fraction) + end * fraction;
+        let mut turn = |fraction: f64| {
+            if self.cancel.is_set() {
+                return None;
+            }
+            self.turned(&setting.with(settings, at(fraction)), shots)
         };
+        if start == end {
+            return Drift {
+                to: end,
+                within: 0.0,
+                turns: None,
+            };
+        }
+        let mut good = 0.0;
+        let mut bad = None;
+        for step in (0..=DOUBLINGS).rev() {
+            let fraction = whole_power(0.5, step);
+            match turn(fraction) {
+                Some(turn) => {
+                    bad = Some((fraction, turn));
+                    break;
+                }
+                None => good = fraction,
+            }
+        }
+        let Some((mut beyond, mut turns)) = bad else {
+            return Drift {
+                to: end,
+                within: 0.0,
+                turns: None,
+            };
+        };
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (good + beyond);
+            match turn(middle) {
+                Some(turn) => (beyond, turns) = (middle, turn),
+                None => good = middle,
+            }
+        }
+        Drift {
+            to: at(good),
+            within: (at(beyond) - at(good)).abs(),
+            turns: Some(turns),
+        }
     }
-    let mut good = 0.0;
-    let mut bad = None;
-    for step in (0..=DOUBLINGS).rev() {
-        let fraction = whole_power(0.5, step);
-        match turn(fraction) {
-            Some(turn) => {
-                bad = Some((fraction, turn));
+
+    /// The verdict that changes at some settings: the one with the highest utilisation, on no more
+    /// shots than it takes to tell.
+    fn turned(&self, settings: &Settings, shots: &mut dyn Shots) -> Option<Turn> {
+        if let Some(infeasible) = infeasibility(self.scenario, settings) {
+            return Some(match infeasible.obstacle {
+                Obstacle::Surface(_) => Turn::Clearance,
+                Obstacle::Material(_) | Obstacle::Body => Turn::FreeSpace,
+            });
+        }
+        let none = || ViolationCounts::none(self.standing[0]);
+        let mut all: Vec<ViolationCounts> = self.standing.iter().map(|_| none()).collect();
+        let mut turn = None;
+        for part in 0.. {
+            let Some(counts) = shots.counts(settings, part) else {
+                break;
+            };
+            let pairs = all.iter().zip(&counts);
+            all = pairs.map(|(all, counts)| all.plus(counts)).collect();
+            let each = self.standing.iter().zip(&all);
+            let verdicts: Vec<Verdict> = each
+                .flat_map(|(scenario, all)| Verdict::on(scenario, all))
+                .filter(|verdict| self.passing.contains(&verdict.subject))
+                .collect();
+            let failing = verdicts.iter().filter(|verdict| !verdict.passes());
+            let worst = failing.max_by(|a, b| a.utilisation().total_cmp(&b.utilisation()));
+            turn = worst.map(|verdict| Turn::Verdict(verdict.subject));
+            let is_clear = match worst {
+                Some(worst) => worst.is_beyond_doubt(),
+                None => verdicts.iter().all(Verdict::is_beyond_doubt),
+            };
+            if is_clear {
                 break;
             }
-            None => good = fraction,
         }
+        turn
     }
-    let Some((mut beyond, mut turns)) = bad else {
-        return Drift {
-            to: end,
-            within: 0.0,
-            turns: None,
-        };
-    };
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (good + beyond);
-        match turn(middle) {
-            Some(turn) => (beyond, turns) = (middle, turn),
-            None => good = middle,
-        }
-    }
-    Drift {
-        to: at(good),
-        within: (at(beyond) - at(good)).abs(),
-        turns: Some(turns),
-    }
-}
-
-/// The verdict that changes at some settings: the one with the highest utilisation, on no more
-/// shots than it takes to tell.
-fn turned(
-    scenario: &Scenario,
-    settings: &Settings,
-    passing: &[Subject],
-    shots: &mut dyn Shots,
-) -> Option<Turn> {
-    if let Some(infeasible) = infeasibility(scenario, settings) {
-        return Some(match infeasible.obstacle {
-            Obstacle::Surface(_) => Turn::Clearance,
-            Obstacle::Material(_) | Obstacle::Body => Turn::FreeSpace,
-        });
-    }
-    let mut all = ViolationCounts::none(scenario);
-    let mut turn = None;
-    for part in 0.. {
-        let Some(counts) = shots.counts(settings, part) else {
-            break;
-        };
-        all = all.plus(&counts);
-        let verdicts: Vec<Verdict> = Verdict::on(scenario, &all)
-            .into_iter()
-            .filter(|verdict| passing.contains(&verdict.subject))
-            .collect();
-        let failing = verdicts.iter().filter(|verdict| !verdict.passes());
-        let worst = failing.max_by(|a, b| a.utilisation().total_cmp(&b.utilisation()));
-        turn = worst.map(|verdict| Turn::Verdict(verdict.subject));
-        let is_clear = match worst {
-            Some(worst) => worst.is_beyond_doubt(),
-            None => verdicts.iter().all(Verdict::is_beyond_doubt),
-        };
-        if is_clear {
-            break;
-        }
-    }
-    turn
 }

@@ -122,7 +122,6 @@ impl RayPacket {
     /// Puts shots at the exit, or where they start.
     #[inline(always)]
     fn load(&mut self, tracer: &Tracer, shots: &[ShotSample], start: Option<&Ray>) {
-        let frame = &tracer.scenario.target.frame;
         let as_asked = shots.iter().all(ShotSample::leaves_pose);
         self.rays.count = shots.len().min(LANES);
         self.rays.leaving = None;
@@ -131,7 +130,7 @@ impl RayPacket {
             let ray = match start {
                 Some(start) => *start,
                 None if as_asked => tracer.pose.shot(sample),
-                None => tracer.aim.shot(frame, sample),
+                None => tracer.aim.shot(&tracer.frame_of(sample), sample),
             };
             put(&mut self.rays.origin, i, ray.origin.into());
             put(&mut self.rays.direction, i, ray.direction.into());

@@ -241,7 +241,11 @@ fn windows_and_the_verdict_on_the_clearance_agree() {
     let gap = gap_within_tolerance(&scenario, &best.settings).expect("it is near");
     assert!(gap.distance >= scenario.problem.nozzle.clearance, "{gap:?}");
     let mut ends = 0;
-    for window in passing_windows(&scenario, &solution, &peenpose::control::Cancel::default()) {
+    for window in passing_windows(
+        &scenario,
+        &solution.answers[0],
+        &peenpose::control::Cancel::default(),
+    ) {
         let start = window.setting.of(&best.settings);
         for drift in [window.down, window.up] {
             let fits = |value: f64| {

@@ -213,6 +213,7 @@ fn surfaces_are_two_sided() {
         surface: "pin.wall".into(),
         within: None,
         aim: Some(Point3::new(0.0, 6e-3, 24e-3)),
+        aim_key: "target.aim",
         along: Some(Vector3::z()),
         facing: None,
     };

@@ -15,6 +15,7 @@ mod rare_violations;
 mod reference;
 mod rims;
 mod roughness;
+mod strokes;
 mod unknowns;
 mod validation;
 mod validity;

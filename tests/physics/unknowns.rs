@@ -193,6 +193,7 @@ fn record(case: &Case) -> Record {
         status: StatusRecord::Evaluated,
         spread: None,
         command: "peenpose evaluate plate.yaml".into(),
+        segments: &[],
         ablations: &[],
         work: WorkRecord {
             poses: 1,

@@ -301,6 +301,7 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
         surface: "bottom.z_max".into(),
         within: None,
         aim: None,
+        aim_key: "target.aim",
         along: Some(Vector3::x()),
         facing: None,
     };

@@ -248,6 +248,7 @@ mod sheets {
             },
         );
         let run = RunInfo {
+            segments: &[],
             ablations: &solution.ablations,
             source: &reading.source,
             status: solution.status.into(),
@@ -260,7 +261,11 @@ mod sheets {
                 seconds: 0.0,
             },
         };
-        let windows = passing_windows(&scenario, &solution, &peenpose::control::Cancel::default());
+        let windows = passing_windows(
+            &scenario,
+            &solution.answers[0],
+            &peenpose::control::Cancel::default(),
+        );
         let unknowns = Unknowns::of(&scenario, &solution.answers[0].settings);
         Record::new(
             &scenario,

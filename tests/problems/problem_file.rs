@@ -316,6 +316,7 @@ fn every_other_key_is_read() {
             surface: "mask.rim".to_owned(),
             within: None,
             aim: None,
+            aim_key: "target.aim",
             along: None,
             facing: Some(-Vector3::z()),
         }

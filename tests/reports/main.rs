@@ -8,3 +8,4 @@ mod evidence;
 mod export;
 mod report_page;
 mod sheet;
+mod strokes;

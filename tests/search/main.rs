@@ -18,4 +18,5 @@ mod pareto;
 mod shortcuts;
 mod stability;
 mod starting;
+mod strokes;
 mod suite;

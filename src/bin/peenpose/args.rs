@@ -98,7 +98,8 @@ Ctrl-C ends the map with the places that are known; the others stay blank.";
 
 const REPORT_EXAMPLES: &str = "\
 Examples:
-  peenpose report result";
+  peenpose report result
+  peenpose report result --exposure 1,2,4,8         a stroke for each exposure of a set-up test";
 
 const EXPORT_EXAMPLES: &str = "\
 Examples:
@@ -124,6 +125,7 @@ const INIT_EXAMPLES: &str = "\
 Examples:
   peenpose init --out part.yaml                     a keyway, with the schema beside it
   peenpose init mesh --out part.yaml                a part from CAD, with a small mesh to try
+  peenpose init stroke --out part.yaml              a keyway that is peened over its whole length
   peenpose init plate | less";
 
 const MEDIA_EXAMPLES: &str = "\
@@ -189,6 +191,9 @@ pub struct SolveArgs {
     pub checkpoint: Option<PathBuf>,
     #[command(flatten)]
     pub start: StartArgs,
+    /// Exposures of a set-up test, such as `1,2,4,8`: the same stroke that many times as slow, in files of their own
+    #[arg(long, value_name = "TIMES", value_delimiter = ',', requires = "out", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub exposure: Vec<u32>,
 }
 
 /// Arguments of `evaluate`.
@@ -270,6 +275,9 @@ pub struct ReportArgs {
     /// The folder that `--out` has written into
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+    /// Exposures of a set-up test, such as `1,2,4,8`: the same stroke that many times as slow, in files of their own
+    #[arg(long, value_name = "TIMES", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub exposure: Vec<u32>,
 }
 
 /// Arguments of `export`.

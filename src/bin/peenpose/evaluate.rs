@@ -31,5 +31,5 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
     let record = study.evaluate(&settings, args.shots as usize, extras, &control);
     let record = record.ok_or("there is nothing to report".to_owned())?;
     let form = Form::new(args.json, args.full);
-    result::report(&record, form, args.out.as_deref())
+    result::report(&record, form, args.out.as_deref(), &[])
 }

@@ -21,7 +21,7 @@ pub fn run(args: &ReportArgs) -> Result<ExitCode, Failure> {
         ));
     }
     let mut files = Staged::new(&args.folder);
-    let made = result::add_reports(&record, &mut files);
+    let made = result::add_reports(&record, &args.exposure, &mut files);
     let mut list = String::new();
     for name in files.names() {
         list += &format!("{}\n", args.folder.join(name).display());

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use peenpose::record::{LARGEST_FILE, Record};
-use peenpose::report::{brief, files, names, sheet};
+use peenpose::report::{brief, files, names, program, sheet};
 
 use crate::folder::Staged;
 use crate::output::{self, Failure, both, limited_text};
@@ -39,7 +39,14 @@ impl Form {
 
 /// Prints a record as a sheet or as JSON, then writes it with all reports into a folder if there is
 /// one: what is printed is not lost whatever becomes of the folder.
-pub fn report(record: &Record, form: Form, out: Option<&Path>) -> Result<ExitCode, Failure> {
+///
+/// Of a stroke there are programs for every exposure.
+pub fn report(
+    record: &Record,
+    form: Form,
+    out: Option<&Path>,
+    exposures: &[u32],
+) -> Result<ExitCode, Failure> {
     let as_json = record
         .to_json()
         .map_err(|error| format!("cannot write the result as JSON: {error}"))?;
@@ -48,7 +55,7 @@ pub fn report(record: &Record, form: Form, out: Option<&Path>) -> Result<ExitCod
         Form::Sheet => output::text(sheet(record)),
         Form::Brief => output::highlighted(&brief(record)),
     };
-    let written = out.map_or(Ok(()), |folder| write(record, &as_json, folder));
+    let written = out.map_or(Ok(()), |folder| write(record, &as_json, exposures, folder));
     both(printed, written)?;
     Ok(if record.passes() {
         ExitCode::SUCCESS
@@ -57,10 +64,10 @@ pub fn report(record: &Record, form: Form, out: Option<&Path>) -> Result<ExitCod
     })
 }
 
-fn write(record: &Record, json: &str, folder: &Path) -> Result<(), Failure> {
+fn write(record: &Record, json: &str, exposures: &[u32], folder: &Path) -> Result<(), Failure> {
     let mut files = Staged::new(folder);
     files.add(RESULT, json.as_bytes());
-    let made = add_reports(record, &mut files);
+    let made = add_reports(record, exposures, &mut files);
     let stale = if files.is_whole() && made.is_ok() {
         stale(&files, folder)
     } else {
@@ -114,8 +121,23 @@ pub fn remove(folder: &Path, names: &[String]) -> Result<(), Failure> {
 }
 
 /// Adds all reports on a record.
-pub fn add_reports(record: &Record, staged: &mut Staged) -> Result<(), Failure> {
-    let files = files(record).map_err(|error| format!("cannot make the reports: {error}"))?;
+pub fn add_reports(record: &Record, exposures: &[u32], staged: &mut Staged) -> Result<(), Failure> {
+    let cannot = |error: std::io::Error| format!("cannot make the reports: {error}");
+    let mut files = files(record).map_err(cannot)?;
+    if let (None, false) = (&record.stroke, exposures.is_empty()) {
+        return Err("--exposure is for strokes, and the problem has none"
+            .to_owned()
+            .into());
+    }
+    for (stroke, &exposure) in record
+        .stroke
+        .iter()
+        .flat_map(|it| exposures.iter().map(move |exposure| (it, exposure)))
+    {
+        if exposure > 1 {
+            files.extend(program::files(stroke, exposure).map_err(cannot)?);
+        }
+    }
     for (name, contents) in files {
         staged.add(&name, &contents);
     }

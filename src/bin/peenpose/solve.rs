@@ -41,5 +41,5 @@ pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     }
     let record = record.ok_or("there is no contact to choose".to_owned())?;
     let form = Form::new(args.json, args.full);
-    result::report(&record, form, args.out.as_deref())
+    result::report(&record, form, args.out.as_deref(), &args.exposure)
 }

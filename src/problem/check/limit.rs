@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 
 use crate::problem::fault_code::FaultCode;
+use crate::units::Dimension;
 
 /// An interval of allowed values in SI.
 ///
@@ -75,10 +76,24 @@ impl Limit {
     pub const ACCURACY: Self = to(1e-9, 1.0, "a percentage above 0 %, up to 100 %");
     pub const DEVIATION: Self = to(0.0, 10.0, "a percentage from 0 % to 1000 %");
     pub const WEIGHT: Self = to(0.0, 1e9, "a number from 0 to 1e9");
+    pub const STATIONS: Self = to(2.0, 200.0, "a whole number from 2 to 200");
+    pub const TURNS: Self = to(-6283.2, 6283.2, "an angle from -360000 deg to 360000 deg");
+    pub const RPM: Self = to(1e-6, 1e6, "turns above 0 rpm, up to 1000000 rpm");
+    pub const FEED: Self = to(1e-9, 1e3, "a speed above 0 mm/s, up to 1000 m/s");
+    const STEP: Self = to(1e-9, TAU + ROUNDING, "an angle above 0 deg, up to 360 deg");
     pub const IMPACTS: Self = to(1.0, 1000.0, "a whole number from 1 to 1000");
     pub const FRICTION: Self = to(0.0, 10.0, "a number from 0 to 10");
     pub const FRACTION: Self = to(0.0, 1.0, "a number from 0 to 1");
     pub const SIGNED_FRACTION: Self = to(-1.0, 1.0, "a number from -1 to 1");
+
+    /// Of the smallest change of a setting.
+    pub const fn step(dimension: Dimension) -> Self {
+        match dimension {
+            Dimension::Angle => Self::STEP,
+            Dimension::Speed => Self::SPEED,
+            _ => Self::LENGTH,
+        }
+    }
 
     /// What is wrong with `value`, if anything.
     pub fn complaint(&self, value: f64) -> Option<(FaultCode, &'static str)> {

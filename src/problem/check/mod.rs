@@ -18,6 +18,7 @@ mod scope;
 mod settings;
 mod shape;
 mod shot;
+mod stroke;
 mod surfaces;
 mod target;
 mod tolerance;
@@ -33,6 +34,7 @@ use super::file::equipment::{CoverageEntry, JetEntry, PathsEntry, SpreadEntry};
 use super::file::settings::SolveEntry;
 use super::file::{FORMAT, ProblemFile};
 use super::part::{Part, Target};
+use super::stroke::Stroke;
 use crate::printable;
 use coordinates::Coordinates;
 use limit::Limit;
@@ -69,7 +71,13 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         });
     let coordinates = Coordinates::new(&root, &file.lengths_in);
     let scene = scene::check(&root, &file.scene, &coordinates, folder);
+    let stroke = match &file.stroke {
+        Field::Missing => Some(None),
+        Field::Faulty => None,
+        Field::Present(entry) => stroke::check(&root.of("stroke"), entry, &coordinates).map(Some),
+    };
     let target = target::check(&root, &file.target, &scene, &coordinates);
+    let target = target.map(|target| aimed_at_stroke(target, stroke.as_ref()));
     let shot = root
         .required("shot", &file.shot, "`{ radius: .., density: .. }`")
         .and_then(|entry| shot::check(&root.of("shot"), entry));
@@ -137,6 +145,7 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
             goals: goals?,
             surfaces: surfaces?,
             paths: paths?,
+            stroke: stroke?,
             coverage: coverage?,
             model: model?,
             tolerance: tolerance?,
@@ -151,6 +160,21 @@ pub(super) fn check(file: &ProblemFile, path: &Path, faults: &Faults<'_>) -> Che
         target,
         surfaces: rules.map(|(name, _)| name.clone()).collect(),
         problem,
+    }
+}
+
+/// A target without an aim point is aimed at where its stroke begins.
+fn aimed_at_stroke(target: Target, stroke: Option<&Option<Stroke>>) -> Target {
+    let start = stroke
+        .and_then(Option::as_ref)
+        .and_then(|it| it.line.start());
+    match (target.aim, start) {
+        (None, Some((aim, aim_key))) => Target {
+            aim: Some(aim),
+            aim_key,
+            ..target
+        },
+        _ => target,
     }
 }
 

@@ -44,6 +44,7 @@ pub(super) fn check(
         surface: surface?.clone(),
         within: within?,
         aim: aim?,
+        aim_key: "target.aim",
         along: along?,
         facing: facing?,
     })

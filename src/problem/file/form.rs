@@ -46,6 +46,15 @@ pub(in crate::problem) struct MediumName;
 /// A contact of the library.
 pub(in crate::problem) struct ContactName;
 
+/// `auto`, a speed or turns.
+pub(in crate::problem) struct FeedText;
+
+/// `auto` or a whole number.
+pub(in crate::problem) struct PassesText;
+
+/// `auto` or a length.
+pub(in crate::problem) struct RunOutText;
+
 /// `auto`, `full`, or effects.
 pub(in crate::problem) struct ModelName;
 
@@ -79,6 +88,19 @@ macro_rules! inline_schemas {
 inline_schemas! {
     MediumName: json_schema!({ "enum": medium_names() });
     ContactName: json_schema!({ "enum": contact_names() });
+    FeedText: json_schema!({
+        "anyOf": [
+            { "const": "auto" },
+            { "type": "string", "pattern": Dimension::Speed.pattern() },
+            { "type": "string", "pattern": "^[ ]*[0-9.]+([eE][-+]?[0-9]+)?[ ]*rpm[ ]*$" },
+        ],
+    });
+    PassesText: json_schema!({
+        "anyOf": [{ "const": "auto" }, { "type": "integer", "minimum": 1, "maximum": 10_000 }],
+    });
+    RunOutText: json_schema!({
+        "anyOf": [{ "const": "auto" }, { "type": "string", "pattern": Dimension::Length.pattern() }],
+    });
     ModelName: json_schema!({
         "anyOf": [
             { "enum": ["auto", "full"] },

@@ -13,7 +13,8 @@ pub(super) fn all(at: &Place, answer: &AnswerRecord) -> Outcome {
         alone(&at, verdict, answer.shots == 1 || is_of_pose(verdict))?;
         if is_of_pose(verdict) {
             of_pose(&at, verdict, answer)?;
-        } else {
+        } else if verdict.at_m.is_none() {
+            // What a station of a stroke receives is not what the whole does.
             beside(&at, verdict, answer)?;
         }
     }

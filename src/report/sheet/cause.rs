@@ -66,7 +66,11 @@ pub fn headline(record: &Record) -> String {
                 || reason(record, verdict),
                 |edge| format!("; {} drives it: fails {}", edge.setting, edge.side()),
             );
-            format!("{} ({}){driver}", verdict.subject, used(verdict))
+            let place = record.stroke.as_ref().zip(verdict.at_m);
+            let place = place.map_or(String::new(), |(stroke, at)| {
+                format!(" at {}", stroke.place(at))
+            });
+            format!("{}{place} ({}){driver}", verdict.subject, used(verdict))
         }
         Cause::Window(edge) => format!("{}: fails with {}", edge.turns, edge.at),
         Cause::Nothing => "no verdict comes near".into(),

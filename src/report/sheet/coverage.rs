@@ -9,8 +9,12 @@ pub fn block(record: &Record) -> Option<Block> {
     let coverage = record.coverage.as_ref()?;
     let wanted = plain(coverage.wanted * 100.0);
     let (time, shot) = (format!("{wanted} % after"), format!("{wanted} % takes"));
+    let title = match record.stroke {
+        Some(_) => "COVERAGE of a pass",
+        None => "COVERAGE, nozzle at rest",
+    };
     let mut table = Table::new(&[
-        ("COVERAGE, nozzle at rest", Align::Left),
+        (title, Align::Left),
         (hits_unit(coverage), Align::Right),
         ("std. error", Align::Right),
         (&time, Align::Right),

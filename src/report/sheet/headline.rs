@@ -1,10 +1,10 @@
 //! The head of the sheet: what it is about, the overall verdict, what takes the ground from under it, what
 //! limits it.
 
-use super::{blocked, cause, subject};
+use super::{blocked, cause, stroke, subject};
 use crate::record::{AnswerRecord, RankingRecord, Record, StatusRecord, VerdictRecord};
 use crate::report::layout::Block;
-use crate::report::number::{plural, share_asked, significant};
+use crate::report::number::{plain, plural, share_asked, significant};
 use crate::validity::STRONG_INTERFERENCE;
 
 /// Failing verdicts that the headline spells out.
@@ -26,6 +26,9 @@ pub fn block(record: &Record) -> Block {
     }
     if let Some(reason) = beware(record) {
         block.hanging("beware       ", reason);
+    }
+    if let Some(spot) = spot(record) {
+        block.hanging("spot         ", &spot);
     }
     block.hanging("limited by   ", &cause::headline(record));
     block.hanging("search       ", &status(record));
@@ -165,6 +168,22 @@ fn failure(record: &Record, name: &str) -> String {
         subject::broken_when(name, &record.problem.goals, best)
     )
 }
+
+/// How much of the target a nozzle that stands still reaches, and whether PASS holds for that alone.
+fn spot(record: &Record) -> Option<String> {
+    let spot = record.spot.as_ref()?;
+    let text = stroke::spot(record)?;
+    Some(match &record.stroke {
+        Some(stroke) => format!("{text}; it travels {} mm", plain(stroke.length_m * 1e3)),
+        None if record.passes() && spot.share_of_target < WHOLE => {
+            format!("{text}; PASS holds there alone")
+        }
+        None => text,
+    })
+}
+
+/// A spot with this share of the target is taken for all of it.
+const WHOLE: f64 = 0.5;
 
 /// How the search ended.
 pub fn status(record: &Record) -> String {

@@ -15,6 +15,7 @@ pub(super) mod received;
 mod scatter;
 pub(super) mod setting;
 pub(super) mod settings;
+pub(super) mod stroke;
 mod subject;
 pub(super) mod unknowns;
 pub(super) mod verdicts;
@@ -27,10 +28,11 @@ use crate::record::Record;
 /// The technique sheet as text.
 pub fn sheet(record: &Record) -> String {
     let best = &record.best;
-    let blocks: [Option<Block>; 17] = [
+    let blocks: [Option<Block>; 18] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
         settings::pose(best, record.problem.lengths_in),
+        stroke::block(record),
         blocked::cures(record),
         received::target(record),
         verdicts::block(best, &record.problem.goals),

@@ -52,19 +52,19 @@ impl Table {
 }
 
 /// A table that is being written.
-struct Rows {
+pub(super) struct Rows {
     name: &'static str,
     writer: csv::Writer<Vec<u8>>,
 }
 
 impl Rows {
-    fn headed(name: &'static str, columns: &[&str]) -> io::Result<Self> {
+    pub fn headed(name: &'static str, columns: &[&str]) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(columns)?;
         Ok(Self { name, writer })
     }
 
-    fn row(&mut self, cells: &[&dyn Display]) -> io::Result<()> {
+    pub fn row(&mut self, cells: &[&dyn Display]) -> io::Result<()> {
         self.texts(cells.iter().map(ToString::to_string))
     }
 
@@ -73,7 +73,7 @@ impl Rows {
         Ok(self.writer.write_record(cells.map(String::into_bytes))?)
     }
 
-    fn finish(self) -> io::Result<Table> {
+    pub fn finish(self) -> io::Result<Table> {
         let bytes = self
             .writer
             .into_inner()

@@ -241,7 +241,8 @@ fn poses(record: &Record) -> io::Result<Table> {
         "m11", "m12", "m13", "m14_m", "m21", "m22", "m23", "m24_m", "m31", "m32", "m33", "m34_m",
         "m41", "m42", "m43", "m44",
     ];
-    let mut table = Rows::headed("pose", &[&FIRST[..], &MATRIX[..]].concat())?;
+    const IN_MM: [&str; 3] = ["exit_x_mm", "exit_y_mm", "exit_z_mm"];
+    let mut table = Rows::headed("pose", &[&FIRST[..], &MATRIX[..], &IN_MM[..]].concat())?;
     for answer in &record.choices {
         let PoseRecord {
             exit_m,
@@ -254,7 +255,13 @@ fn poses(record: &Record) -> io::Result<Table> {
         let matrix =
             (0..MATRIX.len()).map(|i| or_empty(matrix.as_ref().map(|m| picometres(&m[i]))));
         let contact = std::iter::once(answer.contact.clone());
-        table.texts(contact.chain(numbers.map(picometres)).chain(matrix))?;
+        let in_mm = exit_m.map(|length| picometres(&(length * 1e3)));
+        table.texts(
+            contact
+                .chain(numbers.map(picometres))
+                .chain(matrix)
+                .chain(in_mm),
+        )?;
     }
     table.finish()
 }

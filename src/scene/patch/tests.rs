@@ -23,6 +23,7 @@ fn upper_side() -> Target {
         surface: "plate.z_max".to_owned(),
         within: None,
         aim: None,
+        aim_key: "target.aim",
         along: None,
         facing: None,
     }

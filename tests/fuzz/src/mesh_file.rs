@@ -116,6 +116,7 @@ fn can_be_used(scene: &Scene, mesh: &Mesh) {
         surface: scene.surfaces()[0].clone(),
         within: None,
         aim: None,
+        aim_key: "target.aim",
         along: None,
         facing: None,
     };

@@ -121,6 +121,7 @@ pub fn recorded(scenario: &Scenario, source: &Source, solution: &Solution) -> Re
         .then(|| Unknowns::of(scenario, &best.settings))
         .flatten();
     let run = RunInfo {
+        segments: &[],
         ablations: &solution.ablations,
         source,
         status: solution.status.into(),
@@ -133,7 +134,11 @@ pub fn recorded(scenario: &Scenario, source: &Source, solution: &Solution) -> Re
             seconds: 0.0,
         },
     };
-    let windows = passing_windows(scenario, solution, &peenpose::control::Cancel::default());
+    let windows = passing_windows(
+        scenario,
+        &solution.answers[0],
+        &peenpose::control::Cancel::default(),
+    );
     Record::new(scenario, &solution.answers, &windows, notes, unknowns, run)
         .expect("there is an answer")
 }

@@ -162,6 +162,7 @@ fn settle_inside(scene: &mut Scene, inside: Point3<f64>) {
         surface: scene.surfaces()[hit.surface as usize].clone(),
         within: None,
         aim: Some(hit.point),
+        aim_key: "target.aim",
         along: None,
         facing: Some(hit.normal),
     };

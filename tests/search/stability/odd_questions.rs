@@ -214,6 +214,7 @@ fn one_shot_on_target_is_enough_to_count() {
         counted: 1,
         allowed: 0.05,
         is_exact: false,
+        place: None,
     };
     assert!(verdict.passes() && !verdict.is_certain());
     wide.target.within = Some((place + around * 1e3, place + around * 1e3));

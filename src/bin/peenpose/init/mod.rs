@@ -27,6 +27,8 @@ pub enum Template {
     Mesh,
     /// A flat plate
     Plate,
+    /// A groove that is peened over its whole length
+    Stroke,
 }
 
 impl Template {
@@ -35,6 +37,7 @@ impl Template {
             Self::Keyway => include_str!("keyway.yaml"),
             Self::Mesh => include_str!("mesh.yaml"),
             Self::Plate => include_str!("plate.yaml"),
+            Self::Stroke => include_str!("stroke.yaml"),
         }
     }
 }

@@ -1,0 +1,194 @@
+//! Strokes in a record.
+
+use serde::{Deserialize, Serialize};
+
+use super::answer::{PoseRecord, SettingsRecord, VerdictRecord};
+use crate::problem::stroke::Leg;
+use crate::scenario::Scenario;
+use crate::solve::Answer;
+use crate::stroke::{Program, Spot};
+use crate::units::degrees;
+
+/// A stroke: where the nozzle travels, how fast, and what that gives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StrokeRecord {
+    /// Length on the part between the ends, m.
+    pub length_m: f64,
+    /// Turns of the part from the first waypoint to the last; 0 for a line.
+    pub turns: f64,
+    /// How far the aim point travels beyond both ends, m.
+    pub run_out_m: f64,
+    /// Between which places the same settings hold.
+    pub segments: Vec<SegmentRecord>,
+    /// What each station receives, where the nozzle stands still.
+    pub stations: Vec<StationRecord>,
+    /// Poses from one end of the run-out to the other.
+    pub waypoints: Vec<WaypointRecord>,
+    /// Passes; absent where the feed is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passes: Option<u32>,
+    /// Speed of the spot over the part, m/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed_m_s: Option<f64>,
+    /// Turns of the part, 1/s; absent for a line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turns_per_s: Option<f64>,
+    /// Time of all passes, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
+    /// Keys that are missing for a feed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub missing: Vec<String>,
+    /// What all passes together dent; absent where the feed or the dent is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dented: Option<StrokeDentedRecord>,
+}
+
+/// A piece of a stroke with the same settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SegmentRecord {
+    /// Where it begins, from the beginning of the stroke, m.
+    pub from_m: f64,
+    /// Where it ends, m.
+    pub to_m: f64,
+    /// Name of the contact.
+    pub contact: String,
+    /// Settings.
+    pub settings: SettingsRecord,
+}
+
+/// A station of a stroke.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StationRecord {
+    /// From the beginning of the stroke, m.
+    pub at_m: f64,
+    /// The aim point, m.
+    pub aim_m: [f64; 3],
+    /// One verdict for each goal and each secondary surface.
+    pub verdicts: Vec<VerdictRecord>,
+}
+
+/// A pose that the nozzle passes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WaypointRecord {
+    /// How far the spot has travelled from the beginning of the stroke, m; below 0 in the run-out before it.
+    pub at_m: f64,
+    /// The pose in the machine: in the part's coordinates where it does not turn.
+    pub pose: PoseRecord,
+    /// By how much the part is turned then, deg; 0 for a line.
+    pub turn_deg: f64,
+}
+
+/// What a stroke dents of the target.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StrokeDentedRecord {
+    /// Mass of shot that is fired, kg.
+    pub mass_kg: f64,
+    /// Mean share of the area.
+    pub mean: f64,
+    /// The least share, of the cells of the target.
+    pub least: f64,
+    /// The largest.
+    pub most: f64,
+}
+
+/// Where first hits fall while the nozzle stands still.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SpotRecord {
+    /// In which 95 % of them fall, along the jet's heading, m.
+    pub length_m: f64,
+    /// The same across it, m.
+    pub width_m: f64,
+    /// Its area over that of the target; at most 1.
+    pub share_of_target: f64,
+}
+
+impl SpotRecord {
+    pub(super) fn new(spot: &Spot) -> Self {
+        Self {
+            length_m: spot.length,
+            width_m: spot.width,
+            share_of_target: spot.share_of_target,
+        }
+    }
+}
+
+impl StrokeRecord {
+    /// The record of a program and of the answer behind it; `None` for a spot.
+    pub(super) fn new(scenario: &Scenario, answer: &Answer, program: &Program) -> Option<Self> {
+        let traverse = scenario.traverse.as_ref()?;
+        let segment = |leg: &Leg| SegmentRecord {
+            from_m: traverse.travelled(leg.span[0]),
+            to_m: traverse.travelled(leg.span[1]),
+            contact: scenario.problem.contacts[leg.settings.contact].name.clone(),
+            settings: SettingsRecord::new(&leg.settings),
+        };
+        let stations = answer.stations.iter().map(|station| StationRecord {
+            at_m: traverse.travelled(station.place),
+            aim_m: traverse.frame_at(station.place).aim.coords.into(),
+            verdicts: station
+                .verdicts
+                .iter()
+                .map(|verdict| VerdictRecord::new(scenario, verdict))
+                .collect(),
+        });
+        let waypoints = program.waypoints.iter().map(|waypoint| WaypointRecord {
+            at_m: waypoint.travelled,
+            pose: PoseRecord::new(&waypoint.pose),
+            turn_deg: degrees(waypoint.turn),
+        });
+        let turns_per_s = program
+            .feed
+            .filter(|_| program.turns > 0.0)
+            .map(|feed| feed * program.turns / program.way());
+        Some(Self {
+            length_m: program.length,
+            turns: program.turns,
+            run_out_m: program.run_out,
+            segments: program.legs.iter().map(segment).collect(),
+            stations: stations.collect(),
+            waypoints: waypoints.collect(),
+            passes: program.passes,
+            feed_m_s: program.feed,
+            turns_per_s,
+            time_s: program.time(),
+            missing: program.missing.iter().map(|&key| key.to_owned()).collect(),
+            dented: program.dented.map(|given| StrokeDentedRecord {
+                mass_kg: given.mass,
+                mean: given.mean,
+                least: given.least,
+                most: given.most,
+            }),
+        })
+    }
+
+    /// A place of the stroke in words: `z = 5 mm` where only z changes, or how far it is from the beginning.
+    pub fn place(&self, at_m: f64) -> String {
+        let first = self.stations.first();
+        let changes = |axis: &usize| {
+            let start = first.map_or(0.0, |station| station.aim_m[*axis]);
+            let mut stations = self.stations.iter();
+            stations.any(|station| (station.aim_m[*axis] - start).abs() > SAME)
+        };
+        let axes: Vec<usize> = (0..3).filter(changes).collect();
+        let here = self.stations.iter().min_by(|a, b| {
+            let off = |station: &StationRecord| (station.at_m - at_m).abs();
+            off(a).total_cmp(&off(b))
+        });
+        let Some(station) = here else {
+            return format!("{} mm from its beginning", tidy(at_m * 1e3));
+        };
+        let [x, y, z] = station.aim_m.map(|it| tidy(it * 1e3));
+        match axes[..] {
+            [axis] => format!("{} = {} mm", ["x", "y", "z"][axis], [x, y, z][axis]),
+            _ => format!("[{x}, {y}, {z}] mm"),
+        }
+    }
+}
+
+/// Coordinates that differ by less are the same, m.
+const SAME: f64 = 1e-9;
+
+fn tidy(millimetres: f64) -> f64 {
+    (millimetres * 1e3).round() / 1e3
+}

@@ -1,0 +1,122 @@
+//! The stroke: where the nozzle travels, how fast, what is worst where, and what it covers.
+
+use crate::record::{Record, SegmentRecord, StrokeRecord};
+use crate::report::layout::{Align, Block, Table};
+use crate::report::number::{plain, share, significant};
+
+/// Segments, feed and coverage; nothing for a spot.
+pub fn block(record: &Record) -> Option<Block> {
+    let stroke = record.stroke.as_ref()?;
+    let mut block = Block::default();
+    let mut table = Table::new(&[
+        ("STROKE", Align::Left),
+        ("from, mm", Align::Right),
+        ("to, mm", Align::Right),
+        ("incid. deg", Align::Right),
+        ("az. deg", Align::Right),
+        ("standoff mm", Align::Right),
+        ("m/s", Align::Right),
+        ("contact", Align::Left),
+    ]);
+    for (index, segment) in stroke.segments.iter().enumerate() {
+        table.row(row(index, segment));
+    }
+    block.table(table);
+    block.hanging("way        ", &way(stroke));
+    block.hanging("feed       ", &feed(stroke));
+    if let Some(dented) = &stroke.dented {
+        block.hanging(
+            "coverage   ",
+            &format!(
+                "mean {}, least {}, most {} of the target dented, after {} kg of shot",
+                share(dented.mean),
+                share(dented.least),
+                share(dented.most),
+                significant(dented.mass_kg, 3),
+            ),
+        );
+    }
+    let worst = worst_places(record, stroke);
+    if !worst.is_empty() {
+        block.hanging("worst      ", &worst);
+    }
+    Some(block)
+}
+
+fn row(index: usize, segment: &SegmentRecord) -> [String; 8] {
+    let settings = &segment.settings;
+    let millimetres = |length: f64| plain(length * 1e3);
+    [
+        format!("segment {}", index + 1),
+        millimetres(segment.from_m),
+        millimetres(segment.to_m),
+        significant(settings.incidence_deg, 3),
+        significant(settings.azimuth_deg, 3),
+        significant(settings.standoff_m * 1e3, 3),
+        significant(settings.speed_m_s, 4),
+        segment.contact.clone(),
+    ]
+}
+
+fn way(stroke: &StrokeRecord) -> String {
+    let mut text = format!("{} mm on the part", significant(stroke.length_m * 1e3, 4));
+    if stroke.turns > 0.0 {
+        text += &format!(", {} turns", significant(stroke.turns, 3));
+    }
+    text += &match stroke.run_out_m {
+        0.0 => ", no run-out".to_owned(),
+        run_out => format!(
+            ", and a run-out of {} mm beyond both ends",
+            significant(run_out * 1e3, 3)
+        ),
+    };
+    text + &format!("; verified at {} stations", stroke.stations.len())
+}
+
+fn feed(stroke: &StrokeRecord) -> String {
+    let (Some(feed), Some(passes)) = (stroke.feed_m_s, stroke.passes) else {
+        return match stroke.missing.is_empty() {
+            true => "none reaches the wanted coverage: some of the target is not hit at all".into(),
+            false => format!("not known: it needs {}", stroke.missing.join(" and ")),
+        };
+    };
+    let mut text = format!("{} mm/s at the spot", significant(feed * 1e3, 3));
+    if let Some(turns) = stroke.turns_per_s {
+        text += &format!(" ({} rpm)", significant(turns * 60.0, 3));
+    }
+    text += match passes {
+        1 => ", one pass".to_owned(),
+        passes => format!(", {passes} passes"),
+    }
+    .as_str();
+    match stroke.time_s {
+        Some(time) => text + &format!(", {} s in all", significant(time, 3)),
+        None => text,
+    }
+}
+
+/// Where verdicts are used up most, with the places.
+fn worst_places(record: &Record, stroke: &StrokeRecord) -> String {
+    let verdicts = record.best.verdicts.iter();
+    let placed = verdicts.filter_map(|verdict| {
+        let place = stroke.place(verdict.at_m?);
+        Some(format!(
+            "{} at {place} ({})",
+            verdict.subject,
+            share(verdict.share)
+        ))
+    });
+    placed.collect::<Vec<String>>().join("; ")
+}
+
+/// The spot, and how much of the target it is.
+pub fn spot(record: &Record) -> Option<String> {
+    let spot = record.spot.as_ref()?;
+    let millimetres = |length: f64| significant(length * 1e3, 2);
+    Some(format!(
+        "{} x {} mm, {} of the target",
+        millimetres(spot.length_m),
+        millimetres(spot.width_m),
+        share(spot.share_of_target),
+    ))
+}

@@ -1,0 +1,7 @@
+//! Strokes: what the machine does so that the nozzle peens a whole feature, and what that gives.
+
+mod program;
+mod spot;
+
+pub use program::{Given, Program, Waypoint};
+pub use spot::Spot;

@@ -1,0 +1,167 @@
+//! Strokes: one setting along a whole feature, or as few segments as there can be.
+
+use std::path::Path;
+
+use peenpose::control::Control;
+use peenpose::jet::Pose;
+use peenpose::problem::stroke::{Hold, Line};
+use peenpose::record::{Record, StatusRecord};
+use peenpose::solve::Answer;
+use peenpose::study::{Extras, Study};
+
+fn study(name: &str) -> Study {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    Study::open(&folder.join(name)).unwrap_or_else(|rejection| panic!("{rejection}"))
+}
+
+fn solved(study: &Study) -> Record {
+    let record = study.solve(Extras::default(), &Control::default());
+    record.expect("there is a contact")
+}
+
+/// The settings of a segment, with the contact of that name.
+fn settings(
+    study: &Study,
+    record: &Record,
+    segment: usize,
+) -> peenpose::problem::setting::Settings {
+    let stroke = record.stroke.as_ref().expect("it is a stroke");
+    let segment = &stroke.segments[segment];
+    let mut contacts = study.problem().contacts.iter();
+    let contact = contacts.position(|contact| contact.name == segment.contact);
+    peenpose::problem::setting::Settings {
+        contact: contact.expect("it is one of them"),
+        ..segment.settings.settings()
+    }
+}
+
+#[test]
+fn one_setting_held_along_the_keyway_passes_wherever_the_nozzle_stands() {
+    let study = study("keyway-stroke.yaml");
+    let record = solved(&study);
+    assert!(record.passes() && record.status == StatusRecord::Converged);
+    let stroke = record.stroke.as_ref().unwrap();
+    assert_eq!((stroke.segments.len(), stroke.stations.len()), (1, 9));
+    let settings = settings(&study, &record, 0);
+    // Places between the stations, too.
+    for millimetres in [5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0] {
+        let place = (millimetres - 4.0) / 32.0 - 0.5;
+        let standing = study.scenario().standing_at(place);
+        assert!((standing.target.frame.aim.z - millimetres * 1e-3).abs() < 1e-12);
+        let draw = peenpose::jet::Draw::new(&standing.problem, 0, 16_384);
+        let evaluation = peenpose::evaluate::evaluate_streamed(&standing, &settings, &draw);
+        let answer = Answer::evaluated(&standing, &settings, Some(evaluation));
+        assert!(
+            answer.passes(),
+            "z = {millimetres} mm: {:?}",
+            answer.verdicts
+        );
+    }
+}
+
+#[test]
+fn the_objective_of_a_stroke_is_the_mean_over_its_places() {
+    let study = study("keyway-stroke.yaml");
+    let scenario = study.scenario();
+    let record = solved(&study);
+    let settings = settings(&study, &record, 0);
+    let places = 64;
+    let mean = (0..places)
+        .map(|index| {
+            let standing = scenario.standing_at((f64::from(index) + 0.5) / f64::from(places) - 0.5);
+            let draw = peenpose::jet::Draw::new(&standing.problem, 1, 4096);
+            let evaluation = peenpose::evaluate::evaluate_streamed(&standing, &settings, &draw);
+            evaluation.terms.total()
+        })
+        .sum::<f64>()
+        / f64::from(places);
+    let objective = record.best.objective.as_ref().unwrap();
+    let error = 4.0 * objective.standard_error + 2e-3 * mean;
+    assert!(
+        (objective.total - mean).abs() < error,
+        "{} {mean}",
+        objective.total
+    );
+}
+
+#[test]
+fn what_no_setting_passes_is_cut_into_segments_of_one_contact() {
+    let study = study("keyway-100.yaml");
+    let record = solved(&study);
+    let stroke = record.stroke.as_ref().unwrap();
+    assert!(record.passes(), "{:?}", record.best.verdicts);
+    assert!(stroke.segments.len() > 1);
+    let contact = &stroke.segments[0].contact;
+    let azimuth = stroke.segments[0].settings.azimuth_deg;
+    let mut end = 0.0;
+    for (index, segment) in stroke.segments.iter().enumerate() {
+        assert!((segment.from_m - end).abs() < 1e-12);
+        end = segment.to_m;
+        // What is held is held, and the rest is a multiple of its step.
+        assert_eq!(
+            (&segment.contact, segment.settings.azimuth_deg),
+            (contact, azimuth)
+        );
+        let steps = segment.settings.incidence_deg / 0.5;
+        assert!((steps - steps.round()).abs() < 1e-9, "{steps}");
+        let settings = settings(&study, &record, index);
+        for place in 0..=8 {
+            let at = segment.from_m + (segment.to_m - segment.from_m) * f64::from(place) / 8.0;
+            let standing = study.scenario().standing_at(at / stroke.length_m - 0.5);
+            let draw = peenpose::jet::Draw::new(&standing.problem, 0, 16_384);
+            let evaluation = peenpose::evaluate::evaluate_streamed(&standing, &settings, &draw);
+            let answer = Answer::evaluated(&standing, &settings, Some(evaluation));
+            assert!(
+                answer.passes(),
+                "segment {index} at {at} m: {:?}",
+                answer.verdicts
+            );
+        }
+    }
+    assert!((end - stroke.length_m).abs() < 1e-12);
+}
+
+#[test]
+fn the_same_stroke_is_solved_to_the_same_bits_by_any_number_of_threads() {
+    let study = study("keyway-100.yaml");
+    let of = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let mut record = pool.unwrap().install(|| solved(&study));
+        record.work.seconds = 0.0;
+        record.to_json().unwrap()
+    };
+    assert_eq!(of(1), of(3));
+}
+
+#[test]
+fn a_part_that_turns_brings_every_place_before_a_nozzle_that_keeps_its_attitude() {
+    let study = study("bore-turning.yaml");
+    let record = solved(&study);
+    assert!(record.passes());
+    let stroke = record.stroke.as_ref().unwrap();
+    assert!((stroke.turns_per_s.unwrap() * stroke.time_s.unwrap() - stroke.turns).abs() < 1e-6);
+    let settings = settings(&study, &record, 0);
+    let traverse = study.scenario().traverse.as_ref().unwrap();
+    for waypoint in &stroke.waypoints {
+        assert!((waypoint.pose.direction[2] - 1.0).abs() < 1e-12);
+        // Turned back with the part it is the pose there.
+        let place = waypoint.at_m / stroke.length_m - 0.5;
+        let there = Pose::new(&traverse.frame_at(place), &settings);
+        let turn = nalgebra::Rotation3::from_axis_angle(
+            &nalgebra::Vector3::z_axis(),
+            -waypoint.turn_deg.to_radians(),
+        );
+        let turned = turn * nalgebra::Point3::from(waypoint.pose.exit_m);
+        assert!((turned - there.exit).norm() < 1e-9);
+    }
+}
+
+#[test]
+fn shipped_strokes_are_what_their_titles_say() {
+    let held = study("keyway-stroke.yaml");
+    let stroke = held.problem().stroke.clone().unwrap();
+    assert_eq!((stroke.hold, stroke.stations), (Hold::All, 9));
+    let turning = study("bore-turning.yaml");
+    let stroke = turning.problem().stroke.clone().unwrap();
+    assert!(matches!(stroke.line, Line::Around(_)));
+}
