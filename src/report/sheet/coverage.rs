@@ -25,7 +25,7 @@ pub fn block(record: &Record) -> Option<Block> {
     let mut block = Block::default();
     block.table(table.without_empty_columns());
     if let Some(dented) = &coverage.dented {
-        block.paragraph(&of_the_target(coverage, dented));
+        block.paragraph(&of_the_target(coverage, dented, record.stroke.is_some()));
     }
     block.paragraph(&format!(
         "Over cells of {} mm the density of first hits varies by {} (standard deviation).",
@@ -40,7 +40,7 @@ pub fn block(record: &Record) -> Option<Block> {
 }
 
 /// How much of the target is dented and when, each number with its errors.
-fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord) -> String {
+fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord, moves: bool) -> String {
     let wanted = plain(coverage.wanted * 100.0);
     let takes = |kilograms: f64| match coverage.mass_flow_kg_s {
         Some(flow) => format!("{} ({})", duration(kilograms / flow), mass(kilograms)),
@@ -74,7 +74,7 @@ fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord) -> String {
             share(by_even.resolution),
         ));
     }
-    if coverage.share_not_hit > 0.0 {
+    if coverage.share_not_hit > 0.0 && !moves {
         sentences.push("Only a nozzle that moves gets everywhere".into());
     }
     sentences.join(". ") + "."
