@@ -65,19 +65,18 @@ fn the_objective_of_a_stroke_is_the_mean_over_its_places() {
     let scenario = study.scenario();
     let record = solved(&study);
     let settings = settings(&study, &record, 0);
-    let places = 64;
+    let places = 32;
     let mean = (0..places)
         .map(|index| {
             let standing = scenario.standing_at((f64::from(index) + 0.5) / f64::from(places) - 0.5);
-            let draw = peenpose::jet::Draw::new(&standing.problem, 1, 4096);
+            let draw = peenpose::jet::Draw::new(&standing.problem, 1, 65_536);
             let evaluation = peenpose::evaluate::evaluate_streamed(&standing, &settings, &draw);
             evaluation.terms.total()
         })
         .sum::<f64>()
         / f64::from(places);
     let objective = record.best.objective.as_ref().unwrap();
-    // Rare rebounds at the ends are in few of the places.
-    let error = 4.0 * objective.standard_error + 2.5e-2 * mean;
+    let error = 4.0 * objective.standard_error + 2e-3 * mean;
     assert!(
         (objective.total - mean).abs() < error,
         "{} {mean}",
@@ -120,6 +119,17 @@ fn what_no_setting_passes_is_cut_into_segments_of_one_contact() {
         }
     }
     assert!((end - stroke.length_m).abs() < 1e-12);
+}
+
+#[test]
+fn a_stroke_along_which_the_nozzle_fits_nowhere_says_so() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    let text = std::fs::read_to_string(folder.join("keyway-100.yaml")).unwrap();
+    let text = text.replace("clearance: 2 mm", "clearance: 300 mm");
+    let study = Study::from_text(&text, &folder.join("keyway-100.yaml")).unwrap();
+    let record = solved(&study);
+    assert_eq!(record.status, StatusRecord::NoFeasiblePose);
+    assert!(!record.passes() && record.stroke.is_none());
 }
 
 #[test]
