@@ -164,6 +164,23 @@ impl Scenario {
         standing
     }
 
+    /// A station at a place of the stroke.
+    pub fn station(&self, place: f64) -> Station {
+        Station {
+            place,
+            scenario: self.standing_at(place),
+        }
+    }
+
+    /// The stations at which a stroke mostly fails first, by their numbers: its ends and its middle; none for a spot.
+    pub fn ends_and_middle(&self) -> Vec<usize> {
+        match self.stations.len() {
+            0 => Vec::new(),
+            2 => vec![0, 1],
+            stations => vec![0, stations / 2, stations - 1],
+        }
+    }
+
     /// A part of the stroke, between two places, with so many stations besides its ends' own.
     #[must_use]
     pub fn part_of_stroke(&self, span: [f64; 2], stations: usize) -> Self {
@@ -182,13 +199,8 @@ impl Scenario {
             return self;
         };
         let last = (stroke.stations - 1) as f64;
-        let stations = (0..stroke.stations).map(|index| {
-            let place = index as f64 / last - 0.5;
-            Station {
-                place,
-                scenario: self.standing_at(place),
-            }
-        });
+        let places = (0..stroke.stations).map(|index| index as f64 / last - 0.5);
+        let stations = places.map(|place| self.station(place));
         self.stations = stations.collect();
         self.sweep = self.traverse.as_ref().and_then(|it| it.sweep());
         self

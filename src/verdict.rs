@@ -205,6 +205,16 @@ impl Verdict {
         }
     }
 
+    /// The largest of some verdicts' violations.
+    pub fn largest_violation(verdicts: &[Self]) -> f64 {
+        verdicts.iter().map(Self::violation).fold(0.0, f64::max)
+    }
+
+    /// Whether it violates more than another on the same subject.
+    pub fn is_worse_than(&self, other: &Self) -> bool {
+        (self.violation(), self.share()) > (other.violation(), other.share())
+    }
+
     /// How much of the allowed share is used up: 1 is the limit.
     pub fn utilisation(&self) -> f64 {
         if self.allowed > 0.0 {

@@ -1,5 +1,6 @@
 //! The unit of bare coordinates.
 
+use nalgebra::Point3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -44,6 +45,12 @@ impl LengthUnit {
     pub fn metres(self, value: f64) -> f64 {
         let written = format!("{value} {}", self.name());
         units::parse(Dimension::Length, &written).unwrap_or(f64::INFINITY)
+    }
+
+    /// A point, m, in this unit: `[0.000, 18.300, 4.000] mm`.
+    pub fn point(self, point: &Point3<f64>) -> String {
+        let [x, y, z] = [point.x, point.y, point.z].map(|it| self.text(it));
+        format!("[{x}, {y}, {z}] {}", self.name())
     }
 
     /// A coordinate, m, in this unit but without its name, to a micrometre or a tenth of that.

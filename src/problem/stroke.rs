@@ -83,6 +83,14 @@ pub enum Feed {
     Turns(f64),
 }
 
+/// The span of a whole stroke: a place is -0.5 at its beginning and 0.5 at its end.
+pub const WHOLE: [f64; 2] = [-0.5, 0.5];
+
+/// The place on a stroke of a place on the part of it that has this span.
+pub fn place_in([from, to]: [f64; 2], place: f64) -> f64 {
+    from + (to - from) * (place + 0.5)
+}
+
 /// A piece of a stroke with settings of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
@@ -96,7 +104,7 @@ impl Leg {
     /// One setting all along.
     pub fn whole(settings: &Settings) -> Self {
         Self {
-            span: [-0.5, 0.5],
+            span: WHOLE,
             settings: *settings,
         }
     }

@@ -229,13 +229,9 @@ pub struct RunInfo<'a> {
 
 /// The legs of segments, or one all along.
 fn legs(segments: &[Segment], settings: &Settings) -> Vec<Leg> {
-    let legs = segments.iter().map(|segment| Leg {
-        span: segment.span,
-        settings: segment.answer.settings,
-    });
     match segments.is_empty() {
         true => vec![Leg::whole(settings)],
-        false => legs.collect(),
+        false => segments.iter().map(Segment::leg).collect(),
     }
 }
 

@@ -162,7 +162,7 @@ impl StrokeRecord {
         })
     }
 
-    /// A place of the stroke in words: `z = 5 mm` where only z changes, or how far it is from the beginning.
+    /// A place of the stroke in words: `z = 5 mm` where only z changes, or the point.
     pub fn place(&self, at_m: f64) -> String {
         let first = self.stations.first();
         let changes = |axis: &usize| {

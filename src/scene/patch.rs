@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::nearest::Foot;
 use super::ray::Hit;
 use super::{SLACK, Scene};
 use crate::problem::LengthUnit;
@@ -136,17 +137,13 @@ impl Patch {
             ))]);
         }
         let aim = target.aim.unwrap_or(centre);
-        let reach = area.sqrt();
         let nearest = scene.foot(&aim, surface);
         let on_patch = |p: &Point3<f64>| {
             let limits = target.within;
             limits.is_none_or(|limits| inside(p, &widened(limits, slack.max(1e-9))))
         };
-        // A mesh's facets lie a little inside the true surface that a drawing's numbers mean.
-        let near_enough = 1e-5_f64.max(1e-3 * reach);
-        let Some(foot) =
-            nearest.filter(|foot| (foot.point - aim).norm() <= near_enough && on_patch(&aim))
-        else {
+        let is_near = |foot: &Foot| (foot.point - aim).norm() <= near_enough(area);
+        let Some(foot) = nearest.filter(|foot| is_near(foot) && on_patch(&aim)) else {
             return Err(vec![aim_fault(target, &aim)]);
         };
         let front = match target.facing {
@@ -203,20 +200,36 @@ impl Frame {
     }
 }
 
-fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
+/// How far from the target a point may be that is on it, m: a mesh's facets lie a little inside the true surface that a
+/// drawing's numbers mean.
+pub(super) fn near_enough(area: f64) -> f64 {
+    1e-5_f64.max(1e-3 * area.sqrt())
+}
+
+/// What is wrong with a stroke through a point that is off the target, by this much, m, where that is known.
+pub(super) fn stroke_fault(
+    target: &Target,
+    key: &str,
+    point: &Point3<f64>,
+    by: Option<f64>,
+) -> Fault {
     let unit = target.lengths_in;
-    let [x, y, z] = [aim.x, aim.y, aim.z].map(|it| unit.text(it));
-    let place = format!("[{x}, {y}, {z}] {}", unit.name());
+    let by = by.map_or(String::new(), |by| {
+        format!(": it is {} {} away", unit.text(by), unit.name())
+    });
+    let message = format!("the stroke leaves the target at {}{by}", unit.point(point));
+    Fault::at_key(FaultCode::StrokeOffTarget, key, message).expecting(format!(
+        "points on `{}`, inside `target.within` if that is given",
+        target.surface
+    ))
+}
+
+fn aim_fault(target: &Target, aim: &Point3<f64>) -> Fault {
+    let place = target.lengths_in.point(aim);
     match target.aim {
-        Some(_) if target.aim_key != "target.aim" => Fault::at_key(
-            FaultCode::StrokeOffTarget,
-            target.aim_key,
-            format!("the stroke leaves the target at {place}"),
-        )
-        .expecting(format!(
-            "points on `{}`, inside `target.within` if that is given",
-            target.surface
-        )),
+        Some(_) if target.aim_key != "target.aim" => {
+            stroke_fault(target, target.aim_key, aim, None)
+        }
         Some(_) => Fault::at_key(
             FaultCode::AimOffTarget,
             "target.aim",

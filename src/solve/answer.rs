@@ -39,8 +39,7 @@ impl Answer {
 
     /// The largest share of shots that break a goal or a limit, over what is allowed: at most 1 where all pass.
     pub fn largest_violation(&self) -> f64 {
-        let violations = self.verdicts.iter().map(Verdict::violation);
-        violations.fold(0.0, f64::max)
+        Verdict::largest_violation(&self.verdicts)
     }
 
     /// J, where the nozzle fits.

@@ -38,11 +38,6 @@ impl<'a> Figures<'a> {
         self.sharpened(answers, searches)
     }
 
-    /// The answers of other searches, on the same shots.
-    pub fn of_searches(&self, searches: &[Search]) -> Vec<Answer> {
-        self.of(searches)
-    }
-
     /// The answers again, where searches have gone on.
     pub fn renewed(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
         let has_moved =
@@ -81,7 +76,8 @@ impl<'a> Figures<'a> {
         self.of(searches)
     }
 
-    fn of(&self, searches: &[Search]) -> Vec<Answer> {
+    /// The answers of any searches, on the same shots.
+    pub fn of(&self, searches: &[Search]) -> Vec<Answer> {
         let candidates: Vec<&Candidate> = searches.iter().map(Search::best).collect();
         let on = |validation: &ValidationSample| {
             Answer::of_all(self.scenario, &candidates, validation, self.effort)

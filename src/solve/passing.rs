@@ -55,7 +55,7 @@ impl Sought<'_> {
         figures: &mut Figures,
     ) {
         let mut slack = 1.0;
-        let mut watched = self.ends_and_middle();
+        let mut watched = self.searched.ends_and_middle();
         for _ in 0..self.most_rounds() {
             let failing = worthwhile(answers, self.asked);
             if failing.is_empty() || self.control.is_stopped() {
@@ -76,15 +76,6 @@ impl Sought<'_> {
             if worst <= NEAR && !unseen {
                 slack *= ROOM / worst;
             }
-        }
-    }
-
-    /// The stations that are watched from the beginning, where a stroke mostly fails.
-    fn ends_and_middle(&self) -> Vec<usize> {
-        match self.searched.stations.len() {
-            0 => Vec::new(),
-            2 => vec![0, 1],
-            stations => vec![0, stations / 2, stations - 1],
         }
     }
 
@@ -147,7 +138,7 @@ impl Sought<'_> {
                 .evaluator(&scenario, &samples, effort, control);
             searches[leader].refine(&evaluator, &Stage::beyond(more));
         }
-        let new = figures.of_searches(&searches);
+        let new = figures.of(&searches);
         let claims = searches.iter().map(|it| it.best().fitness.objective());
         let mut worst = f64::INFINITY;
         // Whether J of what was found here is known.

@@ -67,10 +67,9 @@ pub fn passing_windows(scenario: &Scenario, best: &Answer, cancel: &Cancel) -> V
     // Of a stroke, where it fails first: at its ends, in its middle, and where a verdict is the worst.
     let worst: Vec<f64> = best.verdicts.iter().filter_map(|it| it.place).collect();
     let stations = scenario.stations.iter();
-    let last = scenario.stations.len().saturating_sub(1);
-    let is_watched = |index: usize, station: &Station| {
-        [0, last / 2, last].contains(&index) || worst.contains(&station.place)
-    };
+    let first = scenario.ends_and_middle();
+    let is_watched =
+        |index: usize, station: &Station| first.contains(&index) || worst.contains(&station.place);
     let watched = stations
         .enumerate()
         .filter(|(index, station)| is_watched(*index, station))

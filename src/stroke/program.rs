@@ -4,7 +4,7 @@ use crate::coverage::Coverage;
 use crate::feasibility::infeasibility;
 use crate::jet::Pose;
 use crate::problem::stroke::{Feed, Leg, Stroke};
-use crate::scenario::{Scenario, Station};
+use crate::scenario::Scenario;
 use crate::scene::traverse::Traverse;
 use crate::verdict::{StationVerdicts, Subject, Verdict};
 
@@ -51,8 +51,6 @@ pub struct Given {
 /// A pose that the nozzle passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Waypoint {
-    /// Place on the stroke.
-    pub place: f64,
     /// How far the spot has travelled from the beginning of the stroke, m; below 0 in the run-out before it.
     pub travelled: f64,
     /// The pose in the machine: a part that turns brings the place before a nozzle that keeps its attitude.
@@ -114,8 +112,8 @@ impl Program {
         })
     }
 
-    /// As far as there is target left beyond an end and the spot reaches back from there, or less where the nozzle does not fit or other surfaces receive
-    /// too much.
+    /// As far as there is target left beyond an end and the spot reaches back from there, or less where the nozzle
+    /// does not fit or other surfaces receive too much.
     fn run_out(scenario: &Scenario, traverse: &Traverse, legs: &[Leg]) -> f64 {
         let ends = [(-1.0, false), (1.0, true)];
         let settings = |sign: f64| &Leg::at(legs, sign).settings;
@@ -134,10 +132,7 @@ impl Program {
         let fits = |run_out: f64| {
             ends.iter().all(|&(sign, _)| {
                 let place = sign * (0.5 + traverse.places_in(run_out));
-                let station = Station {
-                    place,
-                    scenario: scenario.standing_at(place),
-                };
+                let station = scenario.station(place);
                 let settings = settings(sign);
                 infeasibility(&station.scenario, settings).is_none()
                     && StationVerdicts::at(&[&station], &scenario.problem, settings)
@@ -209,7 +204,6 @@ fn waypoints(scenario: &Scenario, traverse: &Traverse, legs: &[Leg], beyond: f64
     places.sort_by(f64::total_cmp);
     places.dedup();
     let waypoint = |place: f64, leg: &Leg| Waypoint {
-        place,
         travelled: traverse.travelled(place),
         pose: Pose::new(&traverse.frame_in_machine(place), &leg.settings),
         turn: 0.0 - traverse.angle_at(place),

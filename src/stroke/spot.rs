@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::jet::{Replicates, purpose};
+use crate::jet::{Pose, Replicates, purpose};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::trace::Tracer;
@@ -48,7 +48,7 @@ impl Spot {
         if hits.len() < FEWEST {
             return None;
         }
-        let pose = crate::jet::Pose::new(&frame, settings);
+        let pose = Pose::new(&frame, settings);
         let across = pose.side;
         let along = frame.normal.cross(&across);
         let mut spot = Self {
@@ -65,7 +65,7 @@ impl Spot {
     }
 
     /// In what length along a unit vector 95 % of the hits fall, m.
-    pub fn extent(&self, along: &Vector3<f64>) -> f64 {
+    fn extent(&self, along: &Vector3<f64>) -> f64 {
         let [low, high] = self.quantiles(along);
         high - low
     }

@@ -16,8 +16,6 @@ pub struct StationVerdicts {
     pub place: f64,
     /// One for each goal and each secondary surface.
     pub verdicts: Vec<Verdict>,
-    /// Rays cast.
-    pub rays: usize,
 }
 
 /// Shots at a station at most.
@@ -30,7 +28,6 @@ struct Open<'a> {
     station: &'a Station,
     counts: ViolationCounts,
     verdicts: Vec<Verdict>,
-    rays: usize,
 }
 
 impl StationVerdicts {
@@ -63,7 +60,6 @@ impl<'a> Open<'a> {
             station,
             counts: ViolationCounts::none(&station.scenario),
             verdicts: Vec::new(),
-            rays: 0,
         }
     }
 
@@ -77,7 +73,6 @@ impl<'a> Open<'a> {
             let impulses = LargestImpulses::of(scenario, settings, &set.jet.shots);
             let counts = impulses.counts(scenario, settings.speed);
             self.counts = self.counts.plus(&counts);
-            self.rays += impulses.rays();
         }
         self.verdicts = Verdict::on(scenario, &self.counts);
     }
@@ -91,7 +86,6 @@ impl<'a> Open<'a> {
         StationVerdicts {
             place,
             verdicts: verdicts.collect(),
-            rays: self.rays,
         }
     }
 }
@@ -103,9 +97,11 @@ impl StationVerdicts {
             let of_stations = stations.iter().flat_map(|station| &station.verdicts);
             let same = of_stations.filter(|it| it.subject == verdict.subject);
             same.fold(verdict, |worst, other| {
-                let is_worse =
-                    (other.violation(), other.share()) > (worst.violation(), worst.share());
-                if is_worse { *other } else { worst }
+                if other.is_worse_than(&worst) {
+                    *other
+                } else {
+                    worst
+                }
             })
         };
         whole.into_iter().map(worst).collect()

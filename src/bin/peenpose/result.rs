@@ -124,19 +124,13 @@ pub fn remove(folder: &Path, names: &[String]) -> Result<(), Failure> {
 pub fn add_reports(record: &Record, exposures: &[u32], staged: &mut Staged) -> Result<(), Failure> {
     let cannot = |error: std::io::Error| format!("cannot make the reports: {error}");
     let mut files = files(record).map_err(cannot)?;
-    if let (None, false) = (&record.stroke, exposures.is_empty()) {
-        return Err("--exposure is for strokes, and the problem has none"
-            .to_owned()
-            .into());
-    }
-    for (stroke, &exposure) in record
-        .stroke
-        .iter()
-        .flat_map(|it| exposures.iter().map(move |exposure| (it, exposure)))
-    {
-        if exposure > 1 {
+    if let Some(stroke) = &record.stroke {
+        for &exposure in exposures.iter().filter(|&&exposure| exposure > 1) {
             files.extend(program::files(stroke, exposure).map_err(cannot)?);
         }
+    } else if !exposures.is_empty() {
+        let fault = "--exposure is for strokes, and the problem has none";
+        return Err(fault.to_owned().into());
     }
     for (name, contents) in files {
         staged.add(&name, &contents);

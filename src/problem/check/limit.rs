@@ -80,6 +80,8 @@ impl Limit {
     pub const TURNS: Self = to(-6283.2, 6283.2, "an angle from -360000 deg to 360000 deg");
     pub const RPM: Self = to(1e-6, 1e6, "turns above 0 rpm, up to 1000000 rpm");
     pub const FEED: Self = to(1e-9, 1e3, "a speed above 0 mm/s, up to 1000 m/s");
+    pub const PASSES: Self = to(1.0, 1e4, "`auto`, or a whole number from 1 to 10000");
+    pub const RUN_OUT: Self = to(0.0, 1e3, "`auto`, or a length from 0 mm to 1000 m");
     const STEP: Self = to(1e-9, TAU + ROUNDING, "an angle above 0 deg, up to 360 deg");
     pub const IMPACTS: Self = to(1.0, 1000.0, "a whole number from 1 to 1000");
     pub const FRICTION: Self = to(0.0, 10.0, "a number from 0 to 10");

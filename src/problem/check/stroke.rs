@@ -8,6 +8,7 @@ use super::scope::Scope;
 use crate::problem::fault::one_of;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
+use crate::problem::file::Triple;
 use crate::problem::file::settings::OneOrMany;
 use crate::problem::file::stroke::{
     AlongEntry, AroundEntry, AxisEntry, Choice, StepsEntry, StrokeEntry,
@@ -105,7 +106,7 @@ fn along(
 
 fn points(
     scope: &Scope<'_>,
-    points: &[Field<crate::problem::file::Triple>],
+    points: &[Field<Triple>],
     coordinates: &Coordinates<'_>,
 ) -> Option<Vec<Point3<f64>>> {
     if points.len() < 2 {
@@ -259,112 +260,87 @@ fn steps(scope: &Scope<'_>, entry: &StepsEntry) -> Option<Vec<(Setting, f64)>> {
     Some(given.collect())
 }
 
-/// The value of a key that may be `auto`, by what it makes of a text; the outer `None` stands for a fault.
+/// The value of a key that may be `auto`, by what `read` makes of what is written: a number and what it may be; the outer
+/// `None` is a fault.
 #[expect(clippy::option_option, reason = "absent and faulty differ")]
-fn auto_or<T>(
+fn auto_or(
     scope: &Scope<'_>,
     name: &str,
     field: &Field<Choice>,
     expected: &str,
-    value: impl Fn(&Choice) -> Result<T, Option<crate::problem::fault::Fault>>,
-) -> Option<Option<T>> {
+    read: impl Fn(&Choice) -> Option<(f64, Limit)>,
+) -> Option<Option<f64>> {
     match field {
         Field::Missing => Some(None),
         Field::Faulty => None,
         Field::Present(Choice::Text(text)) if text == "auto" => Some(None),
-        Field::Present(choice) => match value(choice) {
-            Ok(value) => Some(Some(value)),
-            Err(fault) => {
-                let written = match choice {
-                    Choice::Text(text) => units::shortened(text),
-                    Choice::Number(number) => number.to_string(),
-                };
-                let unknown = || {
-                    let message = format!("`{written}` is not known here");
-                    scope
-                        .fault(FaultCode::UnknownWord, name, message)
-                        .expecting(expected)
-                };
-                scope.report(fault.unwrap_or_else(unknown));
-                None
+        Field::Present(choice) => {
+            if let Some((value, limit)) = read(choice) {
+                return scope.within(name, value, limit).map(Some);
             }
-        },
+            let written = match choice {
+                Choice::Text(text) => units::shortened(text),
+                Choice::Number(number) => number.to_string(),
+            };
+            let message = format!("`{written}` is not known here");
+            let fault = scope.fault(FaultCode::UnknownWord, name, message);
+            scope.report(fault.expecting(expected));
+            None
+        }
     }
 }
 
-#[allow(clippy::result_large_err, reason = "faults are rare")]
-fn feed(scope: &Scope<'_>, field: &Field<Choice>, is_straight: bool) -> Option<Feed> {
-    let expected = "`auto`, a speed such as `5 mm/s`, or for a part that turns `30 rpm`";
-    let feed = auto_or(scope, "feed", field, expected, |choice| {
-        let Choice::Text(text) = choice else {
-            return Err(None);
-        };
-        if let Some(number) = text.strip_suffix("rpm") {
-            let turns = units::parse_number(number.trim()).ok_or(None)?;
-            if is_straight {
-                let message = format!("`{}` needs an axis to turn about", units::shortened(text));
-                let fault = scope.fault(FaultCode::NoEffect, "feed", message);
-                return Err(Some(fault.expecting(
-                    "a speed such as `5 mm/s`, or `around` in place of the line",
-                )));
-            }
-            return match Limit::RPM.complaint(turns) {
-                None => Ok(Feed::Turns(turns / 60.0)),
-                Some((rule, complaint)) => {
-                    let message = format!("`{}` {complaint}", units::shortened(text));
-                    Err(Some(
-                        scope
-                            .fault(rule, "feed", message)
-                            .expecting(Limit::RPM.expected),
-                    ))
-                }
-            };
-        }
-        let speed = units::parse(Dimension::Speed, text).map_err(|_| None)?;
-        match Limit::FEED.complaint(speed) {
-            None => Ok(Feed::Speed(speed)),
-            Some((rule, complaint)) => {
-                let message = format!("`{}` {complaint}", units::shortened(text));
-                Err(Some(
-                    scope
-                        .fault(rule, "feed", message)
-                        .expecting(Limit::FEED.expected),
-                ))
-            }
-        }
-    })?;
-    Some(feed.unwrap_or(Feed::Auto))
+/// The turns of a part in a minute, where that is what is written.
+fn turns_per_minute(choice: &Choice) -> Option<f64> {
+    let Choice::Text(text) = choice else {
+        return None;
+    };
+    units::parse_number(text.strip_suffix("rpm")?.trim())
 }
 
-#[allow(clippy::result_large_err, reason = "faults are rare")]
-#[expect(clippy::option_option, reason = "absent and faulty differ")]
-fn passes(scope: &Scope<'_>, field: &Field<Choice>) -> Option<Option<u32>> {
-    let expected = "`auto`, or a whole number from 1 to 10000";
-    auto_or(scope, "passes", field, expected, |choice| match choice {
-        Choice::Number(number) if number.fract() == 0.0 && (1.0..=1e4).contains(number) => {
-            Ok(*number as u32)
-        }
-        _ => Err(None),
+/// A quantity, where that is what is written.
+fn quantity(choice: &Choice, dimension: Dimension) -> Option<f64> {
+    let Choice::Text(text) = choice else {
+        return None;
+    };
+    units::parse(dimension, text).ok()
+}
+
+fn feed(scope: &Scope<'_>, field: &Field<Choice>, is_straight: bool) -> Option<Feed> {
+    let expected = "`auto`, a speed such as `5 mm/s`, or for a part that turns `30 rpm`";
+    let turns = field.value().and_then(turns_per_minute);
+    if let (Some(Choice::Text(text)), Some(_), true) = (field.value(), turns, is_straight) {
+        let message = format!("`{}` needs an axis to turn about", units::shortened(text));
+        let fault = scope.fault(FaultCode::NoEffect, "feed", message);
+        scope.report(fault.expecting("a speed such as `5 mm/s`, or `around` in place of the line"));
+        return None;
+    }
+    let feed = auto_or(scope, "feed", field, expected, |choice| match turns {
+        Some(turns) => Some((turns, Limit::RPM)),
+        None => Some((quantity(choice, Dimension::Speed)?, Limit::FEED)),
+    })?;
+    Some(match (feed, turns) {
+        (None, _) => Feed::Auto,
+        (Some(per_minute), Some(_)) => Feed::Turns(per_minute / 60.0),
+        (Some(speed), None) => Feed::Speed(speed),
     })
 }
 
-#[allow(clippy::result_large_err, reason = "faults are rare")]
+#[expect(clippy::option_option, reason = "absent and faulty differ")]
+fn passes(scope: &Scope<'_>, field: &Field<Choice>) -> Option<Option<u32>> {
+    let expected = Limit::PASSES.expected;
+    let passes = auto_or(scope, "passes", field, expected, |choice| match choice {
+        Choice::Number(number) if number.fract() == 0.0 && (1.0..=1e4).contains(number) => {
+            Some((*number, Limit::PASSES))
+        }
+        _ => None,
+    })?;
+    Some(passes.map(|passes| passes as u32))
+}
+
 #[expect(clippy::option_option, reason = "absent and faulty differ")]
 fn run_out(scope: &Scope<'_>, field: &Field<Choice>) -> Option<Option<f64>> {
-    let expected = "`auto`, or a length from 0 mm to 1000 m";
-    auto_or(scope, "run_out", field, expected, |choice| {
-        let Choice::Text(text) = choice else {
-            return Err(None);
-        };
-        let length = units::parse(Dimension::Length, text).map_err(|_| None)?;
-        match Limit::LENGTH_OR_ZERO.complaint(length) {
-            None => Ok(length),
-            Some((rule, complaint)) => {
-                let message = format!("`{}` {complaint}", units::shortened(text));
-                Err(Some(
-                    scope.fault(rule, "run_out", message).expecting(expected),
-                ))
-            }
-        }
+    auto_or(scope, "run_out", field, Limit::RUN_OUT.expected, |choice| {
+        Some((quantity(choice, Dimension::Length)?, Limit::RUN_OUT))
     })
 }

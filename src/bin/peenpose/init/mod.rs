@@ -37,7 +37,7 @@ impl Template {
             Self::Keyway => include_str!("keyway.yaml"),
             Self::Mesh => include_str!("mesh.yaml"),
             Self::Plate => include_str!("plate.yaml"),
-            Self::Stroke => include_str!("stroke.yaml"),
+            Self::Stroke => include_str!("../../../../problems/keyway-stroke.yaml"),
         }
     }
 }

@@ -1,0 +1,310 @@
+//! A stroke cut into cells, and which settings pass at which of them.
+
+use rayon::prelude::*;
+
+use super::Segment;
+use crate::control::Control;
+use crate::evaluate::evaluate_adaptively;
+use crate::feasibility::infeasibility;
+use crate::jet::{ValidationSample, purpose};
+use crate::problem::setting::{Range, Setting, Settings};
+use crate::problem::stroke::{Hold, Stroke};
+use crate::scenario::{Scenario, Station};
+use crate::solve::answer::Answer;
+use crate::solve::{Status, Wanted, best_of};
+use crate::verdict::{StationVerdicts, Verdict};
+
+/// Settings, and at which cells they pass.
+#[derive(Clone)]
+pub struct Candidate {
+    settings: Settings,
+    /// The largest violation in each cell; at most 1 where all verdicts pass there.
+    violations: Vec<f64>,
+    pub status: Status,
+}
+
+impl Candidate {
+    fn passes(&self, cell: usize) -> bool {
+        self.violations[cell] <= 1.0
+    }
+
+    /// How far it passes from a cell on: the first cell at which it does not.
+    fn reach(&self, from: usize) -> usize {
+        let mut cells = from..self.violations.len();
+        cells
+            .find(|&cell| !self.passes(cell))
+            .unwrap_or(self.violations.len())
+    }
+}
+
+/// A stroke cut into cells.
+pub struct Cut<'a> {
+    scenario: &'a Scenario,
+    /// With the effects that are asked for.
+    asked: Scenario,
+    stroke: &'a Stroke,
+    control: &'a Control,
+    /// The ends of cells, one more than there are cells.
+    ends: Vec<f64>,
+    /// What is held all along has these values.
+    held: Settings,
+    /// Work done by searches of parts.
+    pub rays: usize,
+    /// See `rays`.
+    pub poses: usize,
+}
+
+/// Cells with the same settings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    from: usize,
+    /// The first cell behind it.
+    to: usize,
+    pub candidate: usize,
+}
+
+impl<'a> Cut<'a> {
+    pub fn new(
+        scenario: &'a Scenario,
+        stroke: &'a Stroke,
+        control: &'a Control,
+        held: Settings,
+    ) -> Self {
+        let places: Vec<f64> = scenario.stations.iter().map(|it| it.place).collect();
+        let between = places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        let ends = [-0.5].into_iter().chain(between).chain([0.5]).collect();
+        Self {
+            scenario,
+            asked: scenario.as_asked(),
+            stroke,
+            control,
+            ends,
+            held,
+            rays: 0,
+            poses: 0,
+        }
+    }
+
+    fn cells(&self) -> usize {
+        self.ends.len() - 1
+    }
+
+    /// The stroke from one cell to another, with what is held all along held.
+    fn part(&self, from: usize, to: usize) -> Scenario {
+        let mut part = self
+            .scenario
+            .part_of_stroke([self.ends[from], self.ends[to]], to - from + 1);
+        if let Hold::Some { settings, .. } = &self.stroke.hold {
+            let ranges = &mut part.problem.ranges;
+            for setting in settings {
+                ranges.set(*setting, Range::held(setting.of(&self.held)));
+            }
+        }
+        part
+    }
+
+    /// Settings rounded to what is worth programming.
+    fn rounded(&self, settings: &Settings) -> Settings {
+        let mut rounded = *settings;
+        let is_held = |setting: &Setting| match &self.stroke.hold {
+            Hold::All => true,
+            Hold::Some { settings, .. } => settings.contains(setting),
+        };
+        for &(setting, step) in &self.stroke.steps {
+            if let Some(range) = self.scenario.problem.ranges.range(setting)
+                && !is_held(&setting)
+            {
+                let value = (setting.of(settings) / step).round() * step;
+                rounded = setting.with(&rounded, value.clamp(range.min, range.max));
+            }
+        }
+        rounded
+    }
+
+    /// Where settings pass.
+    pub fn candidate(&self, settings: &Settings, status: Status) -> Candidate {
+        let settings = self.rounded(settings);
+        let mut places: Vec<f64> = self.ends.clone();
+        places.extend(self.scenario.stations.iter().map(|it| it.place));
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let stations: Vec<Station> = places
+            .par_iter()
+            .map(|&place| self.asked.station(place))
+            .collect();
+        let violations = violations_at(&stations, &self.asked, &settings);
+        let in_cell = |cell: usize| {
+            let pairs = places.iter().zip(&violations);
+            let inside =
+                pairs.filter(|(place, _)| (self.ends[cell]..=self.ends[cell + 1]).contains(*place));
+            inside.map(|(_, violation)| *violation).fold(0.0, f64::max)
+        };
+        Candidate {
+            settings,
+            violations: (0..self.cells()).map(in_cell).collect(),
+            status,
+        }
+    }
+
+    /// Searches a part of the stroke.
+    fn search(&mut self, from: usize, to: usize) -> Vec<Candidate> {
+        let part = self.part(from, to);
+        // What they come to is verified at all places of the cells.
+        let control = Control {
+            most_shots: self.control.most_shots.min(FEW_SHOTS),
+            validation_shots: self.control.first_validation_shots(),
+            ..self.control.clone()
+        };
+        let wanted = Wanted {
+            passing: true,
+            ablations: false,
+        };
+        let solution = best_of(&part, &control, wanted);
+        self.rays += solution.rays;
+        self.poses += solution.poses;
+        let answers = solution.answers.iter();
+        let fitting = answers.filter(|answer| answer.evaluation.is_some());
+        fitting
+            .map(|answer| self.candidate(&answer.settings, solution.status))
+            .collect()
+    }
+
+    /// Searches the cells at which no candidate passes.
+    pub fn fill(&mut self, candidates: &mut Vec<Candidate>) {
+        for cell in 0..self.cells() {
+            let is_passed = candidates.iter().any(|candidate| candidate.passes(cell));
+            if !is_passed && !self.control.is_stopped() {
+                candidates.extend(self.search(cell, cell + 1));
+            }
+        }
+    }
+
+    /// The fewest pieces: with one contact, if one of them passes everywhere.
+    pub fn cover(&self, candidates: &[Candidate]) -> Vec<Piece> {
+        let contacts = &self.scenario.problem.ranges.contact;
+        let with_one = contacts.iter().filter_map(|&contact| {
+            let pieces = self.pieces(candidates, |it| it.settings.contact == contact)?;
+            (failing(candidates, &pieces) == 0).then_some(pieces)
+        });
+        let fewest = with_one.min_by_key(Vec::len);
+        let holds_contact = matches!(self.stroke.hold, Hold::Some { contact: true, .. });
+        fewest
+            .or_else(|| {
+                holds_contact
+                    .then(|| self.least_failing(candidates))
+                    .flatten()
+            })
+            .or_else(|| self.pieces(candidates, |_| true))
+            .unwrap_or_default()
+    }
+
+    /// The pieces of the contact that fails at the fewest cells.
+    fn least_failing(&self, candidates: &[Candidate]) -> Option<Vec<Piece>> {
+        let contacts = self.scenario.problem.ranges.contact.iter();
+        let each = contacts
+            .filter_map(|&contact| self.pieces(candidates, |it| it.settings.contact == contact));
+        each.min_by_key(|pieces| failing(candidates, pieces))
+    }
+
+    /// The longest piece from each cell on; where nothing passes, the one with the least violation there.
+    fn pieces(
+        &self,
+        candidates: &[Candidate],
+        counts: impl Fn(&Candidate) -> bool,
+    ) -> Option<Vec<Piece>> {
+        let counted = || candidates.iter().enumerate().filter(|(_, it)| counts(it));
+        let mut pieces: Vec<Piece> = Vec::new();
+        let mut from = 0;
+        while from < self.cells() {
+            let farthest = counted().map(|(_, it)| it.reach(from)).max()?;
+            // Of those that reach as far the first one: searches rank them.
+            let (candidate, to) = if farthest > from {
+                let (index, _) = counted().find(|(_, it)| it.reach(from) == farthest)?;
+                (index, farthest)
+            } else {
+                let (index, _) = counted()
+                    .min_by(|(_, a), (_, b)| a.violations[from].total_cmp(&b.violations[from]))?;
+                (index, from + 1)
+            };
+            match pieces.last_mut() {
+                Some(last) if last.candidate == candidate => last.to = to,
+                _ => pieces.push(Piece {
+                    from,
+                    to,
+                    candidate,
+                }),
+            }
+            from = to;
+        }
+        Some(pieces)
+    }
+
+    /// Searches neighbouring pieces together, as settings that pass in both may be others than those of either.
+    pub fn merge(&mut self, candidates: &mut Vec<Candidate>, pieces: &mut Vec<Piece>) {
+        let mut index = 0;
+        while index + 1 < pieces.len() && !self.control.is_stopped() {
+            let (from, to) = (pieces[index].from, pieces[index + 1].to);
+            let found = self.search(from, to);
+            let fits = |it: &Candidate| it.reach(from) >= to;
+            candidates.extend(found.iter().cloned());
+            if found.iter().any(fits) {
+                *pieces = self.cover(candidates);
+                index = 0;
+            } else {
+                index += 1;
+            }
+        }
+        let again = self.cover(candidates);
+        if again.len() < pieces.len() {
+            *pieces = again;
+        }
+    }
+
+    /// The answers of pieces.
+    pub fn segments(&self, candidates: &[Candidate], pieces: &[Piece]) -> Vec<Segment> {
+        let validation = ValidationSample::new(
+            &self.scenario.problem,
+            purpose::ANSWERS,
+            self.control.first_validation_shots(),
+        );
+        let segment = |piece: &Piece| {
+            let part = self.part(piece.from, piece.to).as_asked();
+            let settings = candidates[piece.candidate].settings;
+            let evaluation = infeasibility(&part, &settings)
+                .is_none()
+                .then(|| evaluate_adaptively(&part, &settings, &validation));
+            Segment {
+                span: [self.ends[piece.from], self.ends[piece.to]],
+                answer: Answer::evaluated(&part, &settings, evaluation),
+            }
+        };
+        pieces.par_iter().map(segment).collect()
+    }
+}
+
+/// How many pieces fail.
+fn failing(candidates: &[Candidate], pieces: &[Piece]) -> usize {
+    let fails = |piece: &&Piece| candidates[piece.candidate].reach(piece.from) < piece.to;
+    pieces.iter().filter(fails).count()
+}
+
+/// Most shots at a pose of the search of a part.
+const FEW_SHOTS: usize = 1024;
+
+/// The largest violation of some settings at each station.
+fn violations_at(stations: &[Station], asked: &Scenario, settings: &Settings) -> Vec<f64> {
+    let fits = |station: &Station| infeasibility(&station.scenario, settings).is_none();
+    let fitting: Vec<bool> = stations.par_iter().map(fits).collect();
+    let pairs = stations.iter().zip(&fitting);
+    let open: Vec<&Station> = pairs
+        .filter_map(|(station, fits)| fits.then_some(station))
+        .collect();
+    let mut verdicts = StationVerdicts::at(&open, &asked.problem, settings).into_iter();
+    let violation = |fits: &bool| {
+        let at_station = fits.then(|| verdicts.next()).flatten();
+        at_station.map_or(f64::MAX, |station| {
+            Verdict::largest_violation(&station.verdicts)
+        })
+    };
+    fitting.iter().map(violation).collect()
+}
