@@ -24,14 +24,15 @@ pub fn block(record: &Record) -> Option<Block> {
     block.table(table);
     block.hanging("way        ", &way(stroke));
     block.hanging("feed       ", &feed(stroke));
-    if let Some(dented) = &stroke.dented {
+    if let Some((dented, coverage)) = stroke.dented.as_ref().zip(record.coverage.as_ref()) {
         block.hanging(
             "coverage   ",
             &format!(
-                "mean {}, least {}, most {} of the target dented, after {} kg of shot",
+                "mean {}, least {}, most {} dented over cells of {} mm, after {} kg of shot; COVERAGE looks more closely",
                 share(dented.mean),
                 share(dented.least),
                 share(dented.most),
+                significant(coverage.cell_side_m * 1e3, 2),
                 significant(dented.mass_kg, 3),
             ),
         );
