@@ -9,25 +9,27 @@
 
 mod dented;
 mod grid;
-
-use nalgebra::Point3;
-use rayon::prelude::*;
+mod hits;
+mod map;
 
 use crate::elementary::{exp_m1, ln_1p, square};
-use crate::jet::{Replicate, Replicates, ShotSample, purpose};
+use crate::jet::{Replicates, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Settings;
 use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
-use crate::trace::Tracer;
-use dented::Question;
 pub use dented::{Dented, Estimate};
+use dented::{DentedCells, Question};
 use grid::{Cell, Cells};
+pub use map::CoverageMap;
+use map::Unrolled;
 
 /// Shots behind the densities.
 const SHOTS: usize = 1 << 18;
 /// Cells into which a flat square target is cut.
 const CELLS: f64 = 64.0;
+/// The same for the target of a stroke, which is much larger than the spot.
+const CELLS_OF_STROKE: f64 = 1024.0;
 /// Into how many cells it is cut at most for the mean of what is dented, whose error falls with their size.
 const MOST_CELLS: f64 = 16_384.0;
 /// Cells that are hit have this many hits on average.
@@ -40,6 +42,8 @@ const LOWEST: f64 = 0.05;
 pub struct Coverage {
     /// What is wanted.
     pub wish: CoverageWish,
+    /// Diameter of the dent that has the mean area of all, m.
+    pub dent_diameter: f64,
     /// Shots behind it.
     pub shots: usize,
     /// Area of the target, m2.
@@ -62,8 +66,24 @@ pub struct Coverage {
     pub shots_per_kilogram: f64,
     /// Mass of shot per time, kg/s, where it is known.
     pub mass_flow: Option<f64>,
-    /// Area, m2, and first hits per shot and area, 1/m2, of each cell.
-    density_of_cells: Vec<(f64, f64)>,
+    /// The same on a map, for a stroke.
+    pub map: Option<CoverageMap>,
+    /// First hits per shot and area of each cell.
+    density_of_cells: Vec<Density>,
+    by_mass: DentedCells,
+}
+
+/// The share of the target that some mass of shot dents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DentedBy {
+    /// The mean over the target.
+    pub mean: Estimate,
+    /// Of the cell that is dented least; its resolution is not known.
+    pub least: f64,
+    /// Its standard error.
+    pub least_error: f64,
+    /// Of the cell that is dented most.
+    pub most: f64,
 }
 
 /// First hits per shot and area.
@@ -92,12 +112,24 @@ impl Coverage {
         }
         let samples = validation.sets.len();
         let (target, _) = scenario.target.cut_out(&scenario.scene);
-        let hits = hits(scenario, legs, &validation.sets);
-        let Cells { side, cells } = Cells::new(scenario, &target, CELLS, &hits);
+        let (hits, dent_diameter) = hits::fire(scenario, legs, &validation.sets, &wish.dent);
+        let layout = scenario.traverse.as_ref().map(|traverse| {
+            let unrolled = Unrolled::new(traverse, &target, &hits);
+            let numbers = unrolled.numbers(CELLS_OF_STROKE);
+            (unrolled, numbers)
+        });
+        let (looked_at, places) = match &layout {
+            Some((unrolled, numbers)) => unrolled.cells(*numbers),
+            None => (Cells::new(scenario, &target, CELLS, &hits), Vec::new()),
+        };
+        let (side, cells) = (looked_at.side, &looked_at.cells);
         let area: f64 = cells.iter().map(|cell| cell.area).sum();
         let whole = Cell {
             area,
-            hits: hits.iter().map(|hits| hits.len() as u32).collect(),
+            hits: hits
+                .iter()
+                .map(|hits| hits.iter().map(|hit| hit.weight).sum())
+                .collect(),
         };
         let shots = validation.shots();
         let mean = whole.density(shots);
@@ -118,26 +150,36 @@ impl Coverage {
         let shots_per_kilogram = 1.0 / (scenario.problem.shot.mass() * relative_mass);
         let question = Question {
             wanted: wish.wanted,
-            dent_diameter: wish.dent_diameter,
+            times: wish.times,
+            dent_diameter,
             shots,
             shots_per_kilogram,
-            even_mass: mass_until(&wish, mean, shots_per_kilogram),
+            even_mass: mass_until(&wish, dent_diameter, mean, shots_per_kilogram),
         };
         let hit: f64 = cells
             .iter()
-            .filter(|it| it.all_hits() > 0)
+            .filter(|it| it.all_hits() > 0.0)
             .map(|it| it.area)
             .sum();
         let hit_share = (hit / area).max(1.0 / CELLS);
         let count = match samples {
             1 => MOST_CELLS,
-            _ => (f64::from(whole.all_hits()) / HITS_IN_A_CELL / hit_share).clamp(1.0, MOST_CELLS),
+            _ => (whole.all_hits() / HITS_IN_A_CELL / hit_share).clamp(1.0, MOST_CELLS),
         };
-        let [fine, coarse] =
-            [count, count / 4.0].map(|count| Cells::new(scenario, &target, count, &hits));
-        let dented = Dented::of(&question, &fine, &coarse);
+        let fine_and_coarse = |numbers: [f64; 2]| match &layout {
+            Some((unrolled, _)) => numbers.map(|it| unrolled.cells(unrolled.numbers(it)).0),
+            None => numbers.map(|it| Cells::new(scenario, &target, it, &hits)),
+        };
+        let [fine, coarse] = fine_and_coarse([count, count / 4.0]);
+        let by_mass = DentedCells::new(&question, &fine, &coarse);
+        let dented = by_mass.dented(&question, &fine);
+        let map = layout
+            .as_ref()
+            .map(|(unrolled, numbers)| unrolled.map(*numbers, &looked_at, &places, shots));
         Some(Self {
+            map,
             wish,
+            dent_diameter,
             shots,
             area,
             cells: cells.len(),
@@ -153,35 +195,44 @@ impl Coverage {
             dented,
             shots_per_kilogram,
             mass_flow: scenario.problem.jet.mass_flow,
-            density_of_cells: cells
-                .iter()
-                .map(|cell| (cell.area, cell.density(shots).value))
-                .collect(),
+            density_of_cells: cells.iter().map(|cell| cell.density(shots)).collect(),
+            by_mass,
         })
     }
 
     /// Mass of shot, kg, until the wanted share of a place with some density is dented; `None`
     /// where nothing hits.
     pub fn mass_until_wanted(&self, density: Density) -> Option<f64> {
-        mass_until(&self.wish, density, self.shots_per_kilogram)
+        mass_until(
+            &self.wish,
+            self.dent_diameter,
+            density,
+            self.shots_per_kilogram,
+        )
     }
 
-    /// The share of the area that so much shot dents, kg: mean, least and most over the cells of the target.
-    pub fn dented_by(&self, mass: f64) -> [f64; 3] {
-        let dent = std::f64::consts::PI * square(self.wish.dent_diameter) / 4.0;
-        let share = |density: f64| -exp_m1(-dent * density * mass * self.shots_per_kilogram);
-        let cells = self.density_of_cells.iter();
-        let mean = cells
-            .clone()
-            .map(|(area, density)| area * share(*density))
-            .sum::<f64>()
-            / self.area;
-        let shares = || cells.clone().map(|(_, density)| share(*density));
-        [
-            mean,
-            shares().fold(1.0, f64::min),
-            shares().fold(0.0, f64::max),
-        ]
+    /// The share of an area with some density of first hits that a mass of shot dents, kg.
+    pub fn share_dented(&self, density: f64, mass: f64) -> f64 {
+        let dent = std::f64::consts::PI * square(self.dent_diameter) / 4.0;
+        -exp_m1(-dent * density * mass * self.shots_per_kilogram)
+    }
+
+    /// The share of the target that a mass of shot dents, kg.
+    pub fn dented_by(&self, mass: f64) -> DentedBy {
+        let cells = || self.density_of_cells.iter();
+        let by_density = |a: &&Density, b: &&Density| a.value.total_cmp(&b.value);
+        let share = |density: &Density| self.share_dented(density.value, mass);
+        let least = cells().min_by(by_density);
+        let dent = std::f64::consts::PI * square(self.dent_diameter) / 4.0;
+        let per_density = dent * mass * self.shots_per_kilogram;
+        DentedBy {
+            mean: self.by_mass.by(mass),
+            least: least.map_or(0.0, share),
+            least_error: least.map_or(0.0, |it| {
+                (1.0 - share(it)) * per_density * it.standard_error
+            }),
+            most: cells().max_by(by_density).map_or(0.0, share),
+        }
     }
 
     /// The time that takes, s; `None` also where the mass flow is not known.
@@ -190,32 +241,14 @@ impl Coverage {
     }
 }
 
-fn mass_until(wish: &CoverageWish, density: Density, shots_per_kilogram: f64) -> Option<f64> {
-    let dent = std::f64::consts::PI * square(wish.dent_diameter) / 4.0;
-    let hits_per_area = -ln_1p(-wish.wanted) / dent;
+fn mass_until(
+    wish: &CoverageWish,
+    dent_diameter: f64,
+    density: Density,
+    shots_per_kilogram: f64,
+) -> Option<f64> {
+    let dent = std::f64::consts::PI * square(dent_diameter) / 4.0;
+    let hits_per_area = -ln_1p(-wish.wanted) / dent * wish.times;
     let per_kilogram = density.value * shots_per_kilogram;
     (per_kilogram > 0.0).then(|| hits_per_area / per_kilogram)
-}
-
-/// Where the first hits of each sample are on the target.
-fn hits(scenario: &Scenario, legs: &[Leg], samples: &[Replicate]) -> Vec<Vec<Point3<f64>>> {
-    let mut scenario = scenario.clone();
-    scenario.problem.paths.impacts = 1;
-    let points = |sample: &Replicate| {
-        let of_leg = |leg: &Leg| -> Vec<Point3<f64>> {
-            let shots = sample
-                .jet
-                .shots
-                .iter()
-                .filter(|shot| legs.len() == 1 || std::ptr::eq(Leg::at(legs, shot.place), leg));
-            let shots: Vec<ShotSample> = shots.copied().collect();
-            let tracer = Tracer::new(&scenario, &leg.settings, leg.settings.speed);
-            let paths = tracer.paths(&shots);
-            let counted = paths.iter().flat_map(|path| &path.impacts);
-            let first = counted.filter(|impact| impact.number == 1 && impact.on_target);
-            first.map(|impact| impact.point).collect()
-        };
-        legs.iter().flat_map(of_leg).collect()
-    };
-    samples.par_iter().map(points).collect()
 }

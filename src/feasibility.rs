@@ -44,8 +44,11 @@ pub struct Gap {
 /// Of a stroke it is the worst of its stations.
 pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
     if !is_straight(scenario) {
-        let each = standing(scenario).filter_map(|scenario| infeasibility(scenario, settings));
-        return each.max_by(|a, b| a.violation.total_cmp(&b.violation));
+        return worst_standing(standing(scenario), settings);
+    }
+    let beyond = standing(scenario).filter(|it| it.in_run_out);
+    if let Some(infeasible) = worst_standing(beyond, settings) {
+        return Some(infeasible);
     }
     let pose = Pose::new(&scenario.target.frame, settings);
     let clearance = scenario.problem.nozzle.clearance;
@@ -86,6 +89,15 @@ fn is_straight(scenario: &Scenario) -> bool {
 /// Half the way of the nozzle, m; 0 for a spot.
 fn half_way(scenario: &Scenario) -> Vector3<f64> {
     scenario.sweep.unwrap_or_default()
+}
+
+/// Of nozzles that stand still, the one that is infeasible most.
+fn worst_standing<'a>(
+    scenarios: impl Iterator<Item = &'a Scenario>,
+    settings: &Settings,
+) -> Option<Infeasible> {
+    let each = scenarios.filter_map(|scenario| infeasibility(scenario, settings));
+    each.max_by(|a, b| a.violation.total_cmp(&b.violation))
 }
 
 /// A stroke at each of its stations.

@@ -15,6 +15,7 @@ use crate::problem::fault_code::FaultCode;
 use crate::problem::model::{Effect, Model};
 use crate::problem::part::{Part, Target};
 use crate::problem::setting::Settings;
+use crate::problem::stroke::WHOLE;
 use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
 use crate::scene::traverse::Traverse;
@@ -35,8 +36,13 @@ pub struct Scenario {
     pub traverse: Option<Arc<Traverse>>,
     /// Half the way of the nozzle, m, on a stroke on which it moves straight on and nothing turns.
     pub sweep: Option<Vector3<f64>>,
-    /// The same at each station of the stroke, where the nozzle stands still; none for a spot.
+    /// The same at each station of the stroke, where the nozzle stands still, and last at the far ends of a run-out that
+    /// is asked for; none for a spot.
     pub stations: Arc<[Station]>,
+    /// Whether the nozzle is in the run-out of a stroke: what the target receives there does not count.
+    pub in_run_out: bool,
+    /// How many places the run-out that is asked for goes on before the beginning and beyond the end.
+    run_out: [f64; 2],
 }
 
 /// A place of a stroke.
@@ -156,6 +162,7 @@ impl Scenario {
         let Some(traverse) = standing.traverse.take() else {
             return standing;
         };
+        standing.in_run_out = place.abs() > 0.5;
         standing.target.frame = traverse.frame_at(place);
         if let Some(turn) = traverse.turn_at(place) {
             let bodies = standing.problem.nozzle.body.iter_mut();
@@ -174,7 +181,8 @@ impl Scenario {
 
     /// The stations at which a stroke mostly fails first, by their numbers: its ends and its middle; none for a spot.
     pub fn ends_and_middle(&self) -> Vec<usize> {
-        match self.stations.len() {
+        let within = self.stations.iter().filter(|it| !it.scenario.in_run_out);
+        match within.count() {
             0 => Vec::new(),
             2 => vec![0, 1],
             stations => vec![0, stations / 2, stations - 1],
@@ -188,6 +196,12 @@ impl Scenario {
         if let (Some(traverse), Some(stroke)) = (&self.traverse, &mut part.problem.stroke) {
             let traverse = traverse.part(span);
             stroke.stations = stations + 1;
+            let scale = self.traverse.as_ref().map_or(1.0, |it| it.length()) / traverse.length();
+            let ends = [span[0] <= WHOLE[0], span[1] >= WHOLE[1]];
+            part.run_out = [0, 1].map(|end| match ends[end] {
+                true => self.run_out[end] * scale,
+                false => 0.0,
+            });
             part.target.frame = traverse.frame_at(0.0);
             part.traverse = Some(Arc::new(traverse));
         }
@@ -200,7 +214,11 @@ impl Scenario {
         };
         let last = (stroke.stations - 1) as f64;
         let places = (0..stroke.stations).map(|index| index as f64 / last - 0.5);
-        let stations = places.map(|place| self.station(place));
+        let [before, beyond] = self.run_out;
+        let far_ends = [WHOLE[0] - before, WHOLE[1] + beyond].into_iter();
+        let stations = places
+            .chain(far_ends.filter(|place| place.abs() > WHOLE[1]))
+            .map(|place| self.station(place));
         self.stations = stations.collect();
         self.sweep = self.traverse.as_ref().and_then(|it| it.sweep());
         self
@@ -255,8 +273,11 @@ impl Scenario {
         let traverse = stroke
             .map(|stroke| Traverse::find(&scene, &target, &problem, stroke))
             .transpose()?;
+        let mut run_out = 0.0;
         if let Some(traverse) = &traverse {
             target.frame = traverse.frame_at(0.0);
+            let asked = problem.stroke.as_ref().and_then(|it| it.run_out);
+            run_out = asked.map_or(0.0, |asked| traverse.places_in(asked));
         }
         let scenario = Self {
             problem,
@@ -266,6 +287,8 @@ impl Scenario {
             traverse: traverse.map(Arc::new),
             sweep: None,
             stations: Arc::new([]),
+            in_run_out: false,
+            run_out: [run_out; 2],
         };
         Ok(scenario.with_stations())
     }

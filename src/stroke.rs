@@ -3,5 +3,5 @@
 mod program;
 mod spot;
 
-pub use program::{Given, Program, Waypoint};
+pub use program::{Program, Waypoint};
 pub use spot::Spot;

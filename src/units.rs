@@ -37,6 +37,8 @@ pub enum Dimension {
     MassFlow,
     /// In Pa.
     Pressure,
+    /// Of Brinell, as a pressure in Pa.
+    Hardness,
     /// A percentage, as a fraction of 1.
     Fraction,
 }
@@ -114,6 +116,8 @@ const PRESSURES: &[Unit] = &[
     // A pound-force on a square inch.
     ("psi", Factor(POUND * 9.806_65 / (INCH * INCH))),
 ];
+/// A kilogram-force on a square millimetre.
+const HARDNESSES: &[Unit] = &[("HB", Factor(9.806_65e6)), ("HBW", Factor(9.806_65e6))];
 const FRACTIONS: &[Unit] = &[("%", Shift(-2))];
 
 // Signs in the place of units, which messages do not list.
@@ -135,7 +139,7 @@ const ANGLE_SIGNS: &[Unit] = &[
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Length,
         Self::Angle,
         Self::Speed,
@@ -143,6 +147,7 @@ impl Dimension {
         Self::Density,
         Self::MassFlow,
         Self::Pressure,
+        Self::Hardness,
         Self::Fraction,
     ];
 
@@ -156,6 +161,7 @@ impl Dimension {
             Self::Density => "density",
             Self::MassFlow => "mass flow",
             Self::Pressure => "pressure",
+            Self::Hardness => "hardness",
             Self::Fraction => "percentage",
         }
     }
@@ -170,6 +176,7 @@ impl Dimension {
             Self::Density => "a density such as `7000 kg/m3`",
             Self::MassFlow => "a mass flow such as `5 kg/min`",
             Self::Pressure => "a pressure such as `3 bar`",
+            Self::Hardness => "a hardness such as `300 HB`",
             Self::Fraction => "a percentage such as `5 %`",
         }
     }
@@ -188,6 +195,7 @@ impl Dimension {
             Self::Density => DENSITIES,
             Self::MassFlow => MASS_FLOWS,
             Self::Pressure => PRESSURES,
+            Self::Hardness => HARDNESSES,
             Self::Fraction => FRACTIONS,
         }
     }
@@ -227,6 +235,7 @@ impl Dimension {
             Self::Density => "kg/m3",
             Self::MassFlow => "kg/min",
             Self::Pressure => "bar",
+            Self::Hardness => "HB",
             Self::Fraction => "%",
         };
         match number.parse::<f64>() {

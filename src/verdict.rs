@@ -58,8 +58,28 @@ impl Verdict {
         Self::on(scenario, &ViolationCounts::of(evaluation))
     }
 
-    /// The same on what was counted.
+    /// The same on what was counted. In the run-out of a stroke the goals of the target do not count.
     pub fn on(scenario: &Scenario, counts: &ViolationCounts) -> Vec<Self> {
+        let mut verdicts = match scenario.in_run_out {
+            true => Vec::new(),
+            false => Self::on_target(scenario, counts),
+        };
+        for (index, (limits, &over)) in scenario.surfaces.iter().zip(&counts.over).enumerate() {
+            if limits.allow.is_some() && !limits.deflector {
+                verdicts.push(Self {
+                    subject: Subject::Surface(index as u32),
+                    broken: over,
+                    counted: counts.shots,
+                    allowed: limits.share,
+                    is_exact: counts.is_exact,
+                    place: None,
+                });
+            }
+        }
+        verdicts
+    }
+
+    fn on_target(scenario: &Scenario, counts: &ViolationCounts) -> Vec<Self> {
         let goals = &scenario.problem.goals;
         let is_exact = counts.is_exact;
         let mut verdicts = vec![
@@ -89,18 +109,6 @@ impl Verdict {
                 is_exact,
                 place: None,
             });
-        }
-        for (index, (limits, &over)) in scenario.surfaces.iter().zip(&counts.over).enumerate() {
-            if limits.allow.is_some() && !limits.deflector {
-                verdicts.push(Self {
-                    subject: Subject::Surface(index as u32),
-                    broken: over,
-                    counted: counts.shots,
-                    allowed: limits.share,
-                    is_exact,
-                    place: None,
-                });
-            }
         }
         verdicts
     }

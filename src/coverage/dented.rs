@@ -41,6 +41,8 @@ pub struct Estimate {
 pub(super) struct Question {
     /// Share of the area that is to be dented.
     pub wanted: f64,
+    /// How many times the mass until then is wanted.
+    pub times: f64,
     /// Diameter of a dent, m.
     pub dent_diameter: f64,
     /// Shots behind the hits.
@@ -63,18 +65,39 @@ const OFF_BY_CELLS: f64 = 2.0;
 /// Half the step in the logarithm of a mass over which coverage is differentiated.
 const STEP: f64 = 0.01;
 
-impl Dented {
-    /// From hits in small cells, and in some of twice their side.
-    pub(super) fn of(question: &Question, fine: &Cells, coarse: &Cells) -> Self {
+/// Hits in small cells, and in some of twice their side.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct DentedCells {
+    small: Sums,
+    large: Sums,
+}
+
+impl DentedCells {
+    pub fn new(question: &Question, fine: &Cells, coarse: &Cells) -> Self {
         let [small, large] = [fine, coarse].map(|cells| Sums::new(question, cells));
-        let by_even_mass = question.even_mass.map(|mass| small.dented(mass, &large));
-        Self {
+        Self { small, large }
+    }
+
+    /// What a mass of shot dents, kg.
+    pub fn by(&self, mass: f64) -> Estimate {
+        self.small.dented(mass, &self.large)
+    }
+
+    pub fn dented(&self, question: &Question, fine: &Cells) -> Dented {
+        let Self { small, large } = self;
+        let many_times = |it: Estimate| Estimate {
+            value: it.value * question.times,
+            standard_error: it.standard_error * question.times,
+            resolution: it.resolution * question.times,
+        };
+        Dented {
             cells: fine.cells.len(),
             side: fine.side,
-            by_even_mass,
+            by_even_mass: question.even_mass.map(|mass| self.by(mass)),
             mass: question
                 .even_mass
-                .and_then(|mass| small.mass(question.wanted, mass, &large)),
+                .and_then(|mass| small.mass(question.wanted, mass, large))
+                .map(many_times),
             share_not_reached: small.not_reached,
             not_reached_resolution: OFF_BY_CELLS * (large.not_reached - small.not_reached).abs(),
         }
@@ -82,6 +105,7 @@ impl Dented {
 }
 
 /// Cells that are hit, ready for coverage at any mass of shot.
+#[derive(Clone, Debug, PartialEq)]
 struct Sums {
     cells: Vec<Hit>,
     /// Share of the area in cells without a hit.
@@ -92,6 +116,7 @@ struct Sums {
 }
 
 /// A cell that is hit.
+#[derive(Clone, Debug, PartialEq)]
 struct Hit {
     /// Share of the target's area.
     share: f64,
@@ -100,20 +125,20 @@ struct Hit {
     /// Of all samples.
     hits: f64,
     /// Of each sample.
-    by_sample: Vec<u32>,
+    by_sample: Vec<f64>,
 }
 
 impl Sums {
     fn new(question: &Question, cells: &Cells) -> Self {
         let area: f64 = cells.cells.iter().map(|cell| cell.area).sum();
         let (hit, bare): (Vec<&Cell>, Vec<&Cell>) =
-            cells.cells.iter().partition(|cell| cell.all_hits() > 0);
+            cells.cells.iter().partition(|cell| cell.all_hits() > 0.0);
         let samples = cells.cells.first().map_or(1, |cell| cell.hits.len());
         let dent = PI * question.dent_diameter * question.dent_diameter / 4.0;
         let of = |cell: &Cell| Hit {
             share: cell.area / area,
             area: cell.area,
-            hits: f64::from(cell.all_hits()),
+            hits: cell.all_hits(),
             by_sample: cell.hits.clone(),
         };
         Self {
@@ -139,7 +164,7 @@ impl Sums {
         let without = |sample: usize| {
             let each = self.cells.iter();
             each.map(|cell| {
-                let hits = cell.hits - f64::from(cell.by_sample[sample]);
+                let hits = cell.hits - cell.by_sample[sample];
                 -cell.share * exp_m1(-hits * scale / cell.area)
             })
             .sum()
@@ -233,7 +258,7 @@ mod tests {
     fn cells(side: f64, each: &[u32]) -> Cells {
         let cell = |&hits: &u32| Cell {
             area: side * side,
-            hits: vec![hits; SAMPLES],
+            hits: vec![f64::from(hits); SAMPLES],
         };
         Cells {
             side,
@@ -244,13 +269,10 @@ mod tests {
     /// Shots of 1 kg with dents of 1 m2; this many of them behind the hits.
     fn question(wanted: f64, shots: usize, cells: &Cells) -> Question {
         let area: f64 = cells.cells.iter().map(|cell| cell.area).sum();
-        let hits: f64 = cells
-            .cells
-            .iter()
-            .map(|cell| f64::from(cell.all_hits()))
-            .sum();
+        let hits: f64 = cells.cells.iter().map(Cell::all_hits).sum();
         Question {
             wanted,
+            times: 1.0,
             dent_diameter: (4.0 / PI).sqrt(),
             shots,
             shots_per_kilogram: 1.0,
@@ -258,10 +280,14 @@ mod tests {
         }
     }
 
+    fn found(question: &Question, fine: &Cells, coarse: &Cells) -> Dented {
+        DentedCells::new(question, fine, coarse).dented(question, fine)
+    }
+
     #[test]
     fn what_is_dented_is_the_mean_of_its_cells() {
         let uneven = cells(1.0, &[100, 100, 50, 0]);
-        let dented = Dented::of(&question(0.7, 32_000, &uneven), &uneven, &uneven);
+        let dented = found(&question(0.7, 32_000, &uneven), &uneven, &uneven);
         // A kilogram brings 0.1, 0.1, 0.05 and 0 hits into the cells; evenly 19.26 kg were enough.
         let after = |mass: f64| {
             let parts = [0.1, 0.1, 0.05, 0.0].map(|hits: f64| 1.0 - (-hits * mass).exp());
@@ -278,13 +304,13 @@ mod tests {
         assert!((after(mass.value) - 0.7).abs() < 1e-9 && mass.value > 1.5 * even_mass);
         assert_eq!((dented.share_not_reached, mass.resolution), (0.25, 0.0));
         for (wanted, is_reached) in [(0.74, true), (0.7499, true), (0.7501, false), (0.99, false)] {
-            let dented = Dented::of(&question(wanted, 32_000, &uneven), &uneven, &uneven);
+            let dented = found(&question(wanted, 32_000, &uneven), &uneven, &uneven);
             assert_eq!(dented.mass.is_some(), is_reached, "{wanted}");
             let mass = dented.mass.map_or(wanted, |mass| after(mass.value));
             assert!((mass - wanted).abs() < 1e-9);
         }
         let bare = cells(1.0, &[0, 0]);
-        let dented = Dented::of(&question(0.7, 32_000, &bare), &bare, &bare);
+        let dented = found(&question(0.7, 32_000, &bare), &bare, &bare);
         assert_eq!((dented.by_even_mass, dented.mass), (None, None));
         assert_eq!(dented.share_not_reached, 1.0);
     }
@@ -306,10 +332,10 @@ mod tests {
             let mut random_hits = cells(1.0, &vec![0; count]);
             for shot in 0..count * per_cell {
                 let cell = (random() * count as f64) as usize;
-                random_hits.cells[cell].hits[shot % SAMPLES] += 1;
+                random_hits.cells[cell].hits[shot % SAMPLES] += 1.0;
             }
             let question = question(0.95, count * per_cell, &random_hits);
-            let dented = Dented::of(&question, &random_hits, &random_hits);
+            let dented = found(&question, &random_hits, &random_hits);
             let by_even_mass = dented.by_even_mass.unwrap();
             offs.push([by_even_mass.value - 0.95, by_even_mass.standard_error]);
         }

@@ -6,6 +6,7 @@ use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
 use super::Density;
+use super::hits::FirstHit;
 use crate::elementary::square;
 use crate::scenario::Scenario;
 use crate::scene::patch::{Frame, Triangle};
@@ -27,8 +28,8 @@ pub(super) struct Cells {
 pub(super) struct Cell {
     /// m2.
     pub area: f64,
-    /// First hits of each sample.
-    pub hits: Vec<u32>,
+    /// First hits of each sample, each by the area of its dent over the mean.
+    pub hits: Vec<f64>,
 }
 
 impl Cells {
@@ -38,21 +39,21 @@ impl Cells {
         scenario: &Scenario,
         target: &[Triangle],
         count: f64,
-        hits: &[Vec<Point3<f64>>],
+        hits: &[Vec<FirstHit>],
     ) -> Self {
         let grid = Grid::of(scenario, target, count);
         let areas = grid.areas(target);
         let (cell_at, mut cells) = grid.cells(&areas);
-        let counted = hits.par_iter().map(|points| {
-            let mut counts = vec![0; cells.len()];
-            for point in points {
-                if let Some(cell) = grid.cell_of(point, &cell_at, &areas) {
-                    counts[cell] += 1;
+        let counted = hits.par_iter().map(|hits| {
+            let mut counts = vec![0.0; cells.len()];
+            for hit in hits {
+                if let Some(cell) = grid.cell_of(&hit.point, &cell_at, &areas) {
+                    counts[cell] += hit.weight;
                 }
             }
             counts
         });
-        let counted: Vec<Vec<u32>> = counted.collect();
+        let counted: Vec<Vec<f64>> = counted.collect();
         for (index, cell) in cells.iter_mut().enumerate() {
             cell.hits = counted.iter().map(|counts| counts[index]).collect();
         }
@@ -64,14 +65,14 @@ impl Cells {
 }
 
 impl Cell {
-    pub fn all_hits(&self) -> u32 {
+    pub fn all_hits(&self) -> f64 {
         self.hits.iter().sum()
     }
 
     pub fn density(&self, shots: usize) -> Density {
         let samples = self.hits.len() as f64;
-        let mean = f64::from(self.all_hits()) / samples;
-        let squares: f64 = self.hits.iter().map(|&n| square(f64::from(n) - mean)).sum();
+        let mean = self.all_hits() / samples;
+        let squares: f64 = self.hits.iter().map(|&n| square(n - mean)).sum();
         // Of the sum over all samples; one sample of the only shot there is has no error.
         let error = (squares * samples / (samples - 1.0).max(1.0)).sqrt();
         let per_hit = 1.0 / (shots as f64 * self.area);
@@ -89,10 +90,10 @@ struct Grid {
     side: f64,
 }
 
-type Place = [i64; 3];
+pub(super) type Place = [i64; 3];
 
 /// A convex polygon in units of the grid.
-type Polygon = Vec<[f64; 3]>;
+pub(super) type Polygon = Vec<[f64; 3]>;
 
 impl Grid {
     fn of(scenario: &Scenario, target: &[Triangle], count: f64) -> Self {
@@ -124,16 +125,10 @@ impl Grid {
     /// The area of the target in each cell, m2: triangles are cut along the faces of cells.
     fn areas(&self, target: &[Triangle]) -> BTreeMap<Place, f64> {
         let mut areas = BTreeMap::new();
-        let whole = target.iter();
-        let mut pieces: Vec<Polygon> = whole
-            .map(|corners| corners.iter().map(|corner| self.steps(corner)).collect())
-            .collect();
-        while let Some(piece) = pieces.pop() {
-            if let Some((axis, at)) = face_through(&piece) {
-                pieces.extend([1.0, -1.0].map(|side| half(&piece, axis, at, side)));
-            } else if piece.len() > 2 {
-                let area = area(&piece) * self.side * self.side;
-                *areas.entry(place(&centre(&piece))).or_insert(0.0) += area;
+        for corners in target {
+            let polygon = corners.iter().map(|corner| self.steps(corner)).collect();
+            for (place, area) in self::areas(polygon) {
+                *areas.entry(place).or_insert(0.0) += area * self.side * self.side;
             }
         }
         areas
@@ -187,6 +182,19 @@ impl Grid {
         };
         own.or_else(largest).copied()
     }
+}
+
+/// The parts of a polygon in cells of side 1: where each is, and its area.
+pub(super) fn areas(polygon: Polygon) -> Vec<(Place, f64)> {
+    let (mut found, mut pieces) = (Vec::new(), vec![polygon]);
+    while let Some(piece) = pieces.pop() {
+        if let Some((axis, at)) = face_through(&piece) {
+            pieces.extend([1.0, -1.0].map(|side| half(&piece, axis, at, side)));
+        } else if piece.len() > 2 {
+            found.push((place(&centre(&piece)), area(&piece)));
+        }
+    }
+    found
 }
 
 /// A face between cells that runs through a polygon, by its axis and its place there.

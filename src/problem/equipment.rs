@@ -2,6 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 
+use crate::elementary::square;
 use crate::impact::{Contact, Sphere};
 use crate::problem::fault::Fault;
 use crate::problem::fault_code::FaultCode;
@@ -72,10 +73,59 @@ impl Calibration {
 /// What is to be said about coverage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoverageWish {
-    /// Diameter of the dent that one hit leaves, m.
-    pub dent_diameter: f64,
+    /// The dent that one hit leaves.
+    pub dent: Dent,
     /// Share of the target's area that is to be dented; below 1.
     pub wanted: f64,
+    /// How many times the mass of shot until then is to be fired: 2 for a wanted coverage of 200 %.
+    pub times: f64,
+}
+
+/// Share that counts as full coverage, of which more than 100 % are multiples (SAE J2277).
+pub const FULL: f64 = 0.98;
+
+/// The dent that one hit leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dent {
+    /// The same for every hit.
+    Diameter(f64),
+    /// As one that was measured, m, at a normal speed, m/s: it grows with the root of the normal speed and with the shot.
+    Measured {
+        /// Its diameter, m.
+        diameter: f64,
+        /// Normal speed of the hit that left it, m/s.
+        normal_speed: f64,
+    },
+    /// From the target's dynamic hardness, Pa: the work of the hit over it is the volume of the dent.
+    Hardness(f64),
+}
+
+/// What (d/D)^4 is of rho v_n^2 (1 - E^2) / B for the cap of a ball: a volume of pi d^4 / 32 D.
+const CAP: f64 = 8.0 / 3.0;
+
+impl Dent {
+    /// Diameter of the dent of a shot, m, from its own diameter, m, its density, kg/m3, the restitution and the normal
+    /// speed, m/s, of its hit. Of a measured dent only the ratio of the shot's diameter to that of the mean shot counts.
+    pub fn diameter(
+        &self,
+        shot: &Shot,
+        relative_size: f64,
+        restitution: f64,
+        normal_speed: f64,
+    ) -> f64 {
+        match *self {
+            Self::Diameter(diameter) => diameter,
+            Self::Measured {
+                diameter,
+                normal_speed: reference,
+            } => diameter * relative_size * (normal_speed / reference).sqrt(),
+            Self::Hardness(hardness) => {
+                let lost = 1.0 - square(restitution);
+                let ratio = CAP * shot.density * square(normal_speed) * lost / hardness;
+                2.0 * shot.radius * relative_size * ratio.sqrt().sqrt()
+            }
+        }
+    }
 }
 
 /// How directions fill the cone of the jet.

@@ -134,6 +134,11 @@ pub(super) struct MassFlow(pub f64);
 #[serde(rename = "pressure")]
 pub(super) struct Pressure(pub f64);
 
+/// A hardness, such as `300 HB`; here in Pa.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename = "hardness")]
+pub(super) struct Hardness(pub f64);
+
 /// A percentage, such as `5 %`; here as a fraction of 1.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename = "percentage")]
@@ -173,6 +178,7 @@ quantities! {
     Density: Density,
     MassFlow: MassFlow,
     Pressure: Pressure,
+    Hardness: Hardness,
     Percentage: Fraction,
 }
 

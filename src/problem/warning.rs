@@ -3,6 +3,7 @@
 use super::Problem;
 use super::fault::Span;
 use super::source::Source;
+use super::stroke::Feed;
 pub use super::warning_code::WarningCode;
 use crate::digits::plain;
 use crate::elementary::sin;
@@ -65,6 +66,7 @@ pub fn warnings(problem: &Problem) -> Vec<Warning> {
         density(problem),
         size(problem),
         exit(problem),
+        feed(problem),
     ]
     .into_iter()
     .flatten()
@@ -261,6 +263,24 @@ fn exit(problem: &Problem) -> Option<Warning> {
                 short(shot * 1e3)
             ),
             "give the diameter of the exit and the radius of the shot",
+        )
+    })
+}
+
+fn feed(problem: &Problem) -> Option<Warning> {
+    let stroke = problem.stroke.as_ref()?;
+    let missing = match (problem.coverage.is_some(), problem.jet.mass_flow.is_some()) {
+        (true, true) => return None,
+        (false, true) => "coverage",
+        (true, false) => "jet.mass_flow",
+        (false, false) => "coverage and jet.mass_flow",
+    };
+    (stroke.feed == Feed::Auto).then(|| {
+        Warning::new(
+            WarningCode::FeedUnknown,
+            "stroke",
+            "nothing tells how fast the nozzle may travel: the answer will have no feed",
+            format!("give {missing}, or a `feed`"),
         )
     })
 }

@@ -26,6 +26,8 @@ listed! {
         Dust,
         /// Shot as large as balls.
         Balls,
+        /// A stroke whose feed nothing tells.
+        FeedUnknown,
         /// The shot does not fit through the exit.
         ExitTooSmall,
         /// The part with the target is smaller than the shot.

@@ -3,15 +3,22 @@
 use serde::{Deserialize, Serialize};
 
 use crate::coverage::{Coverage, Density, Dented, Estimate};
+use crate::problem::equipment::Dent;
 
 /// How densely first hits fall on the target, and how much it takes until it is dented; the nozzle
 /// stands still.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoverageRecord {
-    /// Diameter of the dent that one hit leaves, m.
+    /// Diameter of the dent that one hit leaves, m; of the one with the mean area where hits leave different ones.
     pub dent_diameter_m: f64,
+    /// Where the dents come from, where they are not the same for every hit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dents_from: Option<DentsFromRecord>,
     /// Share of the area that is to be dented.
     pub wanted: f64,
+    /// How many times the shot until then is to be fired: masses and times are those of so many.
+    #[serde(default = "once", skip_serializing_if = "is_once")]
+    pub wanted_times: f64,
     /// Shots behind it.
     pub shots: usize,
     /// Area of the target, m2.
@@ -35,6 +42,53 @@ pub struct CoverageRecord {
     pub shots_per_kg: f64,
     /// Mass of shot per time, kg/s; absent where it is not known.
     pub mass_flow_kg_s: Option<f64>,
+}
+
+fn once() -> f64 {
+    1.0
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde asks for a reference"
+)]
+fn is_once(times: &f64) -> bool {
+    *times == 1.0
+}
+
+/// Where dents of different sizes come from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DentsFromRecord {
+    /// From one that was measured.
+    Measured {
+        /// Its diameter, m.
+        diameter_m: f64,
+        /// Normal speed of the hit that left it, m/s.
+        normal_speed_m_s: f64,
+    },
+    /// From the target's hardness.
+    Hardness {
+        /// Dynamic hardness, Pa.
+        #[serde(rename = "hardness_Pa")]
+        hardness: f64,
+    },
+}
+
+impl DentsFromRecord {
+    fn new(dent: &Dent) -> Option<Self> {
+        match *dent {
+            Dent::Diameter(_) => None,
+            Dent::Measured {
+                diameter,
+                normal_speed,
+            } => Some(Self::Measured {
+                diameter_m: diameter,
+                normal_speed_m_s: normal_speed,
+            }),
+            Dent::Hardness(hardness) => Some(Self::Hardness { hardness }),
+        }
+    }
 }
 
 /// What is dented of the target: the mean over its cells, not what the mean density would dent.
@@ -65,6 +119,16 @@ pub struct EstimateRecord {
     pub resolution: f64,
 }
 
+impl EstimateRecord {
+    pub(super) fn new(it: Estimate) -> Self {
+        Self {
+            value: it.value,
+            standard_error: it.standard_error,
+            resolution: it.resolution,
+        }
+    }
+}
+
 /// First hits per area, and what it takes until the wanted share is dented with this many.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DensityRecord {
@@ -88,8 +152,10 @@ impl CoverageRecord {
         };
         let mass_kg = coverage.dented.mass.map(|mass| mass.value);
         Self {
-            dent_diameter_m: coverage.wish.dent_diameter,
+            dent_diameter_m: coverage.dent_diameter,
+            dents_from: DentsFromRecord::new(&coverage.wish.dent),
             wanted: coverage.wish.wanted,
+            wanted_times: coverage.wish.times,
             shots: coverage.shots,
             area_m2: coverage.area,
             cells: coverage.cells,
@@ -116,11 +182,7 @@ impl CoverageRecord {
 
 impl DentedRecord {
     fn new(dented: &Dented, even_mass_kg: Option<f64>) -> Self {
-        let estimate = |it: Estimate| EstimateRecord {
-            value: it.value,
-            standard_error: it.standard_error,
-            resolution: it.resolution,
-        };
+        let estimate = EstimateRecord::new;
         Self {
             cells: dented.cells,
             cell_side_m: dented.side,

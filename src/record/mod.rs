@@ -22,7 +22,7 @@ mod window;
 pub use answer::{
     AnswerRecord, ContactRecord, ObjectiveRecord, PoseRecord, SettingsRecord, VerdictRecord,
 };
-pub use coverage::{CoverageRecord, DensityRecord, DentedRecord, EstimateRecord};
+pub use coverage::{CoverageRecord, DensityRecord, DentedRecord, DentsFromRecord, EstimateRecord};
 pub use evidence::{
     AxisRecord, BodyRecord, CellRecord, EvidenceRecord, FrameRecord, HitsRecord, MapRecord,
     PathImpactRecord, PathRecord, PlaceRecord, ReboundsRecord, RoleRecord, SurfaceShapeRecord,
@@ -36,7 +36,8 @@ pub use model::{EffectRecord, ModelRecord};
 pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use receipt::{ReceiptRecord, SpreadRecord, TargetRecord};
 pub use stroke::{
-    SegmentRecord, SpotRecord, StationRecord, StrokeDentedRecord, StrokeRecord, WaypointRecord,
+    DentedMapRecord, SegmentRecord, SpotRecord, StationRecord, StrokeDentedRecord, StrokeRecord,
+    TurnAxisRecord, WaypointRecord,
 };
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::answer::{PoseRecord, SettingsRecord, VerdictRecord};
-use crate::problem::stroke::Leg;
+use crate::problem::stroke::{Leg, Line};
 use crate::scenario::Scenario;
 use crate::solve::Answer;
 use crate::stroke::{Program, Spot};
@@ -42,6 +42,12 @@ pub struct StrokeRecord {
     /// What all passes together dent; absent where the feed or the dent is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dented: Option<StrokeDentedRecord>,
+    /// The same on a map.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dented_map: Option<DentedMapRecord>,
+    /// The axis round which the part turns; absent for a line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<TurnAxisRecord>,
 }
 
 /// A piece of a stroke with the same settings.
@@ -86,10 +92,41 @@ pub struct StrokeDentedRecord {
     pub mass_kg: f64,
     /// Mean share of the area.
     pub mean: f64,
+    /// Its standard error.
+    #[serde(default)]
+    pub mean_standard_error: f64,
+    /// Bound of its error by the size of cells.
+    #[serde(default)]
+    pub mean_resolution: f64,
     /// The least share, of the cells of the target.
     pub least: f64,
+    /// Its standard error.
+    #[serde(default)]
+    pub least_standard_error: f64,
     /// The largest.
     pub most: f64,
+}
+
+/// A map of what a stroke dents, unrolled where it goes round an axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DentedMapRecord {
+    /// Where its first cell begins: along the stroke from its beginning, and across it, m.
+    pub corner_m: [f64; 2],
+    /// Sides of a cell, along and across, m.
+    pub sides_m: [f64; 2],
+    /// Cells along the stroke.
+    pub columns: usize,
+    /// Share that is dented of each, row by row from the lowest place across; nothing beside the target.
+    pub dented: Vec<Option<f32>>,
+}
+
+/// The axis round which a part turns.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TurnAxisRecord {
+    /// A point of it, m.
+    pub through_m: [f64; 3],
+    /// Unit vector along it.
+    pub axis: [f64; 3],
 }
 
 /// Where first hits fall while the nozzle stands still.
@@ -110,6 +147,27 @@ impl SpotRecord {
             width_m: spot.width,
             share_of_target: spot.share_of_target,
         }
+    }
+}
+
+impl DentedMapRecord {
+    fn new(program: &Program) -> Option<Self> {
+        let coverage = program.coverage.as_ref()?;
+        let map = coverage.map.as_ref()?;
+        let (mass, _) = program.dented?;
+        let share = |density: f64| coverage.share_dented(density, mass) as f32;
+        // Four digits are enough for a picture.
+        let short = |share: f32| (share * 1e4).round() / 1e4;
+        Some(Self {
+            corner_m: map.corner,
+            sides_m: map.sides,
+            columns: map.columns,
+            dented: map
+                .density
+                .iter()
+                .map(|density| density.map(|it| short(share(it))))
+                .collect(),
+        })
     }
 }
 
@@ -153,12 +211,23 @@ impl StrokeRecord {
             turns_per_s,
             time_s: program.time(),
             missing: program.missing.iter().map(|&key| key.to_owned()).collect(),
-            dented: program.dented.map(|given| StrokeDentedRecord {
-                mass_kg: given.mass,
-                mean: given.mean,
-                least: given.least,
-                most: given.most,
+            dented: program.dented.map(|(mass_kg, dented)| StrokeDentedRecord {
+                mass_kg,
+                mean: dented.mean.value,
+                mean_standard_error: dented.mean.standard_error,
+                mean_resolution: dented.mean.resolution,
+                least: dented.least,
+                least_standard_error: dented.least_error,
+                most: dented.most,
             }),
+            dented_map: DentedMapRecord::new(program),
+            axis: match &scenario.problem.stroke.as_ref()?.line {
+                Line::Around(helix) => Some(TurnAxisRecord {
+                    through_m: helix.through.coords.into(),
+                    axis: helix.axis.into(),
+                }),
+                Line::Straight(_) | Line::Points(_) => None,
+            },
         })
     }
 

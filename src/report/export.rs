@@ -1,5 +1,6 @@
 //! Scene, nozzle, paths and hits for other programs. Lengths are in m everywhere.
 
+mod animation;
 mod glb;
 mod piece;
 mod ply;
@@ -7,12 +8,14 @@ mod vtk;
 
 use std::io;
 
+use super::motion::stops;
 use crate::record::Record;
+use animation::Motion;
 
 /// A file format of other programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// glTF 2.0 in one binary file: surfaces, nozzle, paths and hits, each by its name.
+    /// glTF 2.0 in one binary file: surfaces, nozzle, paths and hits, each by its name; on a stroke the nozzle travels.
     Glb,
     /// The legacy format of VTK as text: the same as poly data; `piece` numbers the names in
     /// `piece_names`, `normal_impulse_N_s` is N* of a hit and 0 elsewhere.
@@ -49,7 +52,10 @@ pub fn export(record: &Record, format: Format) -> Option<io::Result<Vec<u8>>> {
     let evidence = record.evidence.as_ref()?;
     let pieces = piece::all(evidence, record.best.pose.exit_m);
     Some(match format {
-        Format::Glb => glb::write(&pieces),
+        Format::Glb => {
+            let feed = record.stroke.as_ref().and_then(|stroke| stroke.feed_m_s);
+            glb::write(&pieces, Motion::new(stops(record), feed).as_ref())
+        }
         Format::Vtk => Ok(vtk::write(&pieces)),
         Format::Ply => Ok(ply::write(&pieces)),
     })

@@ -25,7 +25,7 @@ pub fn names() -> impl Iterator<Item = String> {
         MAPS[1],
         "trade_off",
     ];
-    const FIGURES: [&str; 4] = ["hits", MAPS[0], MAPS[1], "trade_off"];
+    const FIGURES: [&str; 5] = ["stroke", "hits", MAPS[0], MAPS[1], "trade_off"];
     let tables = TABLES.map(|name| format!("{name}.csv"));
     let figures = FIGURES.map(|name| ["png", "svg"].map(|ending| format!("{name}.{ending}")));
     let texts = ["sheet.txt", "report.html"].map(str::to_owned);

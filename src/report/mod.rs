@@ -8,6 +8,7 @@ mod finding;
 mod layout;
 mod library;
 mod map;
+mod motion;
 mod number;
 mod page;
 pub mod program;

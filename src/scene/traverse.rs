@@ -4,10 +4,11 @@
 
 mod find;
 
-use nalgebra::{Rotation3, Unit, Vector3};
+use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::patch::Frame;
-use crate::problem::stroke::{Helix, place_in};
+use crate::elementary::atan2;
+use crate::problem::stroke::{Helix, WHOLE, place_in};
 
 /// The way of the aim point over the target.
 #[derive(Clone, Debug)]
@@ -116,6 +117,48 @@ impl Traverse {
                 aim: base.aim + advance(helix, self.angle_at(place)),
                 ..*base
             },
+        }
+    }
+
+    /// Where a point of the target is along the stroke from its beginning, and across it, m: in the plane of the target at
+    /// the beginning, or unrolled round the axis with the length along it as the second number.
+    pub fn unrolled(&self, point: &Point3<f64>) -> [f64; 2] {
+        match &self.way {
+            Way::Knots(knots) => {
+                let (first, last) = (&knots[0].frame, &knots[knots.len() - 1].frame);
+                let chord = last.aim - first.aim;
+                // A stroke that ends where it began has no direction but its first one.
+                let ahead = match chord.norm() > FLAT * self.whole {
+                    true => chord.normalize(),
+                    false => -self.onwards(false),
+                };
+                let beside = first.normal.cross(&ahead).normalize();
+                let from = point - first.aim;
+                [from.dot(&ahead), from.dot(&beside)]
+            }
+            Way::Around { helix, base, .. } => {
+                let outwards = |point: &Point3<f64>| {
+                    let from = point - helix.through;
+                    from - helix.axis * helix.axis.dot(&from)
+                };
+                let (zero, here) = (outwards(&base.aim), outwards(point));
+                let side = helix.axis.cross(&zero) / zero.norm();
+                let angle = atan2(here.dot(&side), here.dot(&zero) / zero.norm());
+                let along = (point - self.frame_at(WHOLE[0]).aim).dot(&helix.axis);
+                [angle * zero.norm(), along]
+            }
+        }
+    }
+
+    /// The length once round the axis at the aim point, m; `None` for a line.
+    pub fn circumference(&self) -> Option<f64> {
+        match &self.way {
+            Way::Knots(_) => None,
+            Way::Around { helix, base, .. } => {
+                let from = base.aim - helix.through;
+                let outwards = from - helix.axis * helix.axis.dot(&from);
+                Some(std::f64::consts::TAU * outwards.norm())
+            }
         }
     }
 

@@ -285,8 +285,8 @@ impl<'a> Evaluator<'a> {
     fn evaluate_violations(&self, settings: &Settings, penalty: &Penalty) -> Evaluated {
         let scales_out = self.scenario.speed_scales_out(settings.contact);
         let impulses = LargestImpulses::of(self.scenario, settings, self.shots);
-        let watched = penalty.watched.iter().map(|&station| {
-            let scenario = &self.scenario.stations[station].scenario;
+        let watched = penalty.watched.iter().map(|station| {
+            let scenario = &station.scenario;
             let impulses = LargestImpulses::of(scenario, settings, self.shots);
             (scenario, impulses)
         });

@@ -13,23 +13,23 @@ use super::sampler::Sampler;
 use super::stage::Stage;
 use super::{RISE, tie};
 use crate::control::Control;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Station};
 
 /// What violations cost in a search.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone)]
 pub(super) struct Penalty {
     /// J that a violation of 2, twice the share that is allowed, costs.
     pub price: f64,
     /// Share of what is allowed that the search allows.
     pub slack: f64,
-    /// Stations of a stroke, by their numbers, at which nothing may be violated either.
-    pub watched: Vec<usize>,
+    /// Stations of a stroke at which nothing may be violated either.
+    pub watched: Vec<Station>,
 }
 
 impl Penalty {
     /// All that it depends on, for checkpoints.
     pub fn numbers(&self) -> Vec<f64> {
-        let watched = self.watched.iter().map(|&station| station as f64);
+        let watched = self.watched.iter().map(|station| station.place);
         [self.price, self.slack]
             .into_iter()
             .chain(watched)
@@ -55,7 +55,10 @@ impl Sought<'_> {
         figures: &mut Figures,
     ) {
         let mut slack = 1.0;
-        let mut watched = self.searched.ends_and_middle();
+        let first = self.searched.ends_and_middle().into_iter();
+        let mut watched: Vec<Station> = first
+            .map(|index| self.searched.stations[index].clone())
+            .collect();
         for _ in 0..self.most_rounds() {
             let failing = worthwhile(answers, self.asked);
             if failing.is_empty() || self.control.is_stopped() {
@@ -88,18 +91,23 @@ impl Sought<'_> {
     }
 
     /// Watches the stations as well at which answers fail most; whether there are any new ones.
-    fn watch_worst(&self, failing: &[usize], answers: &[Answer], watched: &mut Vec<usize>) -> bool {
+    fn watch_worst(
+        &self,
+        failing: &[usize],
+        answers: &[Answer],
+        watched: &mut Vec<Station>,
+    ) -> bool {
         let before = watched.len();
         let verdicts = failing.iter().flat_map(|&index| &answers[index].verdicts);
         let places = verdicts
             .filter(|verdict| !verdict.passes())
             .filter_map(|verdict| verdict.place);
         for place in places {
-            let mut stations = self.searched.stations.iter();
-            let station = stations.position(|station| station.place == place);
-            watched.extend(station.filter(|station| !watched.contains(station)));
+            if watched.iter().all(|station| station.place != place) {
+                watched.push(self.searched.station(place));
+            }
         }
-        watched.sort_unstable();
+        watched.sort_by(|a, b| a.place.total_cmp(&b.place));
         watched.len() > before
     }
 

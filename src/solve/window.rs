@@ -65,16 +65,16 @@ pub fn passing_windows(scenario: &Scenario, best: &Answer, cancel: &Cancel) -> V
     let validation =
         Replicates::without_boundary(&scenario.problem, purpose::WINDOWS, WINDOW_SHOTS);
     // Of a stroke, where it fails first: at its ends, in its middle, and where a verdict is the worst.
-    let worst: Vec<f64> = best.verdicts.iter().filter_map(|it| it.place).collect();
-    let stations = scenario.stations.iter();
-    let first = scenario.ends_and_middle();
-    let is_watched =
-        |index: usize, station: &Station| first.contains(&index) || worst.contains(&station.place);
-    let watched = stations
-        .enumerate()
-        .filter(|(index, station)| is_watched(*index, station))
-        .map(|(_, station)| &station.scenario);
-    let mut standing: Vec<&Scenario> = watched.collect();
+    let first = scenario.ends_and_middle().into_iter();
+    let mut places: Vec<f64> = first.map(|index| scenario.stations[index].place).collect();
+    places.extend(best.verdicts.iter().filter_map(|it| it.place));
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    let stations: Vec<Station> = places
+        .iter()
+        .map(|&place| scenario.station(place))
+        .collect();
+    let mut standing: Vec<&Scenario> = stations.iter().map(|it| &it.scenario).collect();
     if standing.is_empty() {
         standing.push(scenario);
     }

@@ -1,6 +1,6 @@
 //! What the machine does on a stroke: where the nozzle goes, how fast, how often, and what that covers.
 
-use crate::coverage::Coverage;
+use crate::coverage::{Coverage, DentedBy};
 use crate::feasibility::infeasibility;
 use crate::jet::Pose;
 use crate::problem::stroke::{Feed, Leg, Stroke};
@@ -31,21 +31,8 @@ pub struct Program {
     pub missing: Vec<&'static str>,
     /// What the whole stroke covers, where that is asked for.
     pub coverage: Option<Coverage>,
-    /// Share of the target that is dented then, at each place.
-    pub dented: Option<Given>,
-}
-
-/// What a stroke gives.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Given {
-    /// Mass of shot that is fired, kg.
-    pub mass: f64,
-    /// Mean share of the area that is dented.
-    pub mean: f64,
-    /// The least, on cells of the target.
-    pub least: f64,
-    /// The most.
-    pub most: f64,
+    /// Mass of shot that is fired, kg, and what it dents of the target.
+    pub dented: Option<(f64, DentedBy)>,
 }
 
 /// A pose that the nozzle passes.
@@ -99,15 +86,9 @@ impl Program {
             passes,
             feed,
             missing,
-            dented: mass.zip(coverage.as_ref()).map(|(mass, coverage)| {
-                let [mean, least, most] = coverage.dented_by(mass);
-                Given {
-                    mass,
-                    mean,
-                    least,
-                    most,
-                }
-            }),
+            dented: mass
+                .zip(coverage.as_ref())
+                .map(|(mass, coverage)| (mass, coverage.dented_by(mass))),
             coverage,
         })
     }

@@ -75,6 +75,9 @@ fn every_unit_leads_to_si() {
         (Dimension::Pressure, "3 Pa", 3.0),
         // A pound-force, 4.448 221 615 260 5 N, on 645.16 mm2.
         (Dimension::Pressure, "1 psi", 6_894.757_293_168_361),
+        // A kilogram-force on a square millimetre.
+        (Dimension::Hardness, "300 HB", 2.941_995e9),
+        (Dimension::Hardness, "300 HBW", 2.941_995e9),
         (Dimension::Fraction, "5 %", 0.05),
         (Dimension::Fraction, "0.1%", 0.001),
     ];

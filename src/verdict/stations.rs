@@ -7,6 +7,7 @@ use crate::evaluate::{LargestImpulses, ViolationCounts};
 use crate::jet::{Draw, Replicate, purpose};
 use crate::problem::Problem;
 use crate::problem::setting::Settings;
+use crate::problem::stroke::WHOLE;
 use crate::scenario::{Scenario, Station};
 
 /// The verdicts at one station.
@@ -23,6 +24,43 @@ const SHOTS: usize = 16_384;
 /// Replicates that are fired together, until they decide every verdict.
 const SETS: u32 = 4;
 
+/// How often the way between two stations is halved where a verdict turns between them.
+const HALVINGS: usize = 2;
+/// A verdict that uses up so much of what is allowed may fail between two stations at which it passes.
+const NEAR: f64 = 0.5;
+
+/// The places between neighbours of which a verdict passes at one and fails at the other, and on either side of where a
+/// verdict that passes is used up most.
+fn doubtful(found: &[StationVerdicts]) -> Vec<f64> {
+    let within = |station: &&StationVerdicts| station.place.abs() <= WHOLE[1];
+    let within: Vec<&StationVerdicts> = found.iter().filter(within).collect();
+    let subjects = within.first().map_or(0, |first| first.verdicts.len());
+    let mut is_doubtful = vec![false; within.len().saturating_sub(1)];
+    for subject in 0..subjects {
+        let at = |station: usize| &within[station].verdicts[subject];
+        for (gap, doubt) in is_doubtful.iter_mut().enumerate() {
+            *doubt |= at(gap).passes() != at(gap + 1).passes();
+        }
+        let worst = (0..within.len()).reduce(|worst, it| match at(it).is_worse_than(at(worst)) {
+            true => it,
+            false => worst,
+        });
+        if let Some(worst) = worst.filter(|&it| at(it).passes() && at(it).violation() > NEAR) {
+            for gap in worst.saturating_sub(1)..=worst {
+                is_doubtful
+                    .iter_mut()
+                    .skip(gap)
+                    .take(1)
+                    .for_each(|it| *it = true);
+            }
+        }
+    }
+    let gaps = is_doubtful.iter().zip(within.windows(2));
+    let open = gaps.filter(|(doubt, _)| **doubt);
+    open.map(|(_, pair)| 0.5 * (pair[0].place + pair[1].place))
+        .collect()
+}
+
 /// A station of which more shots may still turn a verdict.
 struct Open<'a> {
     station: &'a Station,
@@ -31,10 +69,21 @@ struct Open<'a> {
 }
 
 impl StationVerdicts {
-    /// The verdicts at every station of a stroke; none for a spot.
+    /// The verdicts at every station of a stroke, and between those where one turns or nearly does; none for a spot.
     pub fn all(scenario: &Scenario, settings: &Settings) -> Vec<Self> {
         let stations: Vec<&Station> = scenario.stations.iter().collect();
-        Self::at(&stations, &scenario.problem, settings)
+        let mut found = Self::at(&stations, &scenario.problem, settings);
+        for _ in 0..HALVINGS {
+            found.sort_by(|a, b| a.place.total_cmp(&b.place));
+            let added: Vec<Station> = doubtful(&found)
+                .into_iter()
+                .map(|place| scenario.station(place))
+                .collect();
+            let added: Vec<&Station> = added.iter().collect();
+            found.extend(Self::at(&added, &scenario.problem, settings));
+        }
+        found.sort_by(|a, b| a.place.total_cmp(&b.place));
+        found
     }
 
     /// The verdicts at some stations of a problem, on the same shots.

@@ -105,4 +105,34 @@ fn a_stroke_covers_what_a_moving_nozzle_covers() {
     let mean = f64::from(on_target) / SHOTS as f64 / (5e-3 * 40e-3);
     let found = coverage.mean.hits_per_shot_m2;
     assert!((mean / found - 1.0).abs() < 0.01, "{mean} {found}");
+
+    // What that dents, as many shots as are fired: on the mean, and where it is dented least.
+    let fired = dented.mass_kg * coverage.shots_per_kg;
+    let dent = std::f64::consts::PI * 0.25e-3 * 0.25e-3 / 4.0;
+    let share = |count: u32, area: f64| {
+        1.0 - (-dent * fired * f64::from(count) / SHOTS as f64 / area).exp()
+    };
+    let shares = counts.iter().map(|&count| share(count, side * side));
+    let mean = shares.sum::<f64>() / counts.len() as f64;
+    let off = (mean - dented.mean).abs();
+    assert!(off < 0.01, "{mean} {}", dented.mean);
+    assert!(off < 3.0 * dented.mean_standard_error + dented.mean_resolution + 1e-3);
+    // The feed is that for the least dense 5 % of the floor, on cells of a millimetre.
+    let mut coarse = vec![0_u32; 5 * 40];
+    for (index, count) in counts.iter().enumerate() {
+        let (column, row) = (index % columns, index / columns);
+        coarse[row / 2 * 5 + column / 2] += count;
+    }
+    coarse.sort_unstable();
+    let least = share(coarse[0], 1e-6);
+    assert!(
+        (least - dented.least).abs() < 0.01,
+        "{least} {}",
+        dented.least
+    );
+    let lowest = f64::from(coarse[coarse.len() / 20]) / SHOTS as f64 / 1e-6;
+    let needed = -(0.02_f64).ln() / dent / lowest;
+    let feed = 0.1 / 60.0 * way * coverage.shots_per_kg / needed;
+    let found = stroke.feed_m_s.unwrap();
+    assert!((feed / found - 1.0).abs() < 0.02, "{feed} {found}");
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::common::cases::cases;
 use nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
 use peenpose::impact::{Contact, Law, Restitution};
-use peenpose::problem::equipment::{Body, Jet, Nozzle, PathLimits, Role, Shot, Spread};
+use peenpose::problem::equipment::{Body, Dent, Jet, Nozzle, PathLimits, Role, Shot, Spread};
 use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
 use peenpose::problem::model::{Effect, Model};
@@ -342,7 +342,8 @@ fn every_other_key_is_read() {
     assert_eq!(calibration.pressure_at(21.999), None);
     assert_eq!(calibration.pressure_at(36.001), None);
     let coverage = problem.coverage.unwrap();
-    assert_eq!((coverage.dent_diameter, coverage.wanted), (0.2e-3, 0.98));
+    assert_eq!(coverage.dent, Dent::Diameter(0.2e-3));
+    assert_eq!((coverage.wanted, coverage.times), (0.98, 1.0));
     assert_eq!(
         (problem.jet.exit_diameter, problem.jet.divergence),
         (0.0, 0.0)

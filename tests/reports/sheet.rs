@@ -313,7 +313,9 @@ fn coverage_has_a_block_of_its_own() {
     };
     let coverage = CoverageRecord {
         dent_diameter_m: 0.2e-3,
+        dents_from: None,
         wanted: 0.98,
+        wanted_times: 1.0,
         shots: 1 << 18,
         area_m2: 60e-6,
         cells: 64,

@@ -36,6 +36,10 @@ const fn below(min: f64, max: f64, expected: &'static str) -> Limit {
     }
 }
 
+/// What coverage may be wanted.
+const WANTED: &str =
+    "a percentage above 0 %, below 100 %, or up to 10000 % for so many times the shot to 98 %";
+
 /// Angles at the ends of their range may be off by a rounding error.
 const ROUNDING: f64 = 1e-12;
 
@@ -48,7 +52,10 @@ impl Limit {
     pub const IMPULSE: Self = to(1e-18, 1e6, "an impulse above 0 N.s");
     pub const MASS_FLOW: Self = to(1e-12, 1e6, "a mass flow above 0 kg/min");
     pub const PRESSURE: Self = to(1e-3, 1e10, "a pressure above 0 bar, up to 100000 bar");
-    pub const WANTED: Self = below(1e-9, 1.0, "a percentage above 0 %, below 100 %");
+    pub const WANTED: Self = below(1e-9, 1.0, WANTED);
+    /// Of coverage wanted several times.
+    pub const TIMES: Self = to(1.0, 100.0, WANTED);
+    pub const HARDNESS: Self = to(9.806_65e6, 9.806_65e10, "a hardness from 1 HB to 10000 HB");
     pub const INCIDENCE: Self = to(
         1e-6,
         FRAC_PI_2 + ROUNDING,

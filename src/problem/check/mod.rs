@@ -23,10 +23,11 @@ mod surfaces;
 mod target;
 mod tolerance;
 
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
 use super::Problem;
-use super::equipment::{CoverageWish, Jet, PathLimits, Spread};
+use super::equipment::{CoverageWish, Dent, FULL, Jet, PathLimits, Spread};
 use super::fault_code::FaultCode;
 use super::faults::Faults;
 use super::field::Field;
@@ -35,6 +36,7 @@ use super::file::settings::SolveEntry;
 use super::file::{FORMAT, ProblemFile};
 use super::part::{Part, Target};
 use super::stroke::Stroke;
+use crate::elementary::sin;
 use crate::printable;
 use coordinates::Coordinates;
 use limit::Limit;
@@ -202,11 +204,53 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
 }
 
 fn coverage(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<CoverageWish> {
-    let dent_diameter = scope.needed("dent_diameter", &entry.dent_diameter, Limit::LENGTH);
-    let wanted = scope.optional("wanted", &entry.wanted, Limit::WANTED, 0.98);
+    let dent = dent(scope, entry);
+    let is_multiple = entry.wanted.value().is_some_and(|wanted| wanted.0 > 1.0);
+    let limit = match is_multiple {
+        true => Limit::TIMES,
+        false => Limit::WANTED,
+    };
+    let wanted = scope.optional("wanted", &entry.wanted, limit, FULL);
+    let (wanted, times) = match wanted? {
+        times if times > 1.0 => (FULL, times),
+        wanted => (wanted, 1.0),
+    };
     Some(CoverageWish {
-        dent_diameter: dent_diameter?,
-        wanted: wanted?,
+        dent: dent?,
+        wanted,
+        times,
+    })
+}
+
+/// A diameter, one with the hit that left it, or the hardness from which it follows.
+fn dent(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<Dent> {
+    if entry.hardness.is_given() {
+        let hardness = scope.maybe("hardness", &entry.hardness, Limit::HARDNESS)?;
+        for (key, is_given) in [
+            ("dent_diameter", entry.dent_diameter.is_given()),
+            ("dent_at", entry.dent_at.is_given()),
+        ] {
+            if is_given {
+                let fault = scope.fault(FaultCode::EitherOr, key, "stands beside `hardness`");
+                scope.report(fault.expecting("only one of dent_diameter, hardness"));
+                return None;
+            }
+        }
+        return hardness.map(Dent::Hardness);
+    }
+    let diameter = scope.needed_here("dent_diameter", &entry.dent_diameter, Limit::LENGTH);
+    let Field::Present(at) = &entry.dent_at else {
+        return match entry.dent_at {
+            Field::Faulty => None,
+            _ => Some(Dent::Diameter(diameter?)),
+        };
+    };
+    let hit = scope.of("dent_at");
+    let speed = hit.needed("speed", &at.speed, Limit::SPEED);
+    let incidence = hit.optional("incidence", &at.incidence, Limit::INCIDENCE, FRAC_PI_2);
+    Some(Dent::Measured {
+        diameter: diameter?,
+        normal_speed: speed? * sin(incidence?),
     })
 }
 

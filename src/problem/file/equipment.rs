@@ -5,7 +5,9 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::contact::ContactEntry;
-use super::{Angle, Density, Impulse, Length, MassFlow, Percentage, Pressure, Speed, Triple, form};
+use super::{
+    Angle, Density, Hardness, Impulse, Length, MassFlow, Percentage, Pressure, Speed, Triple, form,
+};
 use crate::problem::field::{Field, Needed};
 
 /// The shot: solid spheres. Either both numbers are given, or a medium of the library, such as S110 or
@@ -217,16 +219,44 @@ pub(in crate::problem) enum RoleEntry {
 ///
 /// ```yaml
 /// coverage: { dent_diameter: 0.2 mm, wanted: 95 % }
+/// # or
+/// coverage: { dent_diameter: 0.2 mm, dent_at: { speed: 27 m/s, incidence: 90 deg }, wanted: 200 % }
+/// # or
+/// coverage: { hardness: 300 HB }
 /// ```
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
+#[schemars(extend(
+    "oneOf" = form::exactly_one_of(&["dent_diameter", "hardness"]),
+    "dependentRequired" = json!({ "dent_at": ["dent_diameter"] }),
+))]
 pub(in crate::problem) struct CoverageEntry {
     /// Diameter d of the dent that one hit leaves, as measured on a strip, 0.001 um to 1000 m.
     #[schemars(example = &"0.2 mm")]
-    pub dent_diameter: Needed<Length>,
-    /// Share of the area that is to be dented, above 0 % and below 100 %.
+    pub dent_diameter: Field<Length>,
+    /// The hit that left it: d then grows with the root of the normal speed of each hit, and with the shot; the same dent
+    /// for every hit where absent.
+    pub dent_at: Field<DentHitEntry>,
+    /// Hardness of the target, 1 HB to 10000 HB: the volume of a dent is the work that the hit loses over the dynamic
+    /// hardness, taken to be 9.81 MPa for each HB; what `dent_diameter` says where absent.
+    #[schemars(example = &"300 HB")]
+    pub hardness: Field<Hardness>,
+    /// Share of the area that is to be dented, above 0 % and below 100 %, or above that for so many times the shot that
+    /// dents 98 %: 200 % is twice that.
     #[schemars(example = &"95 %", extend("default" = "98 %"))]
     pub wanted: Field<Percentage>,
+}
+
+/// The hit that left a dent which was measured, of the shot of the problem.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub(in crate::problem) struct DentHitEntry {
+    /// Its speed, 1 um/s to 10000 m/s.
+    #[schemars(example = &"27 m/s")]
+    pub speed: Needed<Speed>,
+    /// Its angle from the surface, above 0 deg to 90 deg.
+    #[schemars(example = &"90 deg", extend("default" = "90 deg"))]
+    pub incidence: Field<Angle>,
 }
 
 /// When a path ends.

@@ -71,7 +71,7 @@ pub(super) fn settings(at: &Place, it: &SettingsRecord) -> Outcome {
     given::check(&it.settings()).or_else(|fault| at.holds(false, &format!("cannot be: {fault}")))
 }
 
-fn pose(at: &Place, it: &PoseRecord) -> Outcome {
+pub(super) fn pose(at: &Place, it: &PoseRecord) -> Outcome {
     let is_unit = |numbers: &[f64]| {
         let length = numbers.iter().map(|x| x * x).sum::<f64>().sqrt();
         (length - 1.0).abs() <= VECTOR_ROUNDING

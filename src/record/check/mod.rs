@@ -13,7 +13,8 @@ mod window;
 use place::{Outcome, Place};
 
 use super::{
-    CoverageRecord, FrontRecord, RankingRecord, Record, StatusRecord, UnknownsRecord, WorkRecord,
+    CoverageRecord, FrontRecord, RankingRecord, Record, StatusRecord, StrokeRecord, UnknownsRecord,
+    WorkRecord,
 };
 
 /// Finds the first contradiction in a record.
@@ -32,6 +33,9 @@ pub(super) fn record(record: &Record) -> Outcome {
     }
     if let Some(coverage) = &record.coverage {
         self::coverage(&root.of("coverage"), coverage)?;
+    }
+    if let Some(stroke) = &record.stroke {
+        self::stroke(&root.of("stroke"), stroke)?;
     }
     work(&root.of("work"), &record.work)?;
     let sums = record.mesh_sha256.values().chain([&record.problem_sha256]);
@@ -135,6 +139,63 @@ fn coverage(at: &Place, coverage: &CoverageRecord) -> Outcome {
             .at_least(density.mass_kg.unwrap_or(0.0), 0.0)?;
         at.of("time_s")
             .at_least(density.time_s.unwrap_or(0.0), 0.0)?;
+    }
+    Ok(())
+}
+
+fn stroke(at: &Place, stroke: &StrokeRecord) -> Outcome {
+    at.of("length_m").at_least(stroke.length_m, 0.0)?;
+    at.of("run_out_m").at_least(stroke.run_out_m, 0.0)?;
+    for (key, value) in [
+        ("feed_m_s", stroke.feed_m_s),
+        ("turns_per_s", stroke.turns_per_s),
+        ("time_s", stroke.time_s),
+    ] {
+        at.of(key).at_least(value.unwrap_or(0.0), 0.0)?;
+    }
+    let segments = at.of("segments");
+    segments.holds(!stroke.segments.is_empty(), "holds none")?;
+    for (index, segment) in stroke.segments.iter().enumerate() {
+        let at = segments.item(index);
+        at.of("to_m").at_least(segment.to_m, segment.from_m)?;
+        answer::settings(&at.of("settings"), &segment.settings)?;
+    }
+    for (index, waypoint) in stroke.waypoints.iter().enumerate() {
+        let at = at.of("waypoints").item(index);
+        answer::pose(&at.of("pose"), &waypoint.pose)?;
+        let before = index.checked_sub(1).map(|before| &stroke.waypoints[before]);
+        let is_onwards = before.is_none_or(|before| before.at_m <= waypoint.at_m);
+        at.of("at_m").holds(is_onwards, "goes back")?;
+    }
+    for (index, station) in stroke.stations.iter().enumerate() {
+        let at = at.of("stations").item(index).of("verdicts");
+        for (index, it) in station.verdicts.iter().enumerate() {
+            verdict::alone(&at.item(index), it, it.counted == 1)?;
+        }
+    }
+    if let Some(dented) = &stroke.dented {
+        let at = at.of("dented");
+        at.of("mass_kg").at_least(dented.mass_kg, 0.0)?;
+        for (key, value) in [
+            ("mean", dented.mean),
+            ("least", dented.least),
+            ("most", dented.most),
+        ] {
+            at.of(key).share(value)?;
+        }
+    }
+    if let Some(map) = &stroke.dented_map {
+        let at = at.of("dented_map");
+        for side in map.sides_m {
+            at.of("sides_m").at_least(side, 0.0)?;
+        }
+        let is_whole = map.columns > 0 && map.dented.len().is_multiple_of(map.columns);
+        at.of("columns")
+            .holds(is_whole, "does not divide the number of cells")?;
+        for (index, share) in map.dented.iter().enumerate() {
+            let share = share.unwrap_or(0.0);
+            at.of("dented").item(index).share(f64::from(share))?;
+        }
     }
     Ok(())
 }

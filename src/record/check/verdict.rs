@@ -44,7 +44,7 @@ fn of_pose(at: &Place, it: &VerdictRecord, answer: &AnswerRecord) -> Outcome {
 }
 
 /// A verdict by itself.
-fn alone(at: &Place, it: &VerdictRecord, is_exact: bool) -> Outcome {
+pub(super) fn alone(at: &Place, it: &VerdictRecord, is_exact: bool) -> Outcome {
     at.of("share").share(it.share)?;
     at.of("allowed").share(it.allowed)?;
     let counted = it.counted as f64;

@@ -12,11 +12,12 @@ use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Accessor, Asset, Buffer, Index, Material, Mesh, Node, Root, Scene, Value};
 
+use super::animation::Motion;
 use super::piece::{Cells, Piece};
 use crate::elementary::power;
 
 /// The file; it says that lengths are in m by being glTF.
-pub(super) fn write(pieces: &[Piece]) -> io::Result<Vec<u8>> {
+pub(super) fn write(pieces: &[Piece], motion: Option<&Motion>) -> io::Result<Vec<u8>> {
     let mut file = File::default();
     file.root.asset = Asset {
         generator: Some(format!("peenpose {}", env!("CARGO_PKG_VERSION"))),
@@ -24,10 +25,20 @@ pub(super) fn write(pieces: &[Piece]) -> io::Result<Vec<u8>> {
     };
     // The only buffer; its length is known at the end.
     let buffer = file.root.push(buffer(0));
-    let nodes = pieces
-        .iter()
-        .map(|piece| file.node(piece, buffer))
-        .collect();
+    let mut travelling = Vec::new();
+    let mut nodes = Vec::new();
+    for piece in pieces {
+        let moving = piece.body.filter(|_| motion.is_some());
+        let node = match moving {
+            Some(_) => file.node(&at_origin(piece), buffer),
+            None => file.node(piece, buffer),
+        };
+        travelling.extend(moving.map(|(body, tip)| (node, body, tip)));
+        nodes.push(node);
+    }
+    if let Some(motion) = motion.filter(|_| !travelling.is_empty()) {
+        file.travel(motion, &travelling, buffer);
+    }
     let scene = file.root.push(Scene {
         extensions: None,
         extras: Default::default(),
@@ -49,6 +60,18 @@ pub(super) fn write(pieces: &[Piece]) -> io::Result<Vec<u8>> {
     .map_err(io::Error::other)
 }
 
+/// A piece of the nozzle's body with its exit at the origin.
+fn at_origin(piece: &Piece) -> Piece {
+    Piece {
+        points: piece
+            .points
+            .iter()
+            .map(|point| [0, 1, 2].map(|axis| point[axis] - piece.origin[axis]))
+            .collect(),
+        ..piece.clone()
+    }
+}
+
 fn buffer(length: usize) -> Buffer {
     Buffer {
         byte_length: USize64::from(length),
@@ -61,8 +84,8 @@ fn buffer(length: usize) -> Buffer {
 
 /// A file that is being written.
 #[derive(Default)]
-struct File {
-    root: Root,
+pub(super) struct File {
+    pub(super) root: Root,
     bytes: Vec<u8>,
 }
 
@@ -115,7 +138,7 @@ impl File {
             ends(f32::max, f32::NEG_INFINITY),
         );
         let bytes = points.as_flattened().iter().flat_map(|x| x.to_le_bytes());
-        let view = self.view(bytes, Target::ArrayBuffer, buffer);
+        let view = self.view(bytes, Some(Target::ArrayBuffer), buffer);
         self.root.push(Accessor {
             min,
             max,
@@ -125,16 +148,16 @@ impl File {
 
     fn indices(&mut self, indices: &[u32], buffer: Index<Buffer>) -> Index<Accessor> {
         let bytes = indices.iter().flat_map(|index| index.to_le_bytes());
-        let view = self.view(bytes, Target::ElementArrayBuffer, buffer);
+        let view = self.view(bytes, Some(Target::ElementArrayBuffer), buffer);
         let accessor = accessor(view, indices.len(), ComponentType::U32, Type::Scalar);
         self.root.push(accessor)
     }
 
     /// Appends bytes; all of them come in fours, so that every view is aligned.
-    fn view(
+    pub(super) fn view(
         &mut self,
         bytes: impl Iterator<Item = u8>,
-        target: Target,
+        target: Option<Target>,
         buffer: Index<Buffer>,
     ) -> Index<View> {
         let start = self.bytes.len();
@@ -146,14 +169,19 @@ impl File {
             byte_offset: Some(USize64::from(start)),
             byte_stride: None,
             name: None,
-            target: Some(Checked::Valid(target)),
+            target: target.map(Checked::Valid),
             extensions: None,
             extras: Default::default(),
         })
     }
 }
 
-fn accessor(view: Index<View>, count: usize, component: ComponentType, of: Type) -> Accessor {
+pub(super) fn accessor(
+    view: Index<View>,
+    count: usize,
+    component: ComponentType,
+    of: Type,
+) -> Accessor {
     Accessor {
         buffer_view: Some(view),
         byte_offset: None,

@@ -11,18 +11,24 @@ use crate::record::{
 };
 
 /// Something with a name and a colour of its own.
+#[derive(Clone)]
 pub(super) struct Piece {
     pub name: String,
     /// sRGB.
     pub color: [u8; 3],
     /// 1, or less for what one must see through.
     pub opacity: f32,
+    /// Of a piece of the nozzle's body: its number, and where its far end is from the exit, m.
+    pub body: Option<(usize, Vector3<f64>)>,
+    /// What it moves with: the exit for a piece of the nozzle's body, m.
+    pub origin: [f32; 3],
     /// Corners, m.
     pub points: Vec<[f32; 3]>,
     pub cells: Cells,
 }
 
 /// What the points of a piece make.
+#[derive(Clone)]
 pub(super) enum Cells {
     /// Three corners each.
     Triangles(Vec<[u32; 3]>),
@@ -70,6 +76,8 @@ fn surface(shape: &SurfaceShapeRecord) -> Piece {
         name: format!("{}{suffix}", shape.name),
         color,
         opacity,
+        body: None,
+        origin: [0.0; 3],
         points: shape.points_m.clone(),
         cells: Cells::Triangles(shape.whole_triangles().collect()),
     }
@@ -82,6 +90,8 @@ fn hits(hits: &HitsRecord) -> Piece {
         name: "hits".into(),
         color: HIT,
         opacity: 1.0,
+        body: None,
+        origin: [0.0; 3],
         points,
         cells: Cells::Points(impulses),
     }
@@ -118,6 +128,8 @@ fn paths(evidence: &EvidenceRecord) -> Vec<Piece> {
             name: name.into(),
             color,
             opacity: 1.0,
+            body: None,
+            origin: [0.0; 3],
             points,
             cells: Cells::Lines((0..segments).map(|i| [2 * i, 2 * i + 1]).collect()),
         }
@@ -178,6 +190,8 @@ fn nozzle(body: &BodyRecord, number: usize, exit: &Point3<f64>) -> Piece {
         name: format!("nozzle, body {number}"),
         color: NOZZLE,
         opacity: 1.0,
+        body: Some((number - 1, axis * length)),
+        origin: [exit.x, exit.y, exit.z].map(|it| it as f32),
         points,
         cells: Cells::Triangles(triangles),
     }

@@ -17,6 +17,7 @@ mod png;
 mod pose;
 mod search;
 mod sheet;
+mod stroke;
 mod style;
 
 pub(super) use pose::curve_name;
@@ -81,7 +82,8 @@ impl Figure {
             Self::named(name, map::svg(&view, MapTerm::Total))
         });
         let front = Self::named("trade_off", front::svg(record));
-        let all = [hits].into_iter().chain(maps).chain([front]);
+        let stroke = Self::named("stroke", stroke::svg(record));
+        let all = [stroke, hits].into_iter().chain(maps).chain([front]);
         all.filter_map(Result::transpose).collect()
     }
 

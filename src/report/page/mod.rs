@@ -6,6 +6,7 @@
 mod bars;
 mod element;
 mod look;
+mod motion;
 mod scene;
 mod still;
 
@@ -25,13 +26,14 @@ use crate::record::{EvidenceRecord, PlaceRecord, Record, StatusRecord};
 const STYLE: &str = include_str!("page.css");
 const THREE: &str = include_str!("vendor/three.min.js");
 /// In the order in which they build on each other.
-const VIEWER: [&str; 7] = [
+const VIEWER: [&str; 8] = [
     include_str!("viewer/look.js"),
     include_str!("viewer/shapes.js"),
     include_str!("viewer/section.js"),
     include_str!("viewer/stage.js"),
     include_str!("viewer/panel.js"),
     include_str!("viewer/strips.js"),
+    include_str!("viewer/motion.js"),
     include_str!("viewer/main.js"),
 ];
 
@@ -210,6 +212,7 @@ struct Parts {
     target: Vec<Element>,
     verdicts: Vec<Element>,
     surfaces: Vec<Element>,
+    stroke: Vec<Element>,
     coverage: Vec<Element>,
     cause: Vec<Element>,
     unknowns: Vec<Element>,
@@ -232,6 +235,7 @@ impl Parts {
             target: Element::of(sheet::received::target(record)),
             verdicts: Element::of(sheet::verdicts::block(best, &record.problem.goals)),
             surfaces: Element::of(sheet::received::surfaces(record)),
+            stroke: Element::of(sheet::stroke::block(record)),
             coverage: Element::of(sheet::coverage::block(record)),
             cause: Element::of(sheet::cause::block(record)),
             unknowns: Element::of(sheet::unknowns::block(record)),
@@ -251,8 +255,12 @@ struct Pictures<'a> {
     /// The scene as JSON that may stand in a script element.
     scene: String,
     three: &'static str,
-    viewer: [&'static str; 7],
+    viewer: [&'static str; 8],
     still: String,
+    /// Whether the nozzle travels.
+    moves: bool,
+    /// Verdicts along the stroke, and what it dents.
+    stroke: Vec<Drawing<'a>>,
     hits: Vec<Drawing<'a>>,
     /// Where every verdict passes, over two settings.
     maps: Vec<Drawing<'a>>,
@@ -262,6 +270,7 @@ struct Pictures<'a> {
 }
 
 const MAP_IN_WORDS: &str = "J over two settings, and where every verdict passes";
+const STROKE_IN_WORDS: &str = "what each verdict uses up of what is allowed along the stroke, and what share of the target it dents where";
 const TRADE_OFF_IN_WORDS: &str =
     "target error, tangential risk and rebound of settings of which none is better in all three";
 
@@ -295,10 +304,12 @@ impl<'a> Pictures<'a> {
             count(evidence.hits.points_m.len()),
         );
         let (mut hits, mut maps, mut trade_off) = (Vec::new(), Vec::new(), Vec::new());
+        let mut stroke = Vec::new();
         for Figure { name, svg } in figures {
             let (group, words) = match *name {
                 "hits" => (&mut hits, hits_in_words.as_str()),
                 "trade_off" => (&mut trade_off, TRADE_OFF_IN_WORDS),
+                "stroke" => (&mut stroke, STROKE_IN_WORDS),
                 _ => (&mut maps, MAP_IN_WORDS),
             };
             let words = words.to_owned();
@@ -309,6 +320,8 @@ impl<'a> Pictures<'a> {
             three: THREE,
             viewer: VIEWER,
             still: Still::new(record, evidence).render()?,
+            moves: record.stroke.is_some(),
+            stroke,
             hits,
             maps,
             trade_off,

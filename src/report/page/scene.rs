@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::look::{LOOK, Look};
+use super::motion::Motion;
 use crate::record::{
     BodyRecord, EvidenceRecord, FrameRecord, GoalsRecord, Record, RoleRecord, SurfaceShapeRecord,
 };
@@ -32,6 +33,8 @@ pub struct Scene<'a> {
     hits: Dots,
     rebounds: Dots,
     places: Vec<Place<'a>>,
+    /// How the nozzle travels; absent for a spot.
+    motion: Option<Motion>,
 }
 
 #[derive(Serialize)]
@@ -116,6 +119,7 @@ impl<'a> Scene<'a> {
             hits: hits(record, evidence),
             rebounds: rebounds(record, evidence),
             places: places.collect(),
+            motion: Motion::new(record, evidence),
         }
     }
 }
@@ -208,7 +212,7 @@ fn points(frame: &FrameRecord, metres: &[[f32; 3]]) -> Vec<f64> {
 }
 
 /// Millimetres from the aim point.
-fn point(frame: &FrameRecord, metres: [f64; 3]) -> [f64; 3] {
+pub(super) fn point(frame: &FrameRecord, metres: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|axis| rounded((metres[axis] - frame.aim_m[axis]) * 1e3))
 }
 

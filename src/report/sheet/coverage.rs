@@ -1,13 +1,13 @@
 //! How densely first hits fall on the target, and how long it takes until it is dented.
 
-use crate::record::{CoverageRecord, DensityRecord, DentedRecord, Record};
+use crate::record::{CoverageRecord, DensityRecord, DentedRecord, DentsFromRecord, Record};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{count, plain, share, significant};
 
 /// Densities with what it takes to the wanted coverage, and what that assumes.
 pub fn block(record: &Record) -> Option<Block> {
     let coverage = record.coverage.as_ref()?;
-    let wanted = plain(coverage.wanted * 100.0);
+    let wanted = wanted(coverage);
     let (time, shot) = (format!("{wanted} % after"), format!("{wanted} % takes"));
     let title = match record.stroke {
         Some(_) => "COVERAGE of a pass",
@@ -33,15 +33,51 @@ pub fn block(record: &Record) -> Option<Block> {
         share(coverage.variation),
     ));
     block.paragraph(&format!(
-        "Dents of {} mm that fall at random (Avrami): n hits per area cover 1 - exp(-n pi d2 / 4).",
-        plain(coverage.dent_diameter_m * 1e3),
+        "Dents of {} mm{} that fall at random (Avrami): n hits per area cover 1 - exp(-n pi d2 / 4).",
+        dent_diameter(coverage),
+        dents_from(coverage),
     ));
     Some(block)
 }
 
+/// The wanted coverage in percent, as it was asked for.
+fn wanted(coverage: &CoverageRecord) -> String {
+    let share = match coverage.wanted_times {
+        1.0 => coverage.wanted,
+        times => times,
+    };
+    plain(share * 100.0)
+}
+
+fn dent_diameter(coverage: &CoverageRecord) -> String {
+    match coverage.dents_from {
+        None => plain(coverage.dent_diameter_m * 1e3),
+        Some(_) => significant(coverage.dent_diameter_m * 1e3, 3),
+    }
+}
+
+/// Where dents of different sizes come from.
+fn dents_from(coverage: &CoverageRecord) -> String {
+    match coverage.dents_from {
+        None => String::new(),
+        Some(DentsFromRecord::Measured {
+            diameter_m,
+            normal_speed_m_s,
+        }) => format!(
+            " in the mean area (one of {} mm was left at a normal speed of {} m/s; d grows with the root of it)",
+            significant(diameter_m * 1e3, 3),
+            significant(normal_speed_m_s, 3),
+        ),
+        Some(DentsFromRecord::Hardness { hardness }) => format!(
+            " in the mean area (the work that a hit loses over a dynamic hardness of {} GPa is the volume of its dent)",
+            significant(hardness * 1e-9, 3),
+        ),
+    }
+}
+
 /// How much of the target is dented and when, each number with its errors.
 fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord, moves: bool) -> String {
-    let wanted = plain(coverage.wanted * 100.0);
+    let wanted = wanted(coverage);
     let takes = |kilograms: f64| match coverage.mass_flow_kg_s {
         Some(flow) => format!("{} ({})", duration(kilograms / flow), mass(kilograms)),
         None => mass(kilograms),
@@ -54,7 +90,12 @@ fn of_the_target(coverage: &CoverageRecord, dented: &DentedRecord, moves: bool) 
     );
     let reached = match dented.mass_kg {
         Some(needed) => format!(
-            "{wanted} % of the target is dented after {} (std. error {}, cell size at most {})",
+            "{wanted} % of the target {} after {} (std. error {}, cell size at most {})",
+            if coverage.wanted_times == 1.0 {
+                "is dented"
+            } else {
+                "are reached"
+            },
             takes(needed.value),
             mass(needed.standard_error),
             mass(needed.resolution),

@@ -1,6 +1,7 @@
 //! The stroke: where the nozzle travels, how fast, what is worst where, and what it covers.
 
-use crate::record::{Record, SegmentRecord, StrokeRecord};
+use crate::elementary::hypot;
+use crate::record::{CoverageRecord, Record, SegmentRecord, StrokeDentedRecord, StrokeRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{plain, share, significant};
 
@@ -25,23 +26,27 @@ pub fn block(record: &Record) -> Option<Block> {
     block.hanging("way        ", &way(stroke));
     block.hanging("feed       ", &feed(stroke));
     if let Some((dented, coverage)) = stroke.dented.as_ref().zip(record.coverage.as_ref()) {
-        block.hanging(
-            "coverage   ",
-            &format!(
-                "mean {}, least {}, most {} dented over cells of {} mm, after {} kg of shot; COVERAGE looks more closely",
-                share(dented.mean),
-                share(dented.least),
-                share(dented.most),
-                significant(coverage.cell_side_m * 1e3, 2),
-                significant(dented.mass_kg, 3),
-            ),
-        );
+        block.hanging("coverage   ", &covered(dented, coverage));
     }
     let worst = worst_places(record, stroke);
     if !worst.is_empty() {
         block.hanging("worst      ", &worst);
     }
     Some(block)
+}
+
+fn covered(dented: &StrokeDentedRecord, coverage: &CoverageRecord) -> String {
+    let mean_error = hypot(dented.mean_standard_error, dented.mean_resolution);
+    format!(
+        "{} of the target is dented (+- {}); over cells of {} mm {} where least (std. error {}) and {} where most; {} kg of shot",
+        share(dented.mean),
+        share(mean_error),
+        significant(coverage.cell_side_m * 1e3, 2),
+        share(dented.least),
+        share(dented.least_standard_error),
+        share(dented.most),
+        significant(dented.mass_kg, 3),
+    )
 }
 
 fn row(index: usize, segment: &SegmentRecord) -> [String; 8] {

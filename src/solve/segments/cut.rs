@@ -70,7 +70,11 @@ impl<'a> Cut<'a> {
         control: &'a Control,
         held: Settings,
     ) -> Self {
-        let places: Vec<f64> = scenario.stations.iter().map(|it| it.place).collect();
+        let within = scenario
+            .stations
+            .iter()
+            .filter(|it| !it.scenario.in_run_out);
+        let places: Vec<f64> = within.map(|it| it.place).collect();
         let between = places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         let ends = [-0.5].into_iter().chain(between).chain([0.5]).collect();
         Self {
@@ -135,8 +139,11 @@ impl<'a> Cut<'a> {
         let violations = violations_at(&stations, &self.asked, &settings);
         let in_cell = |cell: usize| {
             let pairs = places.iter().zip(&violations);
-            let inside =
-                pairs.filter(|(place, _)| (self.ends[cell]..=self.ends[cell + 1]).contains(*place));
+            // The run-out belongs to the first and to the last cell.
+            let inside = pairs.filter(|(place, _)| {
+                let place = place.clamp(-0.5, 0.5);
+                (self.ends[cell]..=self.ends[cell + 1]).contains(&place)
+            });
             inside.map(|(_, violation)| *violation).fold(0.0, f64::max)
         };
         Candidate {

@@ -350,10 +350,16 @@ impl Writer<'_, '_> {
         }
         if self.bytes.byte() < 60 {
             let dent = self.length([0.1, 1.0]);
-            let wanted = self.number([50.0, 99.0], [1e-6, 99.999_999]);
-            self.line(&format!(
-                "coverage: {{ dent_diameter: {dent}, wanted: {wanted} % }}"
-            ));
+            let wanted = self.number([50.0, 300.0], [1e-6, 9999.0]);
+            let speed = self.number([5.0, 40.0], [1e-3, 200.0]);
+            let hardness = self.number([100.0, 600.0], [1.0, 9999.0]);
+            let dents = [
+                format!("dent_diameter: {dent}"),
+                format!("dent_diameter: {dent}, dent_at: {{ speed: {speed} m/s }}"),
+                format!("hardness: {hardness} HB"),
+            ];
+            let dent = self.bytes.of(&dents).clone();
+            self.line(&format!("coverage: {{ {dent}, wanted: {wanted} % }}"));
         }
         let model = *self
             .bytes

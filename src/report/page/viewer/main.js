@@ -17,7 +17,9 @@ function startViewer() {
     const stage = new Stage(canvas, scene, section);
     const status = root.querySelector("[role=status]");
     const say = (text) => (status.textContent = text);
-    fillStage(root, scene, stage, section, say);
+    const nozzle = new Nozzle(scene);
+    fillStage(root, scene, stage, section, nozzle, say);
+    const travel = scene.motion ? new Travel(root, scene, nozzle, () => stage.draw(), say) : null;
 
     const showSection = connectSection(root, section, () => stage.draw());
     const resetAll = () => {
@@ -53,6 +55,11 @@ function startViewer() {
         s: toggleSection,
         w: showAll,
         r: resetAll,
+        ...(travel && {
+            p: () => travel.toggle(),
+            ",": () => travel.move(-MOTION_STEP),
+            ".": () => travel.move(MOTION_STEP),
+        }),
     });
     const buttons = { reset: resetAll, whole: showAll, in: () => stage.zoom(0.88), out: () => stage.zoom(1 / 0.88) };
     for (const button of root.querySelectorAll("button[data-do]")) {
@@ -64,7 +71,7 @@ function startViewer() {
 }
 
 /** Fills the world and the legend. */
-function fillStage(root, scene, stage, section, say) {
+function fillStage(root, scene, stage, section, nozzle, say) {
     const legend = root.querySelector(".legend");
     const add = (into, name, swatch, object, isShown = true) => {
         if (object) {
@@ -109,7 +116,7 @@ function fillStage(root, scene, stage, section, say) {
     }
 
     const things = legendGroup(legend, "Nozzle and strips");
-    add(things, "nozzle, to scale", { kind: "area", colour: LOOK.nozzle }, nozzleGroup(scene));
+    add(things, "nozzle, to scale", { kind: "area", colour: LOOK.nozzle }, nozzle.group);
     if (scene.places.length > 0) {
         const marks = new Strips(root.querySelector(".marks"), scene, stage, say);
         things("test strips", { kind: "dot", colour: "#222222" }, (isShown) => marks.show(isShown));

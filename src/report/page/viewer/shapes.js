@@ -20,40 +20,49 @@ function surfaceMesh(surface, colour, clippingPlanes) {
     return new THREE.Mesh(geometry, material);
 }
 
-/** The body of the nozzle, its exit and the axis of the jet, to scale. */
-function nozzleGroup(scene) {
-    const group = new THREE.Group();
-    const body = new THREE.MeshLambertMaterial({
-        color: LOOK.nozzle,
-        transparent: true,
-        opacity: 0.45,
-        depthWrite: false,
-    });
-    const up = new THREE.Vector3(0, 1, 0);
-    for (const piece of scene.nozzle) {
-        const from = vector(piece.from);
-        const axis = vector(piece.to).sub(from);
-        const shape = new THREE.CapsuleGeometry(piece.radius, axis.length(), 16, 32);
-        const mesh = new THREE.Mesh(shape, body);
-        mesh.position.copy(from).addScaledVector(axis, 0.5);
-        if (axis.length() > 0) {
-            mesh.quaternion.setFromUnitVectors(up, axis.normalize());
-        }
-        group.add(mesh);
+/** The body of the nozzle, its exit and the axis of the jet, to scale, wherever it stands. */
+class Nozzle {
+    constructor(scene) {
+        this.group = new THREE.Group();
+        const body = new THREE.MeshLambertMaterial({
+            color: LOOK.nozzle,
+            transparent: true,
+            opacity: 0.45,
+            depthWrite: false,
+        });
+        this.pieces = scene.nozzle.map((piece) => {
+            const length = vector(piece.to).distanceTo(vector(piece.from));
+            const mesh = new THREE.Mesh(new THREE.CapsuleGeometry(piece.radius, length, 16, 32), body);
+            this.group.add(mesh);
+            return mesh;
+        });
+        this.exit = new THREE.Mesh(
+            new THREE.CircleGeometry(scene.exitRadius, 48),
+            new THREE.MeshBasicMaterial({ color: 0x111111, side: THREE.DoubleSide }),
+        );
+        this.group.add(this.exit);
+        this.reach = vector(scene.exit).length();
+        this.axis = segments([0, 0, 0, 0, 0, this.reach], 0x111111, 1.2, this.reach / 24);
+        this.group.add(this.axis);
+        const exit = vector(scene.exit);
+        const tips = scene.nozzle.map((piece) => vector(piece.to).sub(vector(piece.from)));
+        this.stand(exit, vector(scene.direction), tips);
     }
-    const direction = vector(scene.direction);
-    const exit = new THREE.Mesh(
-        new THREE.CircleGeometry(scene.exitRadius, 48),
-        new THREE.MeshBasicMaterial({ color: 0x111111, side: THREE.DoubleSide }),
-    );
-    exit.position.copy(vector(scene.exit));
-    exit.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), direction);
-    group.add(exit);
-    const reach = vector(scene.exit).length();
-    const tip = vector(scene.exit).addScaledVector(direction, reach);
-    const axis = segments([...scene.exit, ...tip.toArray()], 0x111111, 1.2, reach / 24);
-    group.add(axis);
-    return group;
+
+    /** Puts it with its exit at a place, its jet along a direction, and the far ends of its body from the exit. */
+    stand(exit, direction, tips) {
+        this.pieces.forEach((mesh, index) => {
+            const tip = tips[index];
+            mesh.position.copy(exit).addScaledVector(tip, 0.5);
+            if (tip.length() > 0) {
+                mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), tip.clone().normalize());
+            }
+        });
+        for (const thing of [this.exit, this.axis]) {
+            thing.position.copy(exit);
+            thing.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), direction);
+        }
+    }
 }
 
 /** Separate pieces of line with a width in pixels; dashed where a length of dashes is given. */

@@ -1,0 +1,192 @@
+//! The figure of a stroke: what verdicts use up along it, and what it dents of the target.
+
+use std::ops::Range;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::linear::{Axes, Plot};
+use super::sheet::{self, Area, Drawn, Fault, drawn, headline, styled};
+use super::style::{GHOST, INK, LABEL, letters, look_of};
+use crate::record::{DentedMapRecord, Record, StrokeRecord, VerdictRecord};
+use crate::report::number::{plain, share};
+
+const WIDTH: u32 = 2000;
+/// Upper left corner of the axes, px, and their size.
+const LEFT: i32 = 140;
+const TOP: i32 = 230;
+const ACROSS: i32 = 1400;
+const CURVES: i32 = 380;
+/// Between the panels, px.
+const BETWEEN: i32 = 150;
+const BELOW: i32 = 90;
+/// How high a map may be, px.
+const MAP: Range<i32> = 120..700;
+/// Where legend and colour bar stand, px.
+const BESIDE: i32 = LEFT + ACROSS + 40;
+const BAR_WIDTH: i32 = 26;
+/// How far the curves go at least and at most, % of what is allowed.
+const LEAST_USED: f64 = 110.0;
+const MOST_USED: f64 = 300.0;
+
+/// The figure as SVG; `None` for a spot, or where the nozzle does not fit.
+pub fn svg(record: &Record) -> Option<Result<String, Fault>> {
+    let stroke = record.stroke.as_ref()?;
+    if stroke.stations.len() < 2 {
+        return None;
+    }
+    let map = stroke.dented_map.as_ref().filter(|map| map.columns > 0);
+    let height = map.map_or(0, |map| BETWEEN + map_height(map));
+    let size = (WIDTH, (TOP + CURVES + height + BELOW) as u32);
+    Some(drawn(size, |area| {
+        headline(area, "The stroke", &sentences(record, stroke))?;
+        curves(area, stroke)?;
+        map.map_or(Ok(()), |map| dented(area, map))
+    }))
+}
+
+fn sentences(record: &Record, stroke: &StrokeRecord) -> [String; 2] {
+    let mut what = format!(
+        "Each verdict at {} stations where the nozzle stands still; 100 % is what is allowed.",
+        stroke.stations.len()
+    );
+    if let Some(dented) = &stroke.dented {
+        what += &format!(
+            " Below, what all passes together dent: {} of the target on the mean.",
+            share(dented.mean)
+        );
+    }
+    [record.problem.title.clone(), what]
+}
+
+/// How much of what is allowed a verdict uses up, %.
+fn used(verdict: &VerdictRecord) -> f64 {
+    match verdict.allowed > 0.0 {
+        true => verdict.share / verdict.allowed * 100.0,
+        false if verdict.passes => 0.0,
+        false => f64::INFINITY,
+    }
+}
+
+fn curves(area: &Area, stroke: &StrokeRecord) -> Drawn {
+    let places = stroke.stations.iter().map(|station| station.at_m * 1e3);
+    let from = places.clone().fold(f64::INFINITY, f64::min);
+    let to = places.fold(f64::NEG_INFINITY, f64::max);
+    let all = stroke.stations.iter().flat_map(|station| &station.verdicts);
+    let most = all.map(used).fold(LEAST_USED, f64::max).min(MOST_USED);
+    let axes = Axes {
+        title: "Share of what is allowed, %",
+        x: from..to,
+        x_name: "from the beginning of the stroke, mm",
+        y: 0.0..most,
+        y_name: "% of what is allowed",
+    };
+    let corners = [(LEFT, TOP), (LEFT + ACROSS, TOP + CURVES)];
+    let plot = Plot::new(area, corners, &axes)?;
+    let limit = [(from, 100.0), (to, 100.0)].map(|point| plot.place(point));
+    sheet::dashes(area, limit.to_vec(), INK.stroke_width(3))?;
+    let mut subjects: Vec<&str> = Vec::new();
+    for verdict in stroke.stations.iter().flat_map(|it| &it.verdicts) {
+        if !subjects.contains(&verdict.subject.as_str()) {
+            subjects.push(&verdict.subject);
+        }
+    }
+    for (index, subject) in subjects.iter().enumerate() {
+        let look = look_of(index);
+        let points = stroke.stations.iter().filter_map(|station| {
+            let mut verdicts = station.verdicts.iter();
+            let verdict = verdicts.find(|verdict| verdict.subject == *subject)?;
+            Some(plot.place((station.at_m * 1e3, used(verdict).min(most))))
+        });
+        let points: Vec<sheet::Place> = points.collect();
+        sheet::line(area, points.clone(), look)?;
+        for place in points {
+            sheet::marker(area, place, look, 8.0)?;
+        }
+        sheet::key(area, (BESIDE, TOP + 16 + 38 * index as i32), look, subject)?;
+    }
+    Ok(())
+}
+
+fn rows(map: &DentedMapRecord) -> usize {
+    map.dented.len() / map.columns
+}
+
+/// As high as its proportions ask for, within bounds.
+fn map_height(map: &DentedMapRecord) -> i32 {
+    let [along, across] = map.sides_m;
+    let proportion = rows(map) as f64 * across / (map.columns as f64 * along);
+    let height = (f64::from(ACROSS) * proportion).round() as i32;
+    height.clamp(MAP.start, MAP.end)
+}
+
+fn dented(area: &Area, map: &DentedMapRecord) -> Drawn {
+    let top = TOP + CURVES + BETWEEN;
+    let bottom = top + map_height(map);
+    let sides = map.sides_m.map(|it| it * 1e3);
+    let corner = map.corner_m.map(|it| it * 1e3);
+    let [x, y] = [(0, map.columns), (1, rows(map))]
+        .map(|(axis, count)| corner[axis]..corner[axis] + sides[axis] * count as f64);
+    let axes = Axes {
+        title: "Dented, % of the area",
+        x,
+        x_name: "along the stroke, mm",
+        y,
+        y_name: "across it, mm",
+    };
+    let plot = Plot::new(area, [(LEFT, top), (LEFT + ACROSS, bottom)], &axes)?;
+    let scale = scale(map);
+    for (index, value) in map.dented.iter().enumerate() {
+        let Some(value) = value else {
+            continue;
+        };
+        let (column, row) = (index % map.columns, index / map.columns);
+        let at = |dx: usize, dy: usize| {
+            (
+                corner[0] + sides[0] * (column + dx) as f64,
+                corner[1] + sides[1] * (row + dy) as f64,
+            )
+        };
+        let colour = colour(&scale, f64::from(*value) * 100.0);
+        plot.rectangle([at(0, 0), at(1, 1)], colour.filled())?;
+    }
+    bar(area, &scale, (top, bottom))
+}
+
+/// The colours show the values that there are, %.
+fn scale(map: &DentedMapRecord) -> Range<f64> {
+    let values = map.dented.iter().flatten();
+    let least = values.map(|value| f64::from(*value) * 100.0);
+    let least = least.fold(100.0, f64::min);
+    // Where all is dented alike, the scale is a narrow one.
+    least.min(99.0).floor()..100.0
+}
+
+fn colour(scale: &Range<f64>, value: f64) -> RGBColor {
+    let share = (value - scale.start) / (scale.end - scale.start);
+    let colour = colorous::CIVIDIS.eval_continuous(share.clamp(0.0, 1.0));
+    RGBColor(colour.r, colour.g, colour.b)
+}
+
+fn bar(area: &Area, scale: &Range<f64>, (top, bottom): (i32, i32)) -> Drawn {
+    let bands = (bottom - top) / 4;
+    let edge = |band: i32| bottom - (bottom - top) * band / bands;
+    let value = |share: f64| scale.start + share * (scale.end - scale.start);
+    for band in 0..bands {
+        let corners = [(BESIDE, edge(band + 1)), (BESIDE + BAR_WIDTH, edge(band))];
+        let middle = (f64::from(band) + 0.5) / f64::from(bands);
+        area.draw(&Rectangle::new(
+            corners,
+            colour(scale, value(middle)).filled(),
+        ))?;
+    }
+    let frame = [(BESIDE, top), (BESIDE + BAR_WIDTH, bottom)];
+    area.draw(&Rectangle::new(frame, GHOST.stroke_width(2)))?;
+    let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
+    for share in [0.0, 0.5, 1.0] {
+        let y = bottom - (f64::from(bottom - top) * share).round() as i32;
+        let place = (BESIDE + BAR_WIDTH + 10, y);
+        area.draw_text(&format!("{} %", plain(value(share))), &style, place)?;
+    }
+    Ok(())
+}
