@@ -13,7 +13,7 @@ mod hits;
 mod map;
 
 use crate::elementary::{exp_m1, ln_1p, square};
-use crate::jet::{Replicates, purpose};
+use crate::jet::{Draw, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Settings;
 use crate::problem::stroke::Leg;
@@ -21,15 +21,18 @@ use crate::scenario::Scenario;
 pub use dented::{Dented, Estimate};
 use dented::{DentedCells, Question};
 use grid::{Cell, Cells};
+use hits::FirstHits;
 pub use map::CoverageMap;
 use map::Unrolled;
 
 /// Shots behind the densities.
 const SHOTS: usize = 1 << 18;
+/// The same for a stroke.
+const SHOTS_OF_STROKE: usize = 1 << 20;
 /// Cells into which a flat square target is cut.
 const CELLS: f64 = 64.0;
 /// The same for the target of a stroke, which is much larger than the spot.
-const CELLS_OF_STROKE: f64 = 1024.0;
+const CELLS_OF_STROKE: f64 = 800.0;
 /// Into how many cells it is cut at most for the mean of what is dented, whose error falls with their size.
 const MOST_CELLS: f64 = 16_384.0;
 /// Cells that are hit have this many hits on average.
@@ -104,15 +107,18 @@ impl Coverage {
     /// The same over a stroke, whose run-out goes on by so many places beyond both ends.
     pub fn of_stroke(scenario: &Scenario, legs: &[Leg], beyond: f64) -> Option<Self> {
         let wish = scenario.problem.coverage?;
-        let mut validation =
-            Replicates::without_boundary(&scenario.problem, purpose::COVERAGE, SHOTS);
-        let samples = validation.sets.iter_mut();
-        for sample in samples.flat_map(|set| &mut set.jet.shots) {
-            sample.place *= 1.0 + 2.0 * beyond;
-        }
-        let samples = validation.sets.len();
+        let shots = match scenario.traverse {
+            Some(_) => SHOTS_OF_STROKE,
+            None => SHOTS,
+        };
+        let draw = Draw::new(&scenario.problem, purpose::COVERAGE, shots).without_boundary();
         let (target, _) = scenario.target.cut_out(&scenario.scene);
-        let (hits, dent_diameter) = hits::fire(scenario, legs, &validation.sets, &wish.dent);
+        let FirstHits {
+            hits,
+            dent_diameter,
+            shots,
+            relative_mass,
+        } = FirstHits::fire(scenario, legs, beyond, &wish.dent, &draw);
         let layout = scenario.traverse.as_ref().map(|traverse| {
             let unrolled = Unrolled::new(traverse, &target, &hits);
             let numbers = unrolled.numbers(CELLS_OF_STROKE);
@@ -131,7 +137,6 @@ impl Coverage {
                 .map(|hits| hits.iter().map(|hit| hit.weight).sum())
                 .collect(),
         };
-        let shots = validation.shots();
         let mean = whole.density(shots);
         let mut by_density: Vec<&Cell> = cells.iter().collect();
         by_density.sort_by(|a, b| a.density(shots).value.total_cmp(&b.density(shots).value));
@@ -145,8 +150,6 @@ impl Coverage {
             off * off * cell.area / area
         });
         let spread = squares.sum::<f64>().sqrt();
-        let fired = validation.sets.iter().flat_map(|set| &set.jet.shots);
-        let relative_mass = fired.map(|sample| sample.mass()).sum::<f64>() / shots as f64;
         let shots_per_kilogram = 1.0 / (scenario.problem.shot.mass() * relative_mass);
         let question = Question {
             wanted: wish.wanted,
@@ -162,7 +165,7 @@ impl Coverage {
             .map(|it| it.area)
             .sum();
         let hit_share = (hit / area).max(1.0 / CELLS);
-        let count = match samples {
+        let count = match hits.len() {
             1 => MOST_CELLS,
             _ => (whole.all_hits() / HITS_IN_A_CELL / hit_share).clamp(1.0, MOST_CELLS),
         };

@@ -4,7 +4,7 @@ use nalgebra::Point3;
 use rayon::prelude::*;
 
 use crate::elementary::{power, square};
-use crate::jet::{Replicate, ShotSample};
+use crate::jet::{Draw, ShotSample};
 use crate::problem::equipment::Dent;
 use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
@@ -18,30 +18,58 @@ pub(super) struct FirstHit {
     pub weight: f64,
 }
 
-/// The first hits of each sample, and the diameter of the dent that has the mean area, m.
-pub(super) fn fire(
-    scenario: &Scenario,
-    legs: &[Leg],
-    samples: &[Replicate],
-    dent: &Dent,
-) -> (Vec<Vec<FirstHit>>, f64) {
-    let mut scenario = scenario.clone();
-    scenario.problem.paths.impacts = 1;
-    let of_sample = |sample: &Replicate| {
-        let of_leg = |leg: &Leg| hits_of(&scenario, leg, legs, sample, dent);
-        legs.iter().flat_map(of_leg).collect()
-    };
-    let mut hits: Vec<Vec<FirstHit>> = samples.par_iter().map(of_sample).collect();
-    if let Dent::Diameter(diameter) = *dent {
-        return (hits, diameter);
+/// The first hits of some shots.
+pub(super) struct FirstHits {
+    /// Those of each replicate.
+    pub hits: Vec<Vec<FirstHit>>,
+    /// Diameter of the dent that has the mean area, m.
+    pub dent_diameter: f64,
+    /// Shots that were fired.
+    pub shots: usize,
+    /// Mean of their masses over that of the mean shot.
+    pub relative_mass: f64,
+}
+
+impl FirstHits {
+    /// Fires along a stroke whose run-out goes on by so many places beyond both ends. Shots are drawn set by set, as
+    /// all of them would take too much room.
+    pub fn fire(scenario: &Scenario, legs: &[Leg], beyond: f64, dent: &Dent, draw: &Draw) -> Self {
+        let mut scenario = scenario.clone();
+        scenario.problem.paths.impacts = 1;
+        let of_set = |number: u32| {
+            let mut shots = draw.set(number).jet.shots;
+            for shot in &mut shots {
+                shot.place *= 1.0 + 2.0 * beyond;
+            }
+            let masses: f64 = shots.iter().map(ShotSample::mass).sum();
+            let of_leg = |leg: &Leg| hits_of(&scenario, leg, legs, &shots, dent);
+            let hits: Vec<FirstHit> = legs.iter().flat_map(of_leg).collect();
+            (hits, shots.len(), masses)
+        };
+        let sets: Vec<(Vec<FirstHit>, usize, f64)> =
+            (0..draw.sets()).into_par_iter().map(of_set).collect();
+        let shots = sets.iter().map(|(_, shots, _)| shots).sum();
+        let masses: f64 = sets.iter().map(|(.., masses)| masses).sum();
+        let mut hits: Vec<Vec<FirstHit>> = sets.into_iter().map(|(hits, ..)| hits).collect();
+        let dent_diameter = match *dent {
+            Dent::Diameter(diameter) => diameter,
+            Dent::Measured { .. } | Dent::Hardness(_) => {
+                let count: usize = hits.iter().map(Vec::len).sum();
+                let squares: f64 = hits.iter().flatten().map(|hit| hit.weight).sum();
+                let mean = squares / count.max(1) as f64;
+                for hit in hits.iter_mut().flatten().filter(|_| mean > 0.0) {
+                    hit.weight /= mean;
+                }
+                mean.sqrt()
+            }
+        };
+        Self {
+            hits,
+            dent_diameter,
+            shots,
+            relative_mass: masses / shots as f64,
+        }
     }
-    let count: usize = hits.iter().map(Vec::len).sum();
-    let squares: f64 = hits.iter().flatten().map(|hit| hit.weight).sum();
-    let mean = squares / count.max(1) as f64;
-    for hit in hits.iter_mut().flatten().filter(|_| mean > 0.0) {
-        hit.weight /= mean;
-    }
-    (hits, mean.sqrt())
 }
 
 /// The hits of a leg's shots, each with the square of its dent's diameter, or with 1 where all dents are the same.
@@ -49,10 +77,10 @@ fn hits_of(
     scenario: &Scenario,
     leg: &Leg,
     legs: &[Leg],
-    sample: &Replicate,
+    shots: &[ShotSample],
     dent: &Dent,
 ) -> Vec<FirstHit> {
-    let all = sample.jet.shots.iter();
+    let all = shots.iter();
     let shots: Vec<ShotSample> = all
         .filter(|shot| legs.len() == 1 || std::ptr::eq(Leg::at(legs, shot.place), leg))
         .copied()

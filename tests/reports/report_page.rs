@@ -270,6 +270,37 @@ fn a_browser_shows_the_page_and_the_view_obeys_the_keyboard() {
     browser.assert_no_complaints();
 }
 
+/// The nozzle of a stroke is dragged by its slider, moved by keys, and travels by itself.
+#[test]
+#[ignore = "needs Chromium"]
+fn the_nozzle_of_a_stroke_travels() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = crate::strokes::illustrated("keyway-stroke.yaml");
+    let mut browser = Browser::start(&[]);
+    browser.open(&written(folder.path(), &record));
+    browser.wait_for("document.documentElement.classList.contains('has-view')");
+    let place = "document.querySelector('[data-motion=place]').value";
+    let shown = "document.querySelector('[data-motion=shown]').textContent";
+    let first = (browser.value(PICTURE), browser.value(place));
+    assert_eq!(first.1, "500");
+    browser.value(
+        "(() => { const it = document.querySelector('[data-motion=place]'); it.value = 0; it.dispatchEvent(new Event('input')); })()",
+    );
+    let dragged = browser.value(PICTURE);
+    assert!(dragged != first.0, "nothing moves");
+    let text = browser.value(shown);
+    assert!(text.as_str().unwrap().contains("z = 4 mm"), "{text}");
+    browser.value("document.querySelector('#viewer canvas').focus()");
+    browser.press(".");
+    assert_eq!(browser.value(place), "20");
+    browser.press(",");
+    assert_eq!(browser.value(place), "0");
+    browser.press("p");
+    browser.wait_for(&format!("Number({place}) > 100"));
+    browser.press("p");
+    browser.assert_no_complaints();
+}
+
 #[test]
 #[ignore = "needs Chromium"]
 fn without_webgl_the_still_picture_stands_in() {

@@ -4,15 +4,28 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use peenpose::control::Control;
-use peenpose::record::StrokeRecord;
+use peenpose::record::{Record, StrokeRecord, WaypointRecord};
+use peenpose::report::export::{Format, export};
 use peenpose::report::program;
 use peenpose::study::{Extras, Study};
 
 fn stroke(name: &str) -> StrokeRecord {
+    solved(name, Extras::default()).stroke.unwrap()
+}
+
+fn solved(name: &str, extras: Extras) -> Record {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
     let study = Study::open(&folder.join(name)).unwrap_or_else(|rejection| panic!("{rejection}"));
-    let record = study.solve(Extras::default(), &Control::default()).unwrap();
-    record.stroke.unwrap()
+    study.solve(extras, &Control::default()).unwrap()
+}
+
+/// A stroke with its pictures.
+pub fn illustrated(name: &str) -> Record {
+    let extras = Extras {
+        evidence: true,
+        ..Extras::default()
+    };
+    solved(name, extras)
 }
 
 /// mm, and the ends of unit vectors.
@@ -92,4 +105,108 @@ fn the_tip_is_as_fast_as_the_spot_on_a_straight_stroke() {
             .collect();
         assert!((feeds[0] / feeds[1] - 1.0).abs() < 1e-9, "{row}");
     }
+}
+
+/// In glTF the nozzle travels through its waypoints in the time that the feed takes: round the part where that turns.
+#[test]
+fn the_nozzle_travels_in_gltf() {
+    for name in ["keyway-stroke.yaml", "bore-turning.yaml"] {
+        let record = illustrated(name);
+        let stroke = record.stroke.as_ref().unwrap();
+        let bytes = export(&record, Format::Glb).unwrap().unwrap();
+        let file = gltf::Gltf::from_slice(&bytes).expect("a valid file");
+        let blob = file.blob.as_ref().unwrap();
+        let animation = file.animations().next().unwrap();
+        let (mut bodies, mut turns) = (0, 0);
+        for channel in animation.channels() {
+            let node = channel.target().node();
+            let node = node.name().unwrap();
+            assert!(node.starts_with("nozzle, body"), "{node}");
+            let reader = channel.reader(|_| Some(blob));
+            let times: Vec<f32> = reader.read_inputs().unwrap().collect();
+            assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
+            let last = f64::from(*times.last().unwrap());
+            let takes = stroke.time_s.unwrap();
+            assert!((last / takes - 1.0).abs() < 0.01, "{last} {takes}");
+            match reader.read_outputs().unwrap() {
+                gltf::animation::util::ReadOutputs::Translations(exits) => {
+                    bodies += 1;
+                    let exits: Vec<[f32; 3]> = exits.collect();
+                    assert_eq!(exits.len(), stroke.waypoints.len());
+                    for (exit, waypoint) in exits.iter().zip(&stroke.waypoints) {
+                        assert_exit(*exit, waypoint);
+                    }
+                }
+                gltf::animation::util::ReadOutputs::Rotations(rotations) => {
+                    turns += 1;
+                    for it in rotations.into_f32() {
+                        let norm: f32 = it.iter().map(|part| part * part).sum();
+                        assert!((norm - 1.0).abs() < 1e-5);
+                    }
+                }
+                _ => panic!("only places and directions change"),
+            }
+        }
+        let record_bodies = record.evidence.as_ref().unwrap().nozzle.len();
+        assert_eq!(bodies, record_bodies);
+        // A ball looks the same from everywhere.
+        let expected = if stroke.turns > 0.0 { record_bodies } else { 0 };
+        assert_eq!(turns, expected);
+    }
+}
+
+/// A part that turns about z by an angle sees the nozzle turned back by it.
+fn assert_exit(found: [f32; 3], waypoint: &WaypointRecord) {
+    let (sin, cos) = (-waypoint.turn_deg).to_radians().sin_cos();
+    let [x, y, z] = waypoint.pose.exit_m;
+    let wanted = [x * cos - y * sin, x * sin + y * cos, z];
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!(
+            (f64::from(*found) - wanted).abs() < 1e-7,
+            "{found} {wanted}"
+        );
+    }
+}
+
+/// Dents that grow with the hit: a reading at the speed of the hits changes nothing, at half of it dents are larger by the
+/// root of two; a hardness gives what its formula says; 200 % takes twice the time to 98 %.
+#[test]
+fn dents_follow_from_a_reading_or_from_hardness() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    let text = std::fs::read_to_string(folder.join("keyway-stroke.yaml")).unwrap();
+    let given = "coverage: { dent_diameter: 0.25 mm, wanted: 98 % }";
+    let with = |coverage: &str| {
+        assert!(text.contains(given));
+        let changed = text.replace(given, coverage);
+        let study = Study::from_memory(&changed, Path::new("stroke.yaml"), &[]).unwrap();
+        let settings = study.problem().ranges.middle();
+        let record = study.evaluate(&settings, 4096, Extras::default(), &Control::default());
+        let record = record.unwrap();
+        (record.coverage.unwrap(), record.stroke.unwrap(), settings)
+    };
+    let (fixed, stroke, settings) = with(given);
+    let (incidence, speed) = (settings.incidence, settings.speed);
+    let reading = |speed: f64| {
+        let degrees = incidence.to_degrees();
+        with(&format!(
+            "coverage: {{ dent_diameter: 0.25 mm, measured_at: {{ speed: {speed} m/s, incidence: {degrees} deg }} }}"
+        ))
+    };
+    let (same, ..) = reading(speed);
+    let (larger, ..) = reading(speed / 2.0);
+    let ratio = same.dent_diameter_m / fixed.dent_diameter_m;
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+    let ratio = larger.dent_diameter_m / same.dent_diameter_m;
+    assert!((ratio - 2_f64.sqrt()).abs() < 1e-9, "{ratio}");
+    let (hard, ..) = with("coverage: { hardness: 250 HB }");
+    let normal_speed = speed * incidence.sin();
+    let lost = 1.0 - 0.25 * 0.25;
+    let work_over_hardness = 7000.0 * normal_speed * normal_speed * lost / (250.0 * 9.806_65e6);
+    let expected = 1.278 * 1e-3 * work_over_hardness.powf(0.25);
+    let ratio = hard.dent_diameter_m / expected;
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+    let (twice, slower, _) = with("coverage: { dent_diameter: 0.25 mm, wanted: 200 % }");
+    assert_eq!((twice.wanted, twice.wanted_times), (0.98, 2.0));
+    let ratio = stroke.feed_m_s.unwrap() / slower.feed_m_s.unwrap();
+    assert!((ratio - 2.0).abs() < 1e-9, "{ratio}");
 }

@@ -228,7 +228,7 @@ fn dent(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<Dent> {
         let hardness = scope.maybe("hardness", &entry.hardness, Limit::HARDNESS)?;
         for (key, is_given) in [
             ("dent_diameter", entry.dent_diameter.is_given()),
-            ("dent_at", entry.dent_at.is_given()),
+            ("measured_at", entry.measured_at.is_given()),
         ] {
             if is_given {
                 let fault = scope.fault(FaultCode::EitherOr, key, "stands beside `hardness`");
@@ -239,13 +239,13 @@ fn dent(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<Dent> {
         return hardness.map(Dent::Hardness);
     }
     let diameter = scope.needed_here("dent_diameter", &entry.dent_diameter, Limit::LENGTH);
-    let Field::Present(at) = &entry.dent_at else {
-        return match entry.dent_at {
+    let Field::Present(at) = &entry.measured_at else {
+        return match entry.measured_at {
             Field::Faulty => None,
             _ => Some(Dent::Diameter(diameter?)),
         };
     };
-    let hit = scope.of("dent_at");
+    let hit = scope.of("measured_at");
     let speed = hit.needed("speed", &at.speed, Limit::SPEED);
     let incidence = hit.optional("incidence", &at.incidence, Limit::INCIDENCE, FRAC_PI_2);
     Some(Dent::Measured {

@@ -220,7 +220,7 @@ pub(in crate::problem) enum RoleEntry {
 /// ```yaml
 /// coverage: { dent_diameter: 0.2 mm, wanted: 95 % }
 /// # or
-/// coverage: { dent_diameter: 0.2 mm, dent_at: { speed: 27 m/s, incidence: 90 deg }, wanted: 200 % }
+/// coverage: { dent_diameter: 0.2 mm, measured_at: { speed: 27 m/s, incidence: 90 deg }, wanted: 200 % }
 /// # or
 /// coverage: { hardness: 300 HB }
 /// ```
@@ -228,7 +228,7 @@ pub(in crate::problem) enum RoleEntry {
 #[serde(default)]
 #[schemars(extend(
     "oneOf" = form::exactly_one_of(&["dent_diameter", "hardness"]),
-    "dependentRequired" = json!({ "dent_at": ["dent_diameter"] }),
+    "dependentRequired" = json!({ "measured_at": ["dent_diameter"] }),
 ))]
 pub(in crate::problem) struct CoverageEntry {
     /// Diameter d of the dent that one hit leaves, as measured on a strip, 0.001 um to 1000 m.
@@ -236,7 +236,7 @@ pub(in crate::problem) struct CoverageEntry {
     pub dent_diameter: Field<Length>,
     /// The hit that left it: d then grows with the root of the normal speed of each hit, and with the shot; the same dent
     /// for every hit where absent.
-    pub dent_at: Field<DentHitEntry>,
+    pub measured_at: Field<DentHitEntry>,
     /// Hardness of the target, 1 HB to 10000 HB: the volume of a dent is the work that the hit loses over the dynamic
     /// hardness, taken to be 9.81 MPa for each HB; what `dent_diameter` says where absent.
     #[schemars(example = &"300 HB")]

@@ -355,7 +355,7 @@ impl Writer<'_, '_> {
             let hardness = self.number([100.0, 600.0], [1.0, 9999.0]);
             let dents = [
                 format!("dent_diameter: {dent}"),
-                format!("dent_diameter: {dent}, dent_at: {{ speed: {speed} m/s }}"),
+                format!("dent_diameter: {dent}, measured_at: {{ speed: {speed} m/s }}"),
                 format!("hardness: {hardness} HB"),
             ];
             let dent = self.bytes.of(&dents).clone();

@@ -19,7 +19,7 @@ function startViewer() {
     const say = (text) => (status.textContent = text);
     const nozzle = new Nozzle(scene);
     fillStage(root, scene, stage, section, nozzle, say);
-    const travel = scene.motion ? new Travel(root, scene, nozzle, () => stage.draw(), say) : null;
+    const travel = scene.motion ? new Travel(root, scene.motion, nozzle, () => stage.draw(), say) : null;
 
     const showSection = connectSection(root, section, () => stage.draw());
     const resetAll = () => {
@@ -68,6 +68,7 @@ function startViewer() {
     stage.reset();
     stage.fit();
     showSection();
+    travel?.show(0.5);
 }
 
 /** Fills the world and the legend. */

@@ -3,9 +3,8 @@
 const MOTION_STEP = 0.02; // of the stroke, per key press
 
 class Travel {
-    constructor(root, scene, nozzle, draw, say) {
-        this.motion = scene.motion;
-        this.scene = scene;
+    constructor(root, motion, nozzle, draw, say) {
+        this.motion = motion;
         this.nozzle = nozzle;
         this.draw = draw;
         this.say = say;
@@ -20,7 +19,6 @@ class Travel {
             this.stop();
             this.show(Number(this.slider.value) / 1000);
         });
-        this.show(0.5);
     }
 
     toggle() {
