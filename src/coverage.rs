@@ -8,6 +8,7 @@
 //! the target is the mean of that over its cells.
 
 mod dented;
+mod dose;
 mod grid;
 mod hits;
 mod map;
@@ -20,6 +21,7 @@ use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
 pub use dented::{Dented, Estimate};
 use dented::{DentedCells, Question};
+pub use dose::Dose;
 use grid::{Cell, Cells};
 use hits::FirstHits;
 pub use map::CoverageMap;
@@ -32,7 +34,7 @@ const SHOTS_OF_STROKE: usize = 1 << 20;
 /// Cells into which a flat square target is cut.
 const CELLS: f64 = 64.0;
 /// The same for the target of a stroke, which is much larger than the spot.
-const CELLS_OF_STROKE: f64 = 800.0;
+const CELLS_OF_STROKE: f64 = 640.0;
 /// Into how many cells it is cut at most for the mean of what is dented, whose error falls with their size.
 const MOST_CELLS: f64 = 16_384.0;
 /// Cells that are hit have this many hits on average.

@@ -31,8 +31,8 @@ struct Arguments {
     /// The first of them.
     #[arg(long, default_value_t = 1)]
     first: u64,
-    /// Common validation shots that answers are compared on.
-    #[arg(long, default_value_t = 1 << 16)]
+    /// Common validation shots that answers are compared on: so many that one rare shot is worth less than the accuracy.
+    #[arg(long, default_value_t = 1 << 21)]
     shots: usize,
     /// Only problems whose name contains this.
     #[arg(long, default_value = "")]

@@ -1,5 +1,7 @@
 //! First hits on the target, and how much each dents.
 
+use std::borrow::Cow;
+
 use nalgebra::Point3;
 use rayon::prelude::*;
 
@@ -80,11 +82,11 @@ fn hits_of(
     shots: &[ShotSample],
     dent: &Dent,
 ) -> Vec<FirstHit> {
-    let all = shots.iter();
-    let shots: Vec<ShotSample> = all
-        .filter(|shot| legs.len() == 1 || std::ptr::eq(Leg::at(legs, shot.place), leg))
-        .copied()
-        .collect();
+    let is_own = |shot: &&ShotSample| std::ptr::eq(Leg::at(legs, shot.place), leg);
+    let shots: Cow<[ShotSample]> = match legs {
+        [_] => shots.into(),
+        _ => shots.iter().filter(is_own).copied().collect(),
+    };
     let tracer = Tracer::new(scenario, &leg.settings, leg.settings.speed);
     let shot = &scenario.problem.shot;
     let restitution = scenario
@@ -99,12 +101,11 @@ fn hits_of(
         let size = power(relative_mass, 1.0 / 3.0);
         square(dent.diameter(shot, size, restitution.at(speed), speed))
     };
-    let paths = tracer.paths(&shots);
-    let pairs = shots.iter().zip(&paths);
-    let first = pairs.flat_map(|(shot, path)| {
-        let counted = path.impacts.iter();
-        let first = counted.filter(|impact| impact.number == 1 && impact.on_target);
-        first.map(|impact| FirstHit {
+    let hits = tracer.first_hits(&shots);
+    let pairs = shots.iter().zip(hits);
+    let first = pairs.filter_map(|(shot, hit)| {
+        let impact = hit.filter(|impact| impact.on_target)?;
+        Some(FirstHit {
             point: impact.point,
             weight: weight(shot.mass(), impact.normal_impulse),
         })

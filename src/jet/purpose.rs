@@ -19,5 +19,7 @@ pub const PILOT_RUNS: u32 = 6;
 pub const CHART_REFERENCE: u32 = 7;
 /// Poses that charts compare.
 pub const CHART_COMPARISON: u32 = 8;
+/// Shots of a search that is to confirm another one.
+pub const CONFIRMATION: u32 = 9;
 /// The scatter of samples in charts; the last, as it may take more streams than the others.
-pub const CHART_SCATTER: u32 = 9;
+pub const CHART_SCATTER: u32 = 10;

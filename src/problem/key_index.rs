@@ -13,47 +13,64 @@ use super::source::child_key;
 pub(super) fn homes_of(name: &str) -> &'static [String] {
     static HOMES: LazyLock<HashMap<String, Vec<String>>> = LazyLock::new(|| {
         let schema = schema();
-        let mut homes = HashMap::new();
-        collect(&schema, &schema["$defs"], "", &mut homes);
-        homes
+        let mut found = Found::default();
+        found.collect(&schema, &schema["$defs"], "");
+        for (group, below) in std::mem::take(&mut found.repeating) {
+            let mut inside = Found::default();
+            inside.collect(&below, &schema["$defs"], &group);
+            for (name, groups) in inside.homes {
+                found.homes.entry(name).or_insert(groups);
+            }
+        }
+        found.homes
     });
     HOMES.get(name).map_or(&[], Vec::as_slice)
 }
 
-/// Collects the keys that a schema knows, from the schema of a group downwards.
-fn collect(
-    schema: &Value,
-    definitions: &Value,
-    group: &str,
-    homes: &mut HashMap<String, Vec<String>>,
-) {
-    if let Some(reference) = schema["$ref"].as_str() {
-        let definition = reference.trim_start_matches("#/$defs/");
-        collect(&definitions[definition], definitions, group, homes);
-    }
-    for ways in ["anyOf", "oneOf"] {
-        for way in schema[ways].as_array().into_iter().flatten() {
-            collect(way, definitions, group, homes);
+/// Groups most of whose keys are those of other groups, where they are meant when they stand in the wrong place.
+const REPEATING: [&str; 2] = ["stroke", "measured_at"];
+
+/// What a schema knows.
+#[derive(Default)]
+struct Found {
+    /// The groups of each key.
+    homes: HashMap<String, Vec<String>>,
+    /// Groups of [`REPEATING`] with their schemas.
+    repeating: Vec<(String, Value)>,
+}
+
+impl Found {
+    /// Collects the keys that a schema knows, from the schema of a group downwards.
+    fn collect(&mut self, schema: &Value, definitions: &Value, group: &str) {
+        if let Some(reference) = schema["$ref"].as_str() {
+            let definition = reference.trim_start_matches("#/$defs/");
+            self.collect(&definitions[definition], definitions, group);
         }
-    }
-    if schema["items"].is_object() {
-        let item = format!("{group}[]");
-        collect(&schema["items"], definitions, &item, homes);
-    }
-    if schema["additionalProperties"].is_object() {
-        // Names of the user's own; what stands there under fixed names is no key.
-        let named = child_key(group, "<name>");
-        collect(&schema["additionalProperties"], definitions, &named, homes);
-        return;
-    }
-    for (name, below) in schema["properties"].as_object().into_iter().flatten() {
-        let known = homes.entry(name.clone()).or_default();
-        if !known.iter().any(|home| home == group) {
-            known.push(group.to_owned());
+        for ways in ["anyOf", "oneOf"] {
+            for way in schema[ways].as_array().into_iter().flatten() {
+                self.collect(way, definitions, group);
+            }
         }
-        // Most keys of a stroke are those of other groups, where they are meant.
-        if !(group.is_empty() && name == "stroke") {
-            collect(below, definitions, &child_key(group, name), homes);
+        if schema["items"].is_object() {
+            let item = format!("{group}[]");
+            self.collect(&schema["items"], definitions, &item);
+        }
+        if schema["additionalProperties"].is_object() {
+            // Names of the user's own; what stands there under fixed names is no key.
+            let named = child_key(group, "<name>");
+            self.collect(&schema["additionalProperties"], definitions, &named);
+            return;
+        }
+        for (name, below) in schema["properties"].as_object().into_iter().flatten() {
+            let known = self.homes.entry(name.clone()).or_default();
+            if !known.iter().any(|home| home == group) {
+                known.push(group.to_owned());
+            }
+            let key = child_key(group, name);
+            match REPEATING.contains(&name.as_str()) {
+                true => self.repeating.push((key, below.clone())),
+                false => self.collect(below, definitions, &key),
+            }
         }
     }
 }
@@ -75,6 +92,9 @@ mod tests {
             ["shot", "nozzle.body[].ball", "nozzle.body[].capsule"]
         );
         assert_eq!(homes_of("via"), ["scene.<name>.extrude.profile[]"]);
+        // Of a stroke only what is its own.
+        assert_eq!(homes_of("run_out"), ["stroke"]);
+        assert!(!homes_of("speed").iter().any(|home| home.contains("stroke")));
         assert!(homes_of("radus").is_empty());
     }
 }

@@ -1,6 +1,7 @@
 //! What parses but can hardly be meant, as far as the file alone tells.
 
 use super::Problem;
+use super::equipment::SurfaceRule;
 use super::fault::Span;
 use super::source::Source;
 use super::stroke::Feed;
@@ -193,7 +194,9 @@ fn allowances(problem: &Problem) -> Vec<Warning> {
         .goals
         .rebound
         .map(|it| ("goals.rebound.allow".into(), it.allow));
-    let own = problem.surfaces.iter().filter_map(|rule| {
+    // Beside the target its own surface may well be peened as the target is.
+    let beside = |rule: &&SurfaceRule| rule.surface != problem.target.surface;
+    let own = problem.surfaces.iter().filter(beside).filter_map(|rule| {
         let key = format!("surfaces.{}.allow", rule.surface);
         Some((key, rule.allow?))
     });

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::answer::{PoseRecord, SettingsRecord, VerdictRecord};
+use crate::coverage::Dose;
 use crate::problem::stroke::{Leg, Line};
 use crate::scenario::Scenario;
 use crate::solve::Answer;
@@ -42,6 +43,9 @@ pub struct StrokeRecord {
     /// What all passes together dent; absent where the feed or the dent is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dented: Option<StrokeDentedRecord>,
+    /// How often surfaces that should be spared are hit in all; none where the feed is not known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub doses: Vec<DoseRecord>,
     /// The same on a map.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dented_map: Option<DentedMapRecord>,
@@ -107,6 +111,19 @@ pub struct StrokeDentedRecord {
     pub most: f64,
 }
 
+/// How often a stroke hits a surface that should be spared, all impacts counted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DoseRecord {
+    /// Full name of the surface.
+    pub surface: String,
+    /// Hits per area where they are densest, 1/m2.
+    pub most_hits_m2: f64,
+    /// Its standard error, 1/m2.
+    pub standard_error_m2: f64,
+    /// Side of the cells over which that is looked at, m.
+    pub cell_side_m: f64,
+}
+
 /// A map of what a stroke dents, unrolled where it goes round an axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DentedMapRecord {
@@ -147,6 +164,23 @@ impl SpotRecord {
             width_m: spot.width,
             share_of_target: spot.share_of_target,
         }
+    }
+}
+
+impl DoseRecord {
+    fn all(scenario: &Scenario, program: &Program) -> Vec<Self> {
+        let fired = program.dented.zip(program.coverage.as_ref());
+        let Some(((mass, _), coverage)) = fired else {
+            return Vec::new();
+        };
+        let shots = mass * coverage.shots_per_kilogram;
+        let record = |dose: &Dose| Self {
+            surface: scenario.scene.surfaces()[dose.surface as usize].clone(),
+            most_hits_m2: dose.most * shots,
+            standard_error_m2: dose.standard_error * shots,
+            cell_side_m: dose.side,
+        };
+        program.doses.iter().map(record).collect()
     }
 }
 
@@ -220,6 +254,7 @@ impl StrokeRecord {
                 least_standard_error: dented.least_error,
                 most: dented.most,
             }),
+            doses: DoseRecord::all(scenario, program),
             dented_map: DentedMapRecord::new(program),
             axis: match &scenario.problem.stroke.as_ref()?.line {
                 Line::Around(helix) => Some(TurnAxisRecord {

@@ -129,7 +129,8 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Takes another group of a contact through the stages.
+    /// Takes another group of a contact through the stages: on shots of its own, so that it does not end where theirs
+    /// led the others, and at last on the common ones, on which finalists are compared.
     fn another_group(&self, contact: usize, number: u32) -> Search {
         let Self {
             scenario,
@@ -138,14 +139,18 @@ impl<'a> Descent<'a> {
             sampler,
             ..
         } = self;
-        let samples = sampler.draw(SCREENING_SHOTS);
+        let samples = sampler.draw_for(number, SCREENING_SHOTS);
         let evaluator = sampler.evaluator(scenario, &samples, effort, control);
         let mut group = self.searches[contact].another_group(number, scenario, &evaluator);
         for stage in stages(scenario, self.shots) {
-            if control.is_stopped() {
-                break;
+            // What stops the others must not leave it on shots of its own, on which J compares with nothing.
+            if control.is_stopped() && stage.shots < self.shots {
+                continue;
             }
-            let samples = sampler.draw(stage.shots);
+            let samples = match stage.shots < self.shots {
+                true => sampler.draw_for(number, stage.shots),
+                false => sampler.draw(stage.shots),
+            };
             let evaluator = sampler.evaluator(scenario, &samples, effort, control);
             group.refine(&evaluator, stage);
         }

@@ -79,6 +79,11 @@ impl<'a> Sampler<'a> {
         self.draw_from(Stream::Search, shots)
     }
 
+    /// Shots that are independent of those of the search, for a group that is to confirm what it has found.
+    pub fn draw_for(&self, group: u32, shots: usize) -> Samples {
+        self.draw_from(Replicates::stream(purpose::CONFIRMATION, group), shots)
+    }
+
     fn draw_from(&self, stream: Stream, shots: usize) -> Samples {
         let problem = &self.scenario.problem;
         match &self.penalty {

@@ -1,6 +1,6 @@
 //! What the machine does on a stroke: where the nozzle goes, how fast, how often, and what that covers.
 
-use crate::coverage::{Coverage, DentedBy};
+use crate::coverage::{Coverage, DentedBy, Dose};
 use crate::feasibility::infeasibility;
 use crate::jet::Pose;
 use crate::problem::stroke::{Feed, Leg, Stroke};
@@ -33,6 +33,8 @@ pub struct Program {
     pub coverage: Option<Coverage>,
     /// Mass of shot that is fired, kg, and what it dents of the target.
     pub dented: Option<(f64, DentedBy)>,
+    /// How often surfaces that should be spared are hit, where coverage is asked for.
+    pub doses: Vec<Dose>,
 }
 
 /// A pose that the nozzle passes.
@@ -89,6 +91,10 @@ impl Program {
             dented: mass
                 .zip(coverage.as_ref())
                 .map(|(mass, coverage)| (mass, coverage.dented_by(mass))),
+            doses: match has_coverage {
+                true => Dose::of_stroke(scenario, legs, beyond),
+                false => Vec::new(),
+            },
             coverage,
         })
     }

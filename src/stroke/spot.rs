@@ -36,15 +36,11 @@ impl Spot {
         let tracer = Tracer::new(&standing, settings, settings.speed);
         let target = &standing.target;
         let frame = target.frame;
-        let paths = validation
+        let hits = validation
             .sets
             .iter()
-            .flat_map(|set| tracer.paths(&set.jet.shots));
-        let hits: Vec<Vector3<f64>> = paths
-            .flat_map(|path| path.impacts)
-            .filter(|hit| hit.number == 1 && hit.surface == target.surface)
-            .map(|hit| hit.point - frame.aim)
-            .collect();
+            .flat_map(|set| tracer.first_hits(&set.jet.shots));
+        let hits: Vec<Vector3<f64>> = hits.flatten().map(|hit| hit.point - frame.aim).collect();
         if hits.len() < FEWEST {
             return None;
         }

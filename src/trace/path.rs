@@ -58,6 +58,21 @@ impl Tracer<'_> {
         recorder.paths
     }
 
+    /// The first hits of shots of the jet that are on the target's surface, in their order.
+    pub fn first_hits(&self, shots: &[ShotSample]) -> Vec<Option<PathImpact>> {
+        let target = &self.scenario.target;
+        let mut first = FirstHits {
+            target,
+            in_packet: [None; LANES],
+            hits: Vec::with_capacity(shots.len()),
+        };
+        self.fire(shots, &mut first, |first, shots, _| {
+            first.hits.extend(&first.in_packet[..shots.len()]);
+            first.in_packet = [None; LANES];
+        });
+        first.hits
+    }
+
     /// The path of a shot that starts anywhere in the scene, with the mass, speed, contact and nozzle pose of
     /// `sample`: a packet of one.
     pub fn path_from(&self, start: Ray, sample: &ShotSample) -> Path {
@@ -110,6 +125,29 @@ impl<'a> Recorder<'a> {
         let none = std::iter::repeat_n(Path::NONE, shots);
         self.paths.extend(self.in_packet.splice(..shots, none));
     }
+}
+
+/// Records first hits on one surface, for which whole paths would be too much.
+struct FirstHits<'a> {
+    target: &'a Patch,
+    /// Of the packet in flight.
+    in_packet: [Option<PathImpact>; LANES],
+    hits: Vec<Option<PathImpact>>,
+}
+
+impl Observer for FirstHits<'_> {
+    fn impacts(&mut self, packet: &RayPacket) {
+        for i in 0..packet.rays.count {
+            let impact = packet.impact(i, self.target);
+            let is_first = |it: &PathImpact| it.number == 1 && it.surface == self.target.surface;
+            let first = impact.filter(is_first);
+            if first.is_some() {
+                self.in_packet[packet.shot[i] as usize] = first;
+            }
+        }
+    }
+
+    fn ends(&mut self, _: usize, _: End, _: usize) {}
 }
 
 impl Path {

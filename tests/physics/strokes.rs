@@ -90,16 +90,19 @@ fn a_stroke_covers_what_a_moving_nozzle_covers() {
     assert!((dented.mass_kg / mass - 1.0).abs() < 1e-9);
 
     const SHOTS: usize = 6_000_000;
-    // The floor of 5 mm x 40 mm in cells of 0.5 mm.
-    let (columns, rows, side) = (10, 80, 0.5e-3);
-    let mut counts = vec![0_u32; columns * rows];
+    // The floor of 5 mm x 40 mm in the cells of the program's map.
+    let map = stroke.dented_map.unwrap();
+    let (along, across) = (map.columns, map.dented.len() / map.columns);
+    let sides = [5e-3 / across as f64, LENGTH / along as f64];
+    assert!((map.sides_m[0] / sides[1] - 1.0).abs() < 1e-9);
+    let mut counts = vec![0_u32; along * across];
     let mut random = Random(7);
     for _ in 0..SHOTS {
         let z = 4e-3 - stroke.run_out_m + way * random.uniform();
         let [x, z] = hit(&mut random, pose, z);
-        let (column, row) = ((x + 2.5e-3) / side, z / side);
-        if (0.0..columns as f64).contains(&column) && (0.0..rows as f64).contains(&row) {
-            counts[row as usize * columns + column as usize] += 1;
+        let (column, row) = ((x + 2.5e-3) / sides[0], z / sides[1]);
+        if (0.0..across as f64).contains(&column) && (0.0..along as f64).contains(&row) {
+            counts[row as usize * across + column as usize] += 1;
         }
     }
     let on_target: u32 = counts.iter().sum();
@@ -113,18 +116,19 @@ fn a_stroke_covers_what_a_moving_nozzle_covers() {
     let share = |count: u32, area: f64| {
         1.0 - (-dent * fired * f64::from(count) / SHOTS as f64 / area).exp()
     };
-    let shares = counts.iter().map(|&count| share(count, side * side));
+    let shares = counts
+        .iter()
+        .map(|&count| share(count, sides[0] * sides[1]));
     let mean = shares.sum::<f64>() / counts.len() as f64;
     let off = (mean - dented.mean).abs();
     assert!(off < 0.01, "{mean} {}", dented.mean);
     assert!(off < 3.0 * dented.mean_standard_error + dented.mean_resolution + 1e-3);
-    // Places are looked at in cells of half a millimetre: the one that is dented least, and for the feed the least
-    // dense 5 % of the floor.
+    // The cell that is dented least, and for the feed the least dense 5 % of the floor.
     counts.sort_unstable();
-    let least = share(counts[0], side * side);
+    let least = share(counts[0], sides[0] * sides[1]);
     let off = (least - dented.least).abs();
     assert!(off < 0.01, "{least} {}", dented.least);
-    let lowest = f64::from(counts[counts.len() / 20]) / SHOTS as f64 / (side * side);
+    let lowest = f64::from(counts[counts.len() / 20]) / SHOTS as f64 / (sides[0] * sides[1]);
     let needed = -(0.02_f64).ln() / dent / lowest;
     let feed = 0.1 / 60.0 * way * coverage.shots_per_kg / needed;
     let found = stroke.feed_m_s.unwrap();

@@ -184,6 +184,10 @@ fn stroke(at: &Place, stroke: &StrokeRecord) -> Outcome {
             at.of(key).share(value)?;
         }
     }
+    for (index, dose) in stroke.doses.iter().enumerate() {
+        let at = at.of("doses").item(index);
+        at.of("most_hits_m2").at_least(dose.most_hits_m2, 0.0)?;
+    }
     if let Some(map) = &stroke.dented_map {
         let at = at.of("dented_map");
         for side in map.sides_m {

@@ -41,7 +41,7 @@ pub fn svg(record: &Record) -> Option<Result<String, Fault>> {
     Some(drawn(size, |area| {
         headline(area, "The stroke", &sentences(record, stroke))?;
         curves(area, stroke)?;
-        map.map_or(Ok(()), |map| dented(area, map))
+        map.map_or(Ok(()), |map| dented(area, map, names(stroke)))
     }))
 }
 
@@ -120,7 +120,18 @@ fn map_height(map: &DentedMapRecord) -> i32 {
     height.clamp(MAP.start, MAP.end)
 }
 
-fn dented(area: &Area, map: &DentedMapRecord) -> Drawn {
+/// What the axes of the map show.
+fn names(stroke: &StrokeRecord) -> [&'static str; 2] {
+    match stroke.axis {
+        Some(_) => [
+            "round the axis from the aim point, mm",
+            "along the axis, mm",
+        ],
+        None => ["along the stroke, mm", "across it, mm"],
+    }
+}
+
+fn dented(area: &Area, map: &DentedMapRecord, [x_name, y_name]: [&str; 2]) -> Drawn {
     let top = TOP + CURVES + BETWEEN;
     let bottom = top + map_height(map);
     let sides = map.sides_m.map(|it| it * 1e3);
@@ -130,9 +141,9 @@ fn dented(area: &Area, map: &DentedMapRecord) -> Drawn {
     let axes = Axes {
         title: "Dented, % of the area",
         x,
-        x_name: "along the stroke, mm",
+        x_name,
         y,
-        y_name: "across it, mm",
+        y_name,
     };
     let plot = Plot::new(area, [(LEFT, top), (LEFT + ACROSS, bottom)], &axes)?;
     let scale = scale(map);

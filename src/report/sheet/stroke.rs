@@ -28,6 +28,9 @@ pub fn block(record: &Record) -> Option<Block> {
     if let Some((dented, coverage)) = stroke.dented.as_ref().zip(record.coverage.as_ref()) {
         block.hanging("coverage   ", &covered(dented, coverage));
     }
+    if !stroke.doses.is_empty() {
+        block.hanging("dose       ", &doses(stroke));
+    }
     let worst = worst_places(record, stroke);
     if !worst.is_empty() {
         block.hanging("worst      ", &worst);
@@ -46,6 +49,23 @@ fn covered(dented: &StrokeDentedRecord, coverage: &CoverageRecord) -> String {
         share(dented.least_standard_error),
         share(dented.most),
         significant(dented.mass_kg, 3),
+    )
+}
+
+/// How often surfaces that should be spared are hit where they are hit most.
+fn doses(stroke: &StrokeRecord) -> String {
+    let each = stroke.doses.iter().map(|dose| {
+        format!(
+            "{} {} (std. error {})",
+            dose.surface,
+            significant(dose.most_hits_m2 * 1e-6, 2),
+            significant(dose.standard_error_m2 * 1e-6, 2),
+        )
+    });
+    let each: Vec<String> = each.collect();
+    format!(
+        "hits/mm2 in all on what should be spared, where they are densest: {}",
+        each.join("; ")
     )
 }
 
