@@ -81,6 +81,8 @@ pub struct Coverage {
 /// The share of the target that some mass of shot dents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DentedBy {
+    /// The mass, kg.
+    pub mass: f64,
     /// The mean over the target.
     pub mean: Estimate,
     /// Of the cell that is dented least; its resolution is not known.
@@ -171,11 +173,10 @@ impl Coverage {
             1 => MOST_CELLS,
             _ => (whole.all_hits() / HITS_IN_A_CELL / hit_share).clamp(1.0, MOST_CELLS),
         };
-        let fine_and_coarse = |numbers: [f64; 2]| match &layout {
-            Some((unrolled, _)) => numbers.map(|it| unrolled.cells(unrolled.numbers(it)).0),
-            None => numbers.map(|it| Cells::new(scenario, &target, it, &hits)),
-        };
-        let [fine, coarse] = fine_and_coarse([count, count / 4.0]);
+        let [fine, coarse] = [count, count / 4.0].map(|count| match &layout {
+            Some((unrolled, _)) => unrolled.cells(unrolled.numbers(count)).0,
+            None => Cells::new(scenario, &target, count, &hits),
+        });
         let by_mass = DentedCells::new(&question, &fine, &coarse);
         let dented = by_mass.dented(&question, &fine);
         let map = layout
@@ -218,8 +219,12 @@ impl Coverage {
 
     /// The share of an area with some density of first hits that a mass of shot dents, kg.
     pub fn share_dented(&self, density: f64, mass: f64) -> f64 {
-        let dent = std::f64::consts::PI * square(self.dent_diameter) / 4.0;
-        -exp_m1(-dent * density * mass * self.shots_per_kilogram)
+        -exp_m1(-density * self.dents(mass))
+    }
+
+    /// The area of the dents of all shots of a mass, m2: what it dents goes with it times the density of hits.
+    fn dents(&self, mass: f64) -> f64 {
+        dent_area(self.dent_diameter) * mass * self.shots_per_kilogram
     }
 
     /// The share of the target that a mass of shot dents, kg.
@@ -228,13 +233,12 @@ impl Coverage {
         let by_density = |a: &&Density, b: &&Density| a.value.total_cmp(&b.value);
         let share = |density: &Density| self.share_dented(density.value, mass);
         let least = cells().min_by(by_density);
-        let dent = std::f64::consts::PI * square(self.dent_diameter) / 4.0;
-        let per_density = dent * mass * self.shots_per_kilogram;
         DentedBy {
+            mass,
             mean: self.by_mass.by(mass),
             least: least.map_or(0.0, share),
             least_error: least.map_or(0.0, |it| {
-                (1.0 - share(it)) * per_density * it.standard_error
+                (1.0 - share(it)) * self.dents(mass) * it.standard_error
             }),
             most: cells().max_by(by_density).map_or(0.0, share),
         }
@@ -246,14 +250,18 @@ impl Coverage {
     }
 }
 
+/// m2.
+fn dent_area(diameter: f64) -> f64 {
+    std::f64::consts::PI * square(diameter) / 4.0
+}
+
 fn mass_until(
     wish: &CoverageWish,
     dent_diameter: f64,
     density: Density,
     shots_per_kilogram: f64,
 ) -> Option<f64> {
-    let dent = std::f64::consts::PI * square(dent_diameter) / 4.0;
-    let hits_per_area = -ln_1p(-wish.wanted) / dent * wish.times;
+    let hits_per_area = -ln_1p(-wish.wanted) / dent_area(dent_diameter) * wish.times;
     let per_kilogram = density.value * shots_per_kilogram;
     (per_kilogram > 0.0).then(|| hits_per_area / per_kilogram)
 }

@@ -3,8 +3,7 @@
 //! The mean of what is dented is less than what the mean density of hits would dent: places that are hit
 //! often do not make up for those that are hit seldom.
 
-use std::f64::consts::PI;
-
+use super::dent_area;
 use super::grid::{Cell, Cells};
 use crate::elementary::{exp_m1, square};
 
@@ -134,7 +133,7 @@ impl Sums {
         let (hit, bare): (Vec<&Cell>, Vec<&Cell>) =
             cells.cells.iter().partition(|cell| cell.all_hits() > 0.0);
         let samples = cells.cells.first().map_or(1, |cell| cell.hits.len());
-        let dent = PI * question.dent_diameter * question.dent_diameter / 4.0;
+        let dent = dent_area(question.dent_diameter);
         let of = |cell: &Cell| Hit {
             share: cell.area / area,
             area: cell.area,
@@ -250,6 +249,8 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
 
     const SAMPLES: usize = 32;

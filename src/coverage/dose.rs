@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::grid::Cells;
-use super::hits::FirstHit;
+use super::hits::{FirstHit, drawn, shots_of};
 use crate::jet::{Draw, purpose};
 use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
@@ -33,15 +33,10 @@ impl Dose {
     pub fn of_stroke(scenario: &Scenario, legs: &[Leg], beyond: f64) -> Vec<Self> {
         let draw = Draw::new(&scenario.problem, purpose::EVIDENCE, SHOTS).without_boundary();
         let of_set = |number: u32| {
-            let mut shots = draw.set(number).jet.shots;
-            for shot in &mut shots {
-                shot.place *= 1.0 + 2.0 * beyond;
-            }
+            let shots = drawn(&draw, number, beyond);
             let mut hits = vec![Vec::new(); scenario.surfaces.len()];
             for leg in legs {
-                let own = shots.iter();
-                let own = own.filter(|shot| std::ptr::eq(Leg::at(legs, shot.place), leg));
-                let own: Vec<_> = own.copied().collect();
+                let own = shots_of(leg, legs, &shots);
                 let tracer = Tracer::new(scenario, &leg.settings, leg.settings.speed);
                 let impacts = tracer.paths(&own).into_iter().flat_map(|it| it.impacts);
                 for impact in impacts.filter(|it| it.number > 0 && !it.on_target) {
@@ -53,14 +48,16 @@ impl Dose {
             }
             (hits, shots.len())
         };
-        let sets: Vec<(Vec<Vec<FirstHit>>, usize)> =
+        let mut sets: Vec<(Vec<Vec<FirstHit>>, usize)> =
             (0..draw.sets()).into_par_iter().map(of_set).collect();
         let shots = sets.iter().map(|(_, shots)| shots).sum();
         let limited = scenario.surfaces.iter().enumerate();
         let limited = limited.filter(|(_, limits)| limits.allow.is_some() && !limits.deflector);
         let doses = limited.filter_map(|(surface, _)| {
-            let hits: Vec<Vec<FirstHit>> =
-                sets.iter().map(|(hits, _)| hits[surface].clone()).collect();
+            let of_surface = sets.iter_mut();
+            let hits: Vec<Vec<FirstHit>> = of_surface
+                .map(|(hits, _)| std::mem::take(&mut hits[surface]))
+                .collect();
             Self::on(scenario, surface as u32, &hits, shots)
         });
         doses.collect()

@@ -39,12 +39,9 @@ impl FirstHits {
         let mut scenario = scenario.clone();
         scenario.problem.paths.impacts = 1;
         let of_set = |number: u32| {
-            let mut shots = draw.set(number).jet.shots;
-            for shot in &mut shots {
-                shot.place *= 1.0 + 2.0 * beyond;
-            }
+            let shots = drawn(draw, number, beyond);
             let masses: f64 = shots.iter().map(ShotSample::mass).sum();
-            let of_leg = |leg: &Leg| hits_of(&scenario, leg, legs, &shots, dent);
+            let of_leg = |leg: &Leg| hits_of(&scenario, leg, &shots_of(leg, legs, &shots), dent);
             let hits: Vec<FirstHit> = legs.iter().flat_map(of_leg).collect();
             (hits, shots.len(), masses)
         };
@@ -74,19 +71,30 @@ impl FirstHits {
     }
 }
 
-/// The hits of a leg's shots, each with the square of its dent's diameter, or with 1 where all dents are the same.
-fn hits_of(
-    scenario: &Scenario,
+/// The shots of a set, from all along a stroke and from so many places beyond both ends.
+pub(super) fn drawn(draw: &Draw, number: u32, beyond: f64) -> Vec<ShotSample> {
+    let mut shots = draw.set(number).jet.shots;
+    for shot in &mut shots {
+        shot.place *= 1.0 + 2.0 * beyond;
+    }
+    shots
+}
+
+/// Those that are fired with the settings of a leg.
+pub(super) fn shots_of<'a>(
     leg: &Leg,
     legs: &[Leg],
-    shots: &[ShotSample],
-    dent: &Dent,
-) -> Vec<FirstHit> {
+    shots: &'a [ShotSample],
+) -> Cow<'a, [ShotSample]> {
     let is_own = |shot: &&ShotSample| std::ptr::eq(Leg::at(legs, shot.place), leg);
-    let shots: Cow<[ShotSample]> = match legs {
+    match legs {
         [_] => shots.into(),
         _ => shots.iter().filter(is_own).copied().collect(),
-    };
+    }
+}
+
+/// The hits of a leg's shots, each with the square of its dent's diameter, or with 1 where all dents are the same.
+fn hits_of(scenario: &Scenario, leg: &Leg, shots: &[ShotSample], dent: &Dent) -> Vec<FirstHit> {
     let tracer = Tracer::new(scenario, &leg.settings, leg.settings.speed);
     let shot = &scenario.problem.shot;
     let restitution = scenario
@@ -101,7 +109,7 @@ fn hits_of(
         let size = power(relative_mass, 1.0 / 3.0);
         square(dent.diameter(shot, size, restitution.at(speed), speed))
     };
-    let hits = tracer.first_hits(&shots);
+    let hits = tracer.first_hits(shots);
     let pairs = shots.iter().zip(hits);
     let first = pairs.filter_map(|(shot, hit)| {
         let impact = hit.filter(|impact| impact.on_target)?;

@@ -120,7 +120,7 @@ pub struct EstimateRecord {
 }
 
 impl EstimateRecord {
-    pub(super) fn new(it: Estimate) -> Self {
+    fn new(it: Estimate) -> Self {
         Self {
             value: it.value,
             standard_error: it.standard_error,
@@ -182,13 +182,12 @@ impl CoverageRecord {
 
 impl DentedRecord {
     fn new(dented: &Dented, even_mass_kg: Option<f64>) -> Self {
-        let estimate = EstimateRecord::new;
         Self {
             cells: dented.cells,
             cell_side_m: dented.side,
             even_mass_kg,
-            by_even_mass: dented.by_even_mass.map(estimate),
-            mass_kg: dented.mass.map(estimate),
+            by_even_mass: dented.by_even_mass.map(EstimateRecord::new),
+            mass_kg: dented.mass.map(EstimateRecord::new),
             not_hit_resolution: dented.not_reached_resolution,
         }
     }

@@ -170,10 +170,10 @@ impl SpotRecord {
 impl DoseRecord {
     fn all(scenario: &Scenario, program: &Program) -> Vec<Self> {
         let fired = program.dented.zip(program.coverage.as_ref());
-        let Some(((mass, _), coverage)) = fired else {
+        let Some((dented, coverage)) = fired else {
             return Vec::new();
         };
-        let shots = mass * coverage.shots_per_kilogram;
+        let shots = dented.mass * coverage.shots_per_kilogram;
         let record = |dose: &Dose| Self {
             surface: scenario.scene.surfaces()[dose.surface as usize].clone(),
             most_hits_m2: dose.most * shots,
@@ -188,7 +188,7 @@ impl DentedMapRecord {
     fn new(program: &Program) -> Option<Self> {
         let coverage = program.coverage.as_ref()?;
         let map = coverage.map.as_ref()?;
-        let (mass, _) = program.dented?;
+        let mass = program.dented?.mass;
         let share = |density: f64| coverage.share_dented(density, mass) as f32;
         // Four digits are enough for a picture.
         let short = |share: f32| (share * 1e4).round() / 1e4;
@@ -245,8 +245,8 @@ impl StrokeRecord {
             turns_per_s,
             time_s: program.time(),
             missing: program.missing.iter().map(|&key| key.to_owned()).collect(),
-            dented: program.dented.map(|(mass_kg, dented)| StrokeDentedRecord {
-                mass_kg,
+            dented: program.dented.map(|dented| StrokeDentedRecord {
+                mass_kg: dented.mass,
                 mean: dented.mean.value,
                 mean_standard_error: dented.mean.standard_error,
                 mean_resolution: dented.mean.resolution,

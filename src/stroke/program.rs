@@ -31,9 +31,9 @@ pub struct Program {
     pub missing: Vec<&'static str>,
     /// What the whole stroke covers, where that is asked for.
     pub coverage: Option<Coverage>,
-    /// Mass of shot that is fired, kg, and what it dents of the target.
-    pub dented: Option<(f64, DentedBy)>,
-    /// How often surfaces that should be spared are hit, where coverage is asked for.
+    /// What the shot that is fired dents of the target.
+    pub dented: Option<DentedBy>,
+    /// How often a shot hits surfaces that should be spared, where it is known how many are fired.
     pub doses: Vec<Dose>,
 }
 
@@ -79,6 +79,9 @@ impl Program {
         let (passes, feed) = feed(stroke, coverage.as_ref(), (way, turns));
         let mass = passes.zip(feed).zip(scenario.problem.jet.mass_flow);
         let mass = mass.map(|((passes, feed), flow)| flow * f64::from(passes) * way / feed);
+        let dented = mass
+            .zip(coverage.as_ref())
+            .map(|(mass, coverage)| coverage.dented_by(mass));
         Some(Self {
             legs: legs.to_vec(),
             length: traverse.length(),
@@ -88,13 +91,11 @@ impl Program {
             passes,
             feed,
             missing,
-            dented: mass
-                .zip(coverage.as_ref())
-                .map(|(mass, coverage)| (mass, coverage.dented_by(mass))),
-            doses: match has_coverage {
-                true => Dose::of_stroke(scenario, legs, beyond),
-                false => Vec::new(),
+            doses: match dented {
+                Some(_) => Dose::of_stroke(scenario, legs, beyond),
+                None => Vec::new(),
             },
+            dented,
             coverage,
         })
     }
