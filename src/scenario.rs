@@ -1,6 +1,7 @@
 //! A problem together with its scene: everything that stays the same for every pose.
 
-use std::fmt;
+mod rejection;
+
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,10 +9,8 @@ use nalgebra::Vector3;
 
 use crate::elementary::sin;
 use crate::impact::Contact;
-use crate::printable;
 use crate::problem::equipment::Role;
 use crate::problem::fault::Fault;
-use crate::problem::fault_code::FaultCode;
 use crate::problem::model::{Effect, Model};
 use crate::problem::part::{Part, Target};
 use crate::problem::setting::Settings;
@@ -20,6 +19,8 @@ use crate::problem::{self, Problem, Reading, Source};
 use crate::scene::patch::Patch;
 use crate::scene::traverse::Traverse;
 use crate::scene::{Scene, Walls};
+
+pub use rejection::Rejection;
 
 /// A problem, its scene, its target and the rules of each surface.
 #[derive(Clone)]
@@ -41,8 +42,6 @@ pub struct Scenario {
     pub stations: Arc<[Station]>,
     /// Whether the nozzle is in the run-out of a stroke: what the target receives there does not count.
     pub in_run_out: bool,
-    /// How many places the run-out that is asked for goes on before the beginning and beyond the end.
-    run_out: [f64; 2],
 }
 
 /// A place of a stroke.
@@ -179,13 +178,14 @@ impl Scenario {
         }
     }
 
-    /// The stations at which a stroke mostly fails first, by their numbers: its ends and its middle; none for a spot.
-    pub fn ends_and_middle(&self) -> Vec<usize> {
+    /// The places of the stations at which a stroke mostly fails first: its ends and its middle; none for a spot.
+    pub fn ends_and_middle(&self) -> Vec<f64> {
         let within = self.stations.iter().filter(|it| !it.scenario.in_run_out);
-        match within.count() {
-            0 => Vec::new(),
-            2 => vec![0, 1],
-            stations => vec![0, stations / 2, stations - 1],
+        let places: Vec<f64> = within.map(|it| it.place).collect();
+        match places[..] {
+            [] | [_, _] => places,
+            [first, .., last] => vec![first, places[places.len() / 2], last],
+            [only] => vec![only],
         }
     }
 
@@ -196,12 +196,6 @@ impl Scenario {
         if let (Some(traverse), Some(stroke)) = (&self.traverse, &mut part.problem.stroke) {
             let traverse = traverse.part(span);
             stroke.stations = stations + 1;
-            let scale = self.traverse.as_ref().map_or(1.0, |it| it.length()) / traverse.length();
-            let ends = [span[0] <= WHOLE[0], span[1] >= WHOLE[1]];
-            part.run_out = [0, 1].map(|end| match ends[end] {
-                true => self.run_out[end] * scale,
-                false => 0.0,
-            });
             part.target.frame = traverse.frame_at(0.0);
             part.traverse = Some(Arc::new(traverse));
         }
@@ -209,18 +203,22 @@ impl Scenario {
     }
 
     fn with_stations(mut self) -> Self {
-        let Some(stroke) = &self.problem.stroke else {
+        let Some((stroke, traverse)) = self.problem.stroke.as_ref().zip(self.traverse.as_ref())
+        else {
             return self;
         };
         let last = (stroke.stations - 1) as f64;
         let places = (0..stroke.stations).map(|index| index as f64 / last - 0.5);
-        let [before, beyond] = self.run_out;
-        let far_ends = [WHOLE[0] - before, WHOLE[1] + beyond].into_iter();
-        let stations = places
-            .chain(far_ends.filter(|place| place.abs() > WHOLE[1]))
-            .map(|place| self.station(place));
-        self.stations = stations.collect();
-        self.sweep = self.traverse.as_ref().and_then(|it| it.sweep());
+        let beyond = stroke.run_out.map(|run_out| traverse.places_in(run_out));
+        let far_ends = WHOLE.into_iter().zip(traverse.reaches_ends());
+        let far_ends = far_ends
+            .filter(|(_, is_reached)| *is_reached)
+            .filter_map(|(end, _)| Some(end + end.signum() * beyond?))
+            .filter(|place| place.abs() > WHOLE[1]);
+        let stations = places.chain(far_ends).map(|place| self.station(place));
+        let (stations, sweep) = (stations.collect(), traverse.sweep());
+        self.stations = stations;
+        self.sweep = sweep;
         self
     }
 
@@ -273,11 +271,8 @@ impl Scenario {
         let traverse = stroke
             .map(|stroke| Traverse::find(&scene, &target, &problem, stroke))
             .transpose()?;
-        let mut run_out = 0.0;
         if let Some(traverse) = &traverse {
             target.frame = traverse.frame_at(0.0);
-            let asked = problem.stroke.as_ref().and_then(|it| it.run_out);
-            run_out = asked.map_or(0.0, |asked| traverse.places_in(asked));
         }
         let scenario = Self {
             problem,
@@ -288,57 +283,8 @@ impl Scenario {
             sweep: None,
             stations: Arc::new([]),
             in_run_out: false,
-            run_out: [run_out; 2],
         };
         Ok(scenario.with_stations())
-    }
-}
-
-/// Why a file is no valid scenario: all its faults, each with its place.
-#[derive(Clone, Debug)]
-pub struct Rejection {
-    /// The file; absent when it cannot be read at all.
-    pub source: Option<Source>,
-    /// What is wrong, in the order of the text.
-    pub faults: Vec<Fault>,
-}
-
-impl Rejection {
-    fn unread(fault: Fault) -> Box<Self> {
-        Box::new(Self {
-            source: None,
-            faults: vec![fault],
-        })
-    }
-
-    fn new(source: Source, mut faults: Vec<Fault>) -> Box<Self> {
-        for fault in &mut faults {
-            // Under `surfaces` the name itself is wrong, not what stands behind it.
-            let of_name =
-                fault.rule == FaultCode::UnknownSurface && fault.key.starts_with("surfaces.");
-            let place = || match of_name {
-                true => source.locate_name(&fault.key),
-                false => source.locate(&fault.key),
-            };
-            fault.at = fault.at.or_else(place);
-        }
-        faults.sort_by_key(|fault| fault.at);
-        Box::new(Self {
-            source: Some(source),
-            faults,
-        })
-    }
-
-    /// The faults for people: with the lines of the file, or a line each.
-    pub fn render(&self, color: bool) -> String {
-        match &self.source {
-            Some(source) => problem::render(source, &self.faults, color),
-            None => self
-                .faults
-                .iter()
-                .map(|fault| format!("error: {}\n", printable::line(&fault.to_string())))
-                .collect(),
-        }
     }
 }
 
@@ -358,14 +304,6 @@ fn target_faults(mut parts: Vec<Part>, faults: &[Fault], target: &Target) -> Vec
         .err()
         .unwrap_or_default()
 }
-
-impl fmt::Display for Rejection {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.render(false).trim_end())
-    }
-}
-
-impl std::error::Error for Rejection {}
 
 /// What is wrong with a rule for a surface that the scene does not have.
 fn unknown(scene: &Scene, surface: &str) -> Option<Fault> {

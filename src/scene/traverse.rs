@@ -80,6 +80,11 @@ impl Traverse {
         }
     }
 
+    /// Whether it begins and ends where the whole way does, and its run-out is that of the whole.
+    pub fn reaches_ends(&self) -> [bool; 2] {
+        [self.span[0] <= WHOLE[0], self.span[1] >= WHOLE[1]]
+    }
+
     /// Length between the ends on the part, m.
     pub fn length(&self) -> f64 {
         self.whole * (self.span[1] - self.span[0])
@@ -137,11 +142,7 @@ impl Traverse {
                 [from.dot(&ahead), from.dot(&beside)]
             }
             Way::Around { helix, base, .. } => {
-                let outwards = |point: &Point3<f64>| {
-                    let from = point - helix.through;
-                    from - helix.axis * helix.axis.dot(&from)
-                };
-                let (zero, here) = (outwards(&base.aim), outwards(point));
+                let (zero, here) = (outwards(helix, &base.aim), outwards(helix, point));
                 let side = helix.axis.cross(&zero) / zero.norm();
                 let angle = atan2(here.dot(&side), here.dot(&zero) / zero.norm());
                 let along = (point - self.frame_at(WHOLE[0]).aim).dot(&helix.axis);
@@ -155,9 +156,7 @@ impl Traverse {
         match &self.way {
             Way::Knots(_) => None,
             Way::Around { helix, base, .. } => {
-                let from = base.aim - helix.through;
-                let outwards = from - helix.axis * helix.axis.dot(&from);
-                Some(std::f64::consts::TAU * outwards.norm())
+                Some(std::f64::consts::TAU * outwards(helix, &base.aim).norm())
             }
         }
     }
@@ -196,6 +195,12 @@ impl Traverse {
             Way::Around { helix, base, .. } => turned(helix, base, self.angle_at(place)),
         }
     }
+}
+
+/// From the axis to a point, m.
+fn outwards(helix: &Helix, point: &Point3<f64>) -> Vector3<f64> {
+    let from = point - helix.through;
+    from - helix.axis * from.dot(&helix.axis)
 }
 
 fn advance(helix: &Helix, angle: f64) -> Vector3<f64> {

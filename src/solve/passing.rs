@@ -56,9 +56,7 @@ impl Sought<'_> {
     ) {
         let mut slack = 1.0;
         let first = self.searched.ends_and_middle().into_iter();
-        let mut watched: Vec<Station> = first
-            .map(|index| self.searched.stations[index].clone())
-            .collect();
+        let mut watched: Vec<Station> = first.map(|it| self.searched.station(it)).collect();
         for _ in 0..self.most_rounds() {
             let failing = worthwhile(answers, self.asked);
             if failing.is_empty() || self.control.is_stopped() {

@@ -65,8 +65,7 @@ pub fn passing_windows(scenario: &Scenario, best: &Answer, cancel: &Cancel) -> V
     let validation =
         Replicates::without_boundary(&scenario.problem, purpose::WINDOWS, WINDOW_SHOTS);
     // Of a stroke, where it fails first: at its ends, in its middle, and where a verdict is the worst.
-    let first = scenario.ends_and_middle().into_iter();
-    let mut places: Vec<f64> = first.map(|index| scenario.stations[index].place).collect();
+    let mut places = scenario.ends_and_middle();
     places.extend(best.verdicts.iter().filter_map(|it| it.place));
     places.sort_by(f64::total_cmp);
     places.dedup();

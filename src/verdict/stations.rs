@@ -47,11 +47,9 @@ fn doubtful(found: &[StationVerdicts]) -> Vec<f64> {
         });
         if let Some(worst) = worst.filter(|&it| at(it).passes() && at(it).violation() > NEAR) {
             for gap in worst.saturating_sub(1)..=worst {
-                is_doubtful
-                    .iter_mut()
-                    .skip(gap)
-                    .take(1)
-                    .for_each(|it| *it = true);
+                if let Some(doubt) = is_doubtful.get_mut(gap) {
+                    *doubt = true;
+                }
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{FLAT, Knot, Traverse, Way};
+use super::{FLAT, Knot, Traverse, Way, outwards};
 use crate::elementary::hypot;
 use crate::problem::Problem;
 use crate::problem::fault::Fault;
@@ -127,8 +127,7 @@ impl Surface<'_> {
             whole: length,
             span: WHOLE,
         };
-        let from_axis = base.aim - helix.through;
-        let radius = (from_axis - helix.axis * from_axis.dot(&helix.axis)).norm();
+        let radius = outwards(helix, &base.aim).norm();
         let turns = (helix.angles[1] - helix.angles[0]) / std::f64::consts::TAU;
         let per_turn = hypot(std::f64::consts::TAU * radius, helix.pitch);
         let found = traverse(per_turn * turns);
