@@ -8,6 +8,7 @@ use gltf::json::{Accessor, Animation, Buffer, Index, Value};
 use nalgebra::{UnitQuaternion as Turn, Vector3};
 
 use super::glb::{File, accessor};
+use super::piece::Body;
 use crate::report::motion::Stop;
 
 /// The motion of a nozzle: seconds and stops.
@@ -52,7 +53,7 @@ impl File {
     pub(super) fn travel(
         &mut self,
         motion: &Motion,
-        nodes: &[(Index<Node>, usize, Vector3<f64>)],
+        nodes: &[(Index<Node>, Body)],
         buffer: Index<Buffer>,
     ) {
         let times = self.column(&motion.seconds, Type::Scalar, buffer);
@@ -94,16 +95,16 @@ impl File {
                 extras: Default::default(),
             });
         };
-        for (node, body, drawn) in nodes {
+        for (node, Body { index, tip, .. }) in nodes {
             let first = &motion.stops[0];
-            let start = quaternion(&Motion::turn(first, *body, drawn));
+            let start = quaternion(&Motion::turn(first, *index, tip));
             self.root.nodes[node.value()].translation =
                 Some([first.exit.x, first.exit.y, first.exit.z].map(|it| it as f32));
             self.root.nodes[node.value()].rotation = Some(UnitQuaternion(start));
             add(*node, Property::Translation, exits);
-            if drawn.norm() > 0.0 {
+            if tip.norm() > 0.0 {
                 let stops = motion.stops.iter();
-                let turns = stops.flat_map(|stop| quaternion(&Motion::turn(stop, *body, drawn)));
+                let turns = stops.flat_map(|stop| quaternion(&Motion::turn(stop, *index, tip)));
                 let turns: Vec<f32> = turns.collect();
                 let turns = self.column(&turns, Type::Vec4, buffer);
                 add(*node, Property::Rotation, turns);

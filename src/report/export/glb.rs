@@ -28,12 +28,11 @@ pub(super) fn write(pieces: &[Piece], motion: Option<&Motion>) -> io::Result<Vec
     let mut travelling = Vec::new();
     let mut nodes = Vec::new();
     for piece in pieces {
-        let moving = piece.body.filter(|_| motion.is_some());
-        let node = match moving {
-            Some(_) => file.node(&at_origin(piece), buffer),
-            None => file.node(piece, buffer),
-        };
-        travelling.extend(moving.map(|(body, tip)| (node, body, tip)));
+        // What travels is drawn with its exit at the origin.
+        let body = piece.body.filter(|_| motion.is_some());
+        let origin = body.map_or([0.0; 3], |body| body.exit);
+        let node = file.node(piece, origin, buffer);
+        travelling.extend(body.map(|body| (node, body)));
         nodes.push(node);
     }
     if let Some(motion) = motion.filter(|_| !travelling.is_empty()) {
@@ -60,18 +59,6 @@ pub(super) fn write(pieces: &[Piece], motion: Option<&Motion>) -> io::Result<Vec
     .map_err(io::Error::other)
 }
 
-/// A piece of the nozzle's body with its exit at the origin.
-fn at_origin(piece: &Piece) -> Piece {
-    Piece {
-        points: piece
-            .points
-            .iter()
-            .map(|point| [0, 1, 2].map(|axis| point[axis] - piece.origin[axis]))
-            .collect(),
-        ..piece.clone()
-    }
-}
-
 fn buffer(length: usize) -> Buffer {
     Buffer {
         byte_length: USize64::from(length),
@@ -90,8 +77,10 @@ pub(super) struct File {
 }
 
 impl File {
-    fn node(&mut self, piece: &Piece, buffer: Index<Buffer>) -> Index<Node> {
-        let positions = self.positions(&piece.points, buffer);
+    fn node(&mut self, piece: &Piece, origin: [f32; 3], buffer: Index<Buffer>) -> Index<Node> {
+        let from_origin = |point: &[f32; 3]| [0, 1, 2].map(|axis| point[axis] - origin[axis]);
+        let points: Vec<[f32; 3]> = piece.points.iter().map(from_origin).collect();
+        let positions = self.positions(&points, buffer);
         let (mode, indices) = match &piece.cells {
             Cells::Triangles(triangles) => (
                 Mode::Triangles,

@@ -11,24 +11,31 @@ use crate::record::{
 };
 
 /// Something with a name and a colour of its own.
-#[derive(Clone)]
 pub(super) struct Piece {
     pub name: String,
     /// sRGB.
     pub color: [u8; 3],
     /// 1, or less for what one must see through.
     pub opacity: f32,
-    /// Of a piece of the nozzle's body: its number, and where its far end is from the exit, m.
-    pub body: Option<(usize, Vector3<f64>)>,
-    /// What it moves with: the exit for a piece of the nozzle's body, m.
-    pub origin: [f32; 3],
+    /// Of a piece of the nozzle's body, what it moves with.
+    pub body: Option<Body>,
     /// Corners, m.
     pub points: Vec<[f32; 3]>,
     pub cells: Cells,
 }
 
+/// A piece of the nozzle's body, as it stands.
+#[derive(Clone, Copy)]
+pub(super) struct Body {
+    /// In the order of the file.
+    pub index: usize,
+    /// Where the exit is, m.
+    pub exit: [f32; 3],
+    /// Where its far end is from there, m.
+    pub tip: Vector3<f64>,
+}
+
 /// What the points of a piece make.
-#[derive(Clone)]
 pub(super) enum Cells {
     /// Three corners each.
     Triangles(Vec<[u32; 3]>),
@@ -77,7 +84,6 @@ fn surface(shape: &SurfaceShapeRecord) -> Piece {
         color,
         opacity,
         body: None,
-        origin: [0.0; 3],
         points: shape.points_m.clone(),
         cells: Cells::Triangles(shape.whole_triangles().collect()),
     }
@@ -91,7 +97,6 @@ fn hits(hits: &HitsRecord) -> Piece {
         color: HIT,
         opacity: 1.0,
         body: None,
-        origin: [0.0; 3],
         points,
         cells: Cells::Points(impulses),
     }
@@ -129,7 +134,6 @@ fn paths(evidence: &EvidenceRecord) -> Vec<Piece> {
             color,
             opacity: 1.0,
             body: None,
-            origin: [0.0; 3],
             points,
             cells: Cells::Lines((0..segments).map(|i| [2 * i, 2 * i + 1]).collect()),
         }
@@ -190,8 +194,11 @@ fn nozzle(body: &BodyRecord, number: usize, exit: &Point3<f64>) -> Piece {
         name: format!("nozzle, body {number}"),
         color: NOZZLE,
         opacity: 1.0,
-        body: Some((number - 1, axis * length)),
-        origin: [exit.x, exit.y, exit.z].map(|it| it as f32),
+        body: Some(Body {
+            index: number - 1,
+            exit: [exit.x, exit.y, exit.z].map(|it| it as f32),
+            tip: axis * length,
+        }),
         points,
         cells: Cells::Triangles(triangles),
     }

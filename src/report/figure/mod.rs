@@ -15,6 +15,7 @@ mod marks;
 mod plot;
 mod png;
 mod pose;
+mod scale;
 mod search;
 mod sheet;
 mod stroke;

@@ -6,10 +6,12 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::linear::{Axes, Plot};
+use super::scale::Scale;
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, styled};
-use super::style::{GHOST, INK, LABEL, letters, look_of};
+use super::style::{INK, LABEL, letters, look_of};
 use crate::record::{DentedMapRecord, Record, StrokeRecord, VerdictRecord};
 use crate::report::number::{plain, share};
+use crate::report::sheet::subject::utilisation;
 
 const WIDTH: u32 = 2000;
 /// Upper left corner of the axes, px, and their size.
@@ -61,11 +63,7 @@ fn sentences(record: &Record, stroke: &StrokeRecord) -> [String; 2] {
 
 /// How much of what is allowed a verdict uses up, %.
 fn used(verdict: &VerdictRecord) -> f64 {
-    match verdict.allowed > 0.0 {
-        true => verdict.share / verdict.allowed * 100.0,
-        false if verdict.passes => 0.0,
-        false => f64::INFINITY,
-    }
+    utilisation(verdict) * 100.0
 }
 
 fn curves(area: &Area, stroke: &StrokeRecord) -> Drawn {
@@ -158,46 +156,31 @@ fn dented(area: &Area, map: &DentedMapRecord, [x_name, y_name]: [&str; 2]) -> Dr
                 corner[1] + sides[1] * (row + dy) as f64,
             )
         };
-        let colour = colour(&scale, f64::from(*value) * 100.0);
+        let colour = scale.colour(f64::from(*value) * 100.0);
         plot.rectangle([at(0, 0), at(1, 1)], colour.filled())?;
     }
     bar(area, &scale, (top, bottom))
 }
 
 /// The colours show the values that there are, %.
-fn scale(map: &DentedMapRecord) -> Range<f64> {
+fn scale(map: &DentedMapRecord) -> Scale {
     let values = map.dented.iter().flatten();
     let least = values.map(|value| f64::from(*value) * 100.0);
     let least = least.fold(100.0, f64::min);
-    // Where all is dented alike, the scale is a narrow one.
-    least.min(99.0).floor()..100.0
-}
-
-fn colour(scale: &Range<f64>, value: f64) -> RGBColor {
-    let share = (value - scale.start) / (scale.end - scale.start);
-    let colour = colorous::CIVIDIS.eval_continuous(share.clamp(0.0, 1.0));
-    RGBColor(colour.r, colour.g, colour.b)
-}
-
-fn bar(area: &Area, scale: &Range<f64>, (top, bottom): (i32, i32)) -> Drawn {
-    let bands = (bottom - top) / 4;
-    let edge = |band: i32| bottom - (bottom - top) * band / bands;
-    let value = |share: f64| scale.start + share * (scale.end - scale.start);
-    for band in 0..bands {
-        let corners = [(BESIDE, edge(band + 1)), (BESIDE + BAR_WIDTH, edge(band))];
-        let middle = (f64::from(band) + 0.5) / f64::from(bands);
-        area.draw(&Rectangle::new(
-            corners,
-            colour(scale, value(middle)).filled(),
-        ))?;
+    Scale {
+        // Where all is dented alike, the scale is a narrow one.
+        range: least.min(99.0).floor()..100.0,
+        gradient: colorous::CIVIDIS,
     }
-    let frame = [(BESIDE, top), (BESIDE + BAR_WIDTH, bottom)];
-    area.draw(&Rectangle::new(frame, GHOST.stroke_width(2)))?;
+}
+
+fn bar(area: &Area, scale: &Scale, (top, bottom): (i32, i32)) -> Drawn {
+    scale.bar(area, [(BESIDE, top), (BESIDE + BAR_WIDTH, bottom)])?;
     let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
     for share in [0.0, 0.5, 1.0] {
         let y = bottom - (f64::from(bottom - top) * share).round() as i32;
         let place = (BESIDE + BAR_WIDTH + 10, y);
-        area.draw_text(&format!("{} %", plain(value(share))), &style, place)?;
+        area.draw_text(&format!("{} %", plain(scale.value(share))), &style, place)?;
     }
     Ok(())
 }

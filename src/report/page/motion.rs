@@ -6,6 +6,7 @@ use super::scene::point;
 use crate::record::{EvidenceRecord, Record, StationRecord, StrokeRecord};
 use crate::report::motion::{Stop, stops};
 use crate::report::number::share;
+use crate::report::sheet::subject::by_urgency;
 
 /// The way of the nozzle, one value for each waypoint.
 #[derive(Serialize)]
@@ -65,16 +66,8 @@ impl Motion {
 
 /// Where a station is, and the verdict that it uses up most.
 fn station(stroke: &StrokeRecord, station: &StationRecord) -> Station {
-    let worst = station.verdicts.iter().max_by(|a, b| {
-        let used = |share: f64, allowed: f64| {
-            if allowed > 0.0 {
-                share / allowed
-            } else {
-                share
-            }
-        };
-        used(a.share, a.allowed).total_cmp(&used(b.share, b.allowed))
-    });
+    let verdicts = station.verdicts.iter();
+    let worst = verdicts.max_by(|a, b| by_urgency(a, b));
     let place = stroke.place(station.at_m);
     let text = worst.map_or_else(
         || place.clone(),

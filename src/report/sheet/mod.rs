@@ -16,7 +16,7 @@ mod scatter;
 pub(super) mod setting;
 pub(super) mod settings;
 pub(super) mod stroke;
-mod subject;
+pub(super) mod subject;
 pub(super) mod unknowns;
 pub(super) mod verdicts;
 

@@ -1,8 +1,5 @@
 //! The maps: where hits lie, and what they deliver there.
 
-use std::ops::Range;
-
-use colorous::Gradient;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -11,6 +8,7 @@ use super::{LEFT, MAP_HEIGHT, Mark, SIZE, TOP, WIDTH, limit_mark, tolerance_mark
 use crate::record::{HitsRecord, Record};
 use crate::report::figure::levels::round_step;
 use crate::report::figure::linear::{Axes, Plot};
+use crate::report::figure::scale::Scale;
 use crate::report::figure::sheet::{self, Area, Drawn, Fault, Place, styled};
 use crate::report::figure::style::{GHOST, INK, LABEL, letters};
 use crate::report::number::{plain, rounded};
@@ -27,8 +25,7 @@ const LEAST_TOLERANCE: f64 = 0.01;
 pub struct Map {
     title: &'static str,
     values: Vec<Option<f64>>,
-    scale: Range<f64>,
-    gradient: Gradient,
+    scale: Scale,
     /// Values that are marked on the colour bar.
     marks: Vec<Mark>,
 }
@@ -62,27 +59,33 @@ pub fn maps(record: &Record, hits: &HitsRecord, grid: &Grid) -> [Map; 3] {
             } else {
                 "Hits, % of the shots per mm\u{b2}"
             },
-            scale: 0.0..most(&density),
+            scale: Scale {
+                range: 0.0..most(&density),
+                gradient: colorous::CIVIDIS,
+            },
             values: density,
-            gradient: colorous::CIVIDIS,
             marks: Vec::new(),
         },
         Map {
             title: "Mean N*, µN·s",
             values: normal,
-            scale: wanted - half..wanted + half,
-            gradient: colorous::PURPLE_ORANGE,
+            scale: Scale {
+                range: wanted - half..wanted + half,
+                gradient: colorous::PURPLE_ORANGE,
+            },
             marks: tolerance_marks(goals),
         },
         Map {
             title: "Mean f*, µN·s",
-            scale: 0.0..limit
-                .as_ref()
-                .map(|limit| limit.value)
-                .filter(|limit| *limit < 2.0 * tangential_most)
-                .map_or(tangential_most, |limit| limit.max(tangential_most)),
+            scale: Scale {
+                range: 0.0..limit
+                    .as_ref()
+                    .map(|limit| limit.value)
+                    .filter(|limit| *limit < 2.0 * tangential_most)
+                    .map_or(tangential_most, |limit| limit.max(tangential_most)),
+                gradient: colorous::CIVIDIS,
+            },
             values: tangential,
-            gradient: colorous::CIVIDIS,
             marks: limit.into_iter().collect(),
         },
     ]
@@ -115,12 +118,6 @@ impl Map {
         Ok(plot)
     }
 
-    fn colour(&self, value: f64) -> RGBColor {
-        let share = (value - self.scale.start) / (self.scale.end - self.scale.start);
-        let colour = self.gradient.eval_continuous(share.clamp(0.0, 1.0));
-        RGBColor(colour.r, colour.g, colour.b)
-    }
-
     fn cells(&self, plot: &Plot, grid: &Grid) -> Drawn {
         for row in 0..grid.rows {
             for column in 0..grid.columns {
@@ -133,7 +130,10 @@ impl Map {
                         grid.y.start + (row + dy) as f64 * grid.side,
                     )
                 };
-                plot.rectangle([corner(0, 0), corner(1, 1)], self.colour(value).filled())?;
+                plot.rectangle(
+                    [corner(0, 0), corner(1, 1)],
+                    self.scale.colour(value).filled(),
+                )?;
             }
         }
         Ok(())
@@ -141,20 +141,10 @@ impl Map {
 
     /// The colours with their values, the marked ones by name.
     fn bar(&self, area: &Area, (left, top): Place) -> Drawn {
-        const STEPS: i32 = 50;
-        let (from, to) = (self.scale.start, self.scale.end);
+        let (from, to) = (self.scale.range.start, self.scale.range.end);
         let height = |share: f64| top + MAP_HEIGHT - (share * f64::from(MAP_HEIGHT)).round() as i32;
-        for step in 0..STEPS {
-            let share = |step: i32| f64::from(step) / f64::from(STEPS);
-            let value = from + (share(step) + share(1) / 2.0) * (to - from);
-            let corners = [
-                (left, height(share(step + 1))),
-                (left + BAR_WIDTH, height(share(step))),
-            ];
-            area.draw(&Rectangle::new(corners, self.colour(value).filled()))?;
-        }
-        let frame = [(left, top), (left + BAR_WIDTH, top + MAP_HEIGHT)];
-        area.draw(&Rectangle::new(frame, GHOST.stroke_width(2)))?;
+        let corners = [(left, top), (left + BAR_WIDTH, top + MAP_HEIGHT)];
+        self.scale.bar(area, corners)?;
         let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
         let right = left + BAR_WIDTH;
         // What is drawn beside it begins there.
