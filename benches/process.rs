@@ -2,7 +2,8 @@
 //!
 //! `cargo bench --bench process` runs `peenpose solve` on each shipped keyway, again and again with
 //! one seed and once with each of several seeds. The answers of all seeds are compared with the best
-//! settings that brute force found, on common shots that no search has seen.
+//! settings that brute force found, on common shots that no search has seen; no such settings are known for
+//! strokes, of which the seconds are measured alone.
 
 #[path = "../examples/common/mod.rs"]
 mod common;
@@ -23,7 +24,7 @@ use common::validation;
 use common::variant::{Shots, Variant, path};
 
 /// Runs with one seed.
-const RUNS: usize = 15;
+const RUNS: usize = 10;
 const SEEDS: u64 = 12;
 /// Common shots that answers are compared on.
 const SHOTS: usize = 1 << 18;
@@ -31,11 +32,14 @@ const SHOTS: usize = 1 << 18;
 const COMPARISON: u32 = 1 << 20;
 
 /// File, whether with its tolerance, and the seconds that a run may take on two cores.
-const CASES: [(&str, bool, f64); 4] = [
+const CASES: [(&str, bool, f64); 7] = [
     ("keyway.yaml", false, 0.05),
     ("keyway.yaml", true, 0.1),
     ("keyway-long.yaml", false, 0.15),
     ("keyway-blind.yaml", true, 1.0),
+    ("keyway-stroke.yaml", true, 0.5),
+    ("keyway-100.yaml", true, 3.0),
+    ("bore-turning.yaml", true, 3.0),
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -62,14 +66,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         let by_seed: Vec<f64> = (1..=SEEDS)
             .map(|seed| seconds(&problem, seed))
             .collect::<Result<_, _>>()?;
-        let excesses = excesses(&variant, &known)?;
+        let excesses = match known.iter().any(|known| known.is_of(&variant)) {
+            true => {
+                let excesses = excesses(&variant, &known)?;
+                let median = 100.0 * median(excesses.iter().copied());
+                format!("{median:>10.2}% {:>9.2}%", 100.0 * most(&excesses))
+            }
+            false => format!("{:>11} {:>10}", "-", "-"),
+        };
         println!(
-            "{:32} {target:>6} {} {} {:>10.2}% {:>9.2}%",
+            "{:32} {target:>6} {} {} {excesses}",
             variant.name(),
             spread(&again),
             spread(&by_seed),
-            100.0 * median(excesses.iter().copied()),
-            100.0 * most(&excesses),
         );
     }
     Ok(())

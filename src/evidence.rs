@@ -9,6 +9,7 @@ mod thinning;
 
 pub use flights::{Flight, broken_by};
 pub use places::Place;
+pub(crate) use places::least_dented;
 pub use shapes::Shape;
 pub use shown::Shown;
 

@@ -2,6 +2,7 @@
 
 mod edge;
 mod near;
+mod stroke;
 
 use nalgebra::{Point3, Vector3};
 
@@ -11,6 +12,7 @@ use crate::jet::Pose;
 use crate::scenario::Scenario;
 use crate::trace::PathImpact;
 use near::Neighbourhoods;
+pub(crate) use stroke::least_dented;
 
 /// A place that is worth a test strip.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +25,7 @@ pub struct Place {
     pub point: Point3<f64>,
     /// Normal of the surface, towards free space.
     pub normal: Vector3<f64>,
-    /// The number behind it: N s, m, or deg for an angle.
+    /// The number behind it: N s, m, deg for an angle, or a share.
     pub value: f64,
     /// What it means, for people.
     pub text: String,
@@ -54,7 +56,11 @@ pub(super) fn find(scenario: &Scenario, pose: &Pose, flights: &[Flight]) -> Vec<
     let points: Vec<Point3<f64>> = hits.iter().map(|hit| hit.impact.point).collect();
     let neighbourhoods = Neighbourhoods::new(&points);
     let mut places = on_target(&hits, &neighbourhoods);
-    places.extend(edge::find(scenario, pose, &hits, neighbourhoods.radius));
+    // Where the jet ends tells nothing of a nozzle that goes on.
+    match scenario.traverse {
+        Some(_) => places.extend(stroke::along(scenario)),
+        None => places.extend(edge::find(scenario, pose, &hits, neighbourhoods.radius)),
+    }
     places.extend(rebounds(scenario, flights));
     places
 }

@@ -51,7 +51,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::control::Control;
 use crate::coverage::Coverage;
-use crate::evidence::{Evidence, SHOTS};
+use crate::evidence::{Evidence, SHOTS, least_dented};
 use crate::map::standard_maps;
 use crate::printable;
 use crate::problem::Source;
@@ -321,6 +321,11 @@ impl Record {
         let shots = if fits { SHOTS } else { 0 };
         let shown = Evidence::of(scenario, &best.settings, shots, &control.cancel);
         let mut evidence = EvidenceRecord::new(scenario, &best.settings, &shown);
+        let map = self.stroke.as_ref().and_then(|it| it.dented_map.as_ref());
+        let least = map.and_then(DentedMapRecord::least);
+        let least = least.and_then(|(at, share)| least_dented(scenario, at, share));
+        let least = least.map(|place| PlaceRecord::new(scenario, &place));
+        evidence.places.extend(least);
         let maps = standard_maps(scenario, &best.settings, control);
         let maps = maps.iter().map(|map| MapRecord::new(scenario, map));
         evidence.maps = maps.filter(|map| map.known_places() > 0).collect();

@@ -185,6 +185,17 @@ impl DoseRecord {
 }
 
 impl DentedMapRecord {
+    /// The middle of the cell that is dented least, along and across, m, and its share.
+    pub fn least(&self) -> Option<([f64; 2], f64)> {
+        let cells = self.dented.iter().enumerate();
+        let known = cells.filter_map(|(index, share)| Some((index, (*share)?)));
+        let (index, share) = known.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let steps = [index % self.columns, index / self.columns];
+        let middle =
+            [0, 1].map(|it| self.corner_m[it] + (steps[it] as f64 + 0.5) * self.sides_m[it]);
+        Some((middle, f64::from(share)))
+    }
+
     fn new(program: &Program) -> Option<Self> {
         let coverage = program.coverage.as_ref()?;
         let map = coverage.map.as_ref()?;

@@ -130,15 +130,8 @@ impl Traverse {
     pub fn unrolled(&self, point: &Point3<f64>) -> [f64; 2] {
         match &self.way {
             Way::Knots(knots) => {
-                let (first, last) = (&knots[0].frame, &knots[knots.len() - 1].frame);
-                let chord = last.aim - first.aim;
-                // A stroke that ends where it began has no direction but its first one.
-                let ahead = match chord.norm() > FLAT * self.whole {
-                    true => chord.normalize(),
-                    false => -self.onwards(false),
-                };
-                let beside = first.normal.cross(&ahead).normalize();
-                let from = point - first.aim;
+                let [ahead, beside] = self.directions(knots);
+                let from = point - knots[0].frame.aim;
                 [from.dot(&ahead), from.dot(&beside)]
             }
             Way::Around { helix, base, .. } => {
@@ -149,6 +142,35 @@ impl Traverse {
                 [angle * zero.norm(), along]
             }
         }
+    }
+
+    /// The other way round: the point that is laid out there, on the plane or on the cylinder that things are laid out on.
+    pub fn rolled(&self, [x, y]: [f64; 2]) -> Point3<f64> {
+        match &self.way {
+            Way::Knots(knots) => {
+                let first = &knots[0].frame;
+                let [ahead, beside] = self.directions(knots);
+                first.aim + ahead * x + beside * y
+            }
+            Way::Around { helix, base, .. } => {
+                let zero = outwards(helix, &base.aim);
+                let start = self.frame_at(WHOLE[0]).aim;
+                let height = (start - helix.through).dot(&helix.axis) + y;
+                helix.through + helix.axis * height + turn(helix, x / zero.norm()) * zero
+            }
+        }
+    }
+
+    /// Along a line from its beginning to its end, and across it, unit vectors.
+    fn directions(&self, knots: &[Knot]) -> [Vector3<f64>; 2] {
+        let (first, last) = (&knots[0].frame, &knots[knots.len() - 1].frame);
+        let chord = last.aim - first.aim;
+        // A stroke that ends where it began has no direction but its first one.
+        let ahead = match chord.norm() > FLAT * self.whole {
+            true => chord.normalize(),
+            false => -self.onwards(false),
+        };
+        [ahead, first.normal.cross(&ahead).normalize()]
     }
 
     /// The length once round the axis at the aim point, m; `None` for a line.

@@ -168,6 +168,56 @@ fn assert_exit(found: [f32; 3], waypoint: &WaypointRecord) {
     }
 }
 
+/// Strips lie on the target: at the beginning, in the middle and at the end of the stroke, and where the map has its least share.
+#[test]
+fn test_strips_lie_along_the_stroke() {
+    for (name, ends) in [
+        (
+            "keyway-stroke.yaml",
+            [[0.0, 18.3, 4.0], [0.0, 18.3, 20.0], [0.0, 18.3, 36.0]],
+        ),
+        ("bore-turning.yaml", [[0.0; 3]; 3]),
+    ] {
+        let record = illustrated(name);
+        let stroke = record.stroke.as_ref().unwrap();
+        let places = &record.evidence.as_ref().unwrap().places;
+        let place = |name: &str| {
+            let mut places = places.iter().filter(|place| place.name == name);
+            places.next().unwrap_or_else(|| panic!("{name}"))
+        };
+        let along = ["beginning_of_stroke", "middle_of_stroke", "end_of_stroke"];
+        for (number, (along, end)) in along.into_iter().zip(ends).enumerate() {
+            let place = place(along);
+            assert!((place.value - stroke.length_m * number as f64 / 2.0).abs() < 1e-9);
+            if name == "keyway-stroke.yaml" {
+                assert_near(&place.point_m.map(|it| it * 1e3), &end);
+                assert_near(&place.normal, &[0.0, -1.0, 0.0]);
+            }
+        }
+        let least = place("least_dented");
+        let shares = &stroke.dented_map.as_ref().unwrap().dented;
+        let shares = shares.iter().flatten().map(|&share| f64::from(share));
+        assert_near(&[least.value], &[shares.fold(1.0, f64::min)]);
+        let [x, y, z] = least.point_m.map(|it| it * 1e3);
+        match name {
+            // Within half a cell of the border of the strip, 5 mm wide.
+            "keyway-stroke.yaml" => {
+                assert!(
+                    y == 18.3 && x.abs() < 2.5 && (0.0..40.0).contains(&z),
+                    "{x} {y} {z}"
+                );
+                assert!(x.abs() > 1.9 || !(0.6..39.4).contains(&z), "{x} {z}");
+            }
+            _ => {
+                let normal = least.normal;
+                let radius = x.hypot(y);
+                assert!((normal[0] * x + normal[1] * y + radius).abs() < 1e-6 * radius);
+            }
+        }
+        assert!(places.iter().all(|place| place.name != "shadow_edge"));
+    }
+}
+
 /// Dents that grow with the hit: a reading at the speed of the hits changes nothing, at half of it dents are larger by the
 /// root of two; a hardness gives what its formula says; 200 % takes twice the time to 98 %.
 #[test]

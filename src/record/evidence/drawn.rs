@@ -60,7 +60,7 @@ impl FrameRecord {
 }
 
 impl PlaceRecord {
-    fn new(scenario: &Scenario, place: &Place) -> Self {
+    pub(in crate::record) fn new(scenario: &Scenario, place: &Place) -> Self {
         Self {
             name: place.name.into(),
             surface: scenario.scene.surfaces()[place.surface as usize].clone(),

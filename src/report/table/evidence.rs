@@ -85,7 +85,8 @@ fn places(places: &[PlaceRecord]) -> io::Result<Table> {
     for place in places {
         let unit = match place.name.as_str() {
             "most_grazing" => "deg",
-            "shadow_edge" => "m",
+            "shadow_edge" | "beginning_of_stroke" | "middle_of_stroke" | "end_of_stroke" => "m",
+            "least_dented" => "1",
             _ => "N s",
         };
         let ([x, y, z], [a, b, c]) = (place.point_m, place.normal);
