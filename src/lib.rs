@@ -113,6 +113,11 @@ pub mod study;
 #[cfg(feature = "report")]
 pub mod report;
 
+#[cfg(feature = "campaign")]
+pub mod atomic;
+#[cfg(feature = "campaign")]
+pub mod campaign;
+
 /// The example of the library's chapter, which must run as well.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/library.md")]

@@ -9,6 +9,7 @@ use crate::chart::{BesidePoint, Chart, Plan, Refusal, measure};
 use crate::control::Control;
 use crate::jet::{Draw, purpose};
 use crate::map::{Axis, Map};
+use crate::problem::change::Change;
 use crate::problem::fault::Fault;
 use crate::problem::setting::Settings;
 use crate::problem::warning::Warning;
@@ -58,6 +59,15 @@ impl Study {
     /// All faults of the file and of the geometry at once, in the order of the text.
     pub fn open(path: &Path) -> Result<Self, Box<Rejection>> {
         let (scenario, source) = Scenario::load(path)?;
+        Ok(Self { scenario, source })
+    }
+
+    /// The same for a file of which some values are changed.
+    ///
+    /// # Errors
+    /// See [`Self::open`]; also where a value cannot be changed.
+    pub fn open_changed(path: &Path, changes: &[Change]) -> Result<Self, Box<Rejection>> {
+        let (scenario, source) = Scenario::from_reading(problem::read_changed(path, changes))?;
         Ok(Self { scenario, source })
     }
 

@@ -17,7 +17,7 @@ pub(crate) use pilot_run::PilotRun;
 pub(crate) use pose::Aim;
 pub use pose::Pose;
 pub use qmc_point::Stream;
-pub(crate) use qmc_point::normal_pair;
+pub(crate) use qmc_point::{normal_pair, sobol};
 pub use replicates::{Replicate, Replicates};
 pub use samples::Samples;
 pub use shot_sample::{ShotSample, speed_variance};

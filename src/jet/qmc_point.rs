@@ -4,6 +4,12 @@ use super::importance::{Cells, ImportanceDensity, NO_CELL};
 use super::quantile::deviation;
 use crate::elementary::{ln, sin_cos};
 
+/// A coordinate of a point of a scrambled Sobol sequence, from 0 to below 1. Points repeat after 2^16, and there are 256
+/// coordinates.
+pub(crate) fn sobol(index: u32, axis: u32, seed: u32) -> f64 {
+    f64::from(sobol_burley::sample(index, axis, seed))
+}
+
 /// An independent sequence of samples under one seed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stream {

@@ -35,6 +35,8 @@ listed! {
         FileUnreadable,
         /// More bytes than any problem file needs.
         FileTooLarge,
+        /// A key whose value cannot be changed where it stands.
+        NotChangeable,
         /// Nothing but comments.
         FileEmpty,
         /// Bytes that are not UTF-8.

@@ -19,6 +19,7 @@
 //! # Ok::<(), Box<peenpose::problem::fault::Fault>>(())
 //! ```
 
+pub mod change;
 pub mod curve;
 pub mod equipment;
 pub mod fault;
@@ -50,10 +51,10 @@ mod render;
 mod schema;
 mod source;
 mod warning_code;
-mod yaml;
+pub(crate) mod yaml;
 
 pub use length_unit::LengthUnit;
-pub use reading::{Reading, read, read_text};
+pub use reading::{Reading, read, read_changed, read_text};
 pub use render::{one_line, render, render_warnings};
 pub use schema::schema;
 pub use source::Source;

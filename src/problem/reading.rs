@@ -8,6 +8,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::Problem;
+use super::change::{Change, Template};
 use super::check::{self, Checked};
 use super::duplicate_keys;
 use super::fault::{Fault, Span};
@@ -63,6 +64,36 @@ impl Reading {
 /// A [`Fault`] when the file cannot be read at all; what is wrong inside it is in
 /// [`Reading::faults`].
 pub fn read(path: &Path) -> Result<Reading, Box<Fault>> {
+    read_bytes(&bytes_of(path)?, path)
+}
+
+/// Reads a problem file of which some values are changed.
+///
+/// # Errors
+/// See [`read`]; also where a value cannot be changed.
+pub fn read_changed(path: &Path, changes: &[Change]) -> Result<Reading, Box<Fault>> {
+    let bytes = bytes_of(path)?;
+    let content = content::text(&bytes).ok();
+    let text = content.as_deref().map(std::str::from_utf8);
+    let template = match text {
+        Some(Ok(text)) if !changes.is_empty() && bytes.len() as u64 <= LARGEST_FILE => {
+            Template::new(text).ok()
+        }
+        _ => None,
+    };
+    // What is wrong with the file itself comes first.
+    let Some(template) = template else {
+        return read_bytes(&bytes, path);
+    };
+    let changed = template
+        .with(changes)
+        .map_err(|fault| Box::new(Fault::at_key(FaultCode::NotChangeable, "", fault)))?;
+    let mut reading = read_text(changed.text(), path)?;
+    reading.source.changes = changes.to_vec();
+    Ok(reading)
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Box<Fault>> {
     let unreadable = |error: std::io::Error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -76,7 +107,7 @@ pub fn read(path: &Path) -> Result<Reading, Box<Fault>> {
     File::open(path)
         .and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
         .map_err(unreadable)?;
-    read_bytes(&bytes, path)
+    Ok(bytes)
 }
 
 /// Reads a problem from a text, as if it stood in the file `path`.

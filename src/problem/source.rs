@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use super::change::Change;
 use super::fault::Span;
 use super::yaml::{Node, Value};
 
@@ -16,8 +17,10 @@ pub struct Source {
     pub path: PathBuf,
     /// Its text, without a byte order mark.
     pub text: String,
-    /// SHA-256 of its bytes, in hexadecimal digits.
+    /// SHA-256 of its bytes, in hexadecimal digits; of the changed text where something was changed.
     pub sha256: String,
+    /// What was changed in the text that stands on the disk, to get this one.
+    pub changes: Vec<Change>,
     places: HashMap<String, Place>,
 }
 
@@ -33,11 +36,12 @@ struct Place {
 
 impl Source {
     /// A text without known keys.
-    pub(super) fn new(path: &Path, bytes: &[u8], text: String) -> Self {
+    pub(crate) fn new(path: &Path, bytes: &[u8], text: String) -> Self {
         Self {
             path: path.to_owned(),
             text,
             sha256: sha256(bytes),
+            changes: Vec::new(),
             places: HashMap::new(),
         }
     }

@@ -16,7 +16,7 @@ use crate::units::parse_number;
 
 /// A value of the file and where it stands.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// What it is.
     pub value: Value,
     /// Where it is used; an alias stands where it is written, not where it leads.
@@ -25,7 +25,7 @@ pub(super) struct Node {
 
 /// What stands at a place in the file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     /// Nothing, or `~`.
     Null,
     /// A plain number, as it was written.
@@ -40,14 +40,14 @@ pub(super) enum Value {
 
 /// One key with its value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
+pub(crate) struct Entry {
     pub key: String,
     pub key_span: Span,
     pub node: Node,
 }
 
 /// Parses a whole file. The text must not start with a byte order mark.
-pub(super) fn parse(text: &str) -> Result<Node, Box<Fault>> {
+pub(crate) fn parse(text: &str) -> Result<Node, Box<Fault>> {
     let raw: Spanned<Raw> = serde_saphyr::from_str_with_options(text, options())
         .map_err(|error| Box::new(explain(text, &error)))?;
     Ok(node(text, raw))

@@ -69,13 +69,15 @@ pub const LARGEST_FILE: u64 = 500_000_000;
 
 /// The SHA-256 of every mesh file of a scene, by its name as in the problem file.
 pub fn mesh_sha256(scenario: &Scenario, source: &Source) -> BTreeMap<String, String> {
-    let folder = source.path.parent().unwrap_or(Path::new(""));
-    let named = |file: &MeshSource| {
-        let name = file.path.strip_prefix(folder).unwrap_or(&file.path);
-        let name = printable::line(&name.display().to_string()).into_owned();
-        (name, file.sha256.clone())
-    };
+    let named = |file: &MeshSource| (mesh_name(&source.path, &file.path), file.sha256.clone());
     scenario.scene.mesh_files().iter().map(named).collect()
+}
+
+/// What a mesh file is called in the results of a problem file.
+pub(crate) fn mesh_name(problem: &Path, mesh: &Path) -> String {
+    let folder = problem.parent().unwrap_or(Path::new(""));
+    let name = mesh.strip_prefix(folder).unwrap_or(mesh);
+    printable::line(&name.display().to_string()).into_owned()
 }
 
 /// The result of a search.

@@ -13,7 +13,7 @@ mod number;
 mod page;
 pub mod program;
 mod series;
-mod sheet;
+pub(crate) mod sheet;
 pub mod table;
 mod typeset;
 

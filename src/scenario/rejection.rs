@@ -17,14 +17,14 @@ pub struct Rejection {
 }
 
 impl Rejection {
-    pub(super) fn unread(fault: Fault) -> Box<Self> {
+    pub(crate) fn unread(fault: Fault) -> Box<Self> {
         Box::new(Self {
             source: None,
             faults: vec![fault],
         })
     }
 
-    pub(super) fn new(source: Source, mut faults: Vec<Fault>) -> Box<Self> {
+    pub(crate) fn new(source: Source, mut faults: Vec<Fault>) -> Box<Self> {
         for fault in &mut faults {
             // Under `surfaces` the name itself is wrong, not what stands behind it.
             let of_name =

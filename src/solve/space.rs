@@ -1,5 +1,6 @@
 //! The settings that are searched, as points of the unit cube.
 
+use crate::jet::sobol;
 use crate::problem::Problem;
 use crate::problem::setting::{Range, Setting, Settings};
 
@@ -58,7 +59,7 @@ impl Space {
 
     /// One of many points that are spread evenly all over the space.
     pub fn spread(&self, index: u32, seed: u32) -> Vec<f64> {
-        let coordinate = |axis| f64::from(sobol_burley::sample(index, axis as u32, seed));
+        let coordinate = |axis| sobol(index, axis as u32, seed);
         (0..self.dimensions()).map(coordinate).collect()
     }
 

@@ -14,8 +14,13 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
+/// The problem file, and what is changed in it.
 fn file(study: &Study) -> String {
-    quoted(&study.source.path.display().to_string())
+    let mut words = quoted(&study.source.path.display().to_string());
+    for change in &study.source.changes {
+        words += &format!(" --set {}", quoted(&change.to_string()));
+    }
+    words
 }
 
 fn rays(study: &Study) -> &'static str {

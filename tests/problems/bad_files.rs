@@ -5,10 +5,12 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use crate::common::announced;
+use peenpose::problem::change::Change;
 use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::size::{LONGEST_KEY, LONGEST_TEXT, MOST_ITEMS};
 use peenpose::scenario::{Rejection, Scenario};
 use peenpose::scene::mesh_file::{LARGEST_FILE, LONGEST_NAME, MOST_CORNERS, MOST_SURFACES};
+use peenpose::study::Study;
 
 /// Problem files with faults of the file, and with faults of its parts and meshes.
 const FOLDERS: [&str; 2] = ["tests/bad", "tests/bad_geometry"];
@@ -135,8 +137,15 @@ fn broken_by_made_files() -> Vec<FaultCode> {
         fs::write(&path, text).unwrap();
         load(&path);
     }
+    let change = Change::new("target.surface[0]", "1").unwrap();
+    let rejection = Study::open_changed(Path::new(KEYWAY), &[change])
+        .err()
+        .unwrap();
+    broken.extend(rejection.faults.iter().map(|it| it.rule));
     broken
 }
+
+const KEYWAY: &str = "problems/keyway.yaml";
 
 /// What takes gigabytes or minutes to break.
 const TOO_DEAR_TO_BREAK: [FaultCode; 2] =

@@ -3,6 +3,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod campaigns;
+mod changes;
 mod comfort;
 mod command_line;
 mod documents;

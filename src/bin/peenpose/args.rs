@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
+use peenpose::campaign::Shard;
 use peenpose::record::MapTerm;
 
 use crate::impact::ImpactArgs;
@@ -58,6 +59,9 @@ pub enum Command {
     /// Write a commented problem file to start from
     #[command(after_help = INIT_EXAMPLES)]
     Init(InitArgs),
+    /// Solve many problems made from one, in shards that any queue can start
+    #[command(after_help = CAMPAIGN_EXAMPLES)]
+    Campaign(CampaignArgs),
     /// List shot and contacts that a problem file may use, with the source of every number
     #[command(after_help = MEDIA_EXAMPLES)]
     Media(MediaArgs),
@@ -77,6 +81,8 @@ Examples:
   peenpose solve keyway.yaml                        the technique sheet
   peenpose solve keyway.yaml --out result           sheet, result.json and figures in a folder
   peenpose solve keyway.yaml --pareto               what can be had instead, too
+  peenpose solve keyway.yaml --set contacts.dry.restitution=0.3 --set 'settings.speed=[5 m/s, 20 m/s]'
+                                                    with other values than the file's
   peenpose solve keyway.yaml --json | jq .best.settings
   peenpose solve keyway.yaml --out result --checkpoint kept
                                                     goes on where it was, if it was ended
@@ -149,6 +155,79 @@ Examples:
   peenpose man solve | man -l -
   peenpose man --out ~/.local/share/man/man1";
 
+const CAMPAIGN_EXAMPLES: &str = "\
+Examples:
+  peenpose campaign plan campaign.yaml --out study
+  peenpose campaign run study                       every case that is missing
+  peenpose campaign run study --shard 3/8           the third eighth of them
+  peenpose campaign status study
+  peenpose campaign gather study                    study/table.csv
+A run that was ended goes on where it was. Exit status of `run`: 0 also where verdicts fail, 2 where problems have faults.";
+
+/// Arguments of `campaign`.
+#[derive(clap::Args)]
+pub struct CampaignArgs {
+    /// What to do
+    #[command(subcommand)]
+    pub command: CampaignCommand,
+}
+
+/// Commands of a campaign.
+#[derive(clap::Subcommand)]
+pub enum CampaignCommand {
+    /// Write what there is to solve into a folder
+    Plan(PlanArgs),
+    /// Solve the cases that are missing
+    Run(RunArgs),
+    /// Count the cases that are done, missing and faulty
+    Status(StatusArgs),
+    /// Write the table of all cases
+    Gather(GatherArgs),
+}
+
+/// Arguments of `campaign plan`.
+#[derive(clap::Args)]
+pub struct PlanArgs {
+    /// The campaign file
+    pub file: PathBuf,
+    /// The folder of the campaign
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Arguments of `campaign run`.
+#[derive(clap::Args)]
+pub struct RunArgs {
+    /// The folder of the campaign
+    pub folder: PathBuf,
+    /// Every so many-th case only: `3/8` is the third of eight shards
+    #[arg(long, value_name = "I/N", default_value = "1/1")]
+    pub shard: Shard,
+    /// Threads; all cores by default. Only times depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// No progress bar
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `campaign status`.
+#[derive(clap::Args)]
+pub struct StatusArgs {
+    /// The folder of the campaign
+    pub folder: PathBuf,
+}
+
+/// Arguments of `campaign gather`.
+#[derive(clap::Args)]
+pub struct GatherArgs {
+    /// The folder of the campaign
+    pub folder: PathBuf,
+    /// Where the table goes; table.csv in the folder by default
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
 /// Arguments of `completions`.
 #[derive(clap::Args)]
 pub struct CompletionsArgs {
@@ -171,6 +250,9 @@ pub struct ManArgs {
 pub struct SolveArgs {
     /// The problem file
     pub file: PathBuf,
+    /// Change a key of the problem file, such as `contacts.dry.restitution=0.3`; may be given several times
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
     /// Write result.json and all reports on it into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -201,7 +283,8 @@ pub struct SolveArgs {
 pub struct EvaluateArgs {
     /// The problem file
     pub file: PathBuf,
-    /// A setting, such as `incidence=60deg` or `contact=dry`; may be given several times
+    /// A setting, such as `incidence=60deg` or `contact=dry`, or a key of the problem file with its groups, such as
+    /// `contacts.dry.restitution=0.3`; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     /// Take the settings of this result.json; --set goes on top
@@ -237,7 +320,8 @@ pub struct MapArgs {
     /// What is drawn
     #[arg(long, default_value = "total", value_parser = terms())]
     pub term: MapTerm,
-    /// Hold a setting, such as `standoff=8mm`; may be given several times
+    /// Hold a setting, such as `standoff=8mm`, or change a key of the problem file with its groups, such as
+    /// `contacts.dry.restitution=0.3`; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
     /// Hold the settings of this result.json; --set goes on top

@@ -25,7 +25,7 @@ const CHART: &str = "chart.json";
 pub fn run(args: &ChartArgs) -> Result<ExitCode, Failure> {
     let beside = beside(&args.beside)?;
     let clock = start::clock();
-    let study = start::open(&args.start, &args.file, Some(&args.out))?;
+    let study = start::open(&args.start, &args.file, &[], Some(&args.out))?;
     let watcher = Watcher::new(args.start.quiet);
     let plan = Plan {
         most_shots: args.most_shots as usize,

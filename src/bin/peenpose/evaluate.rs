@@ -17,13 +17,14 @@ pub fn run(args: &EvaluateArgs) -> Result<ExitCode, Failure> {
         clock: start::clock(),
         ..Control::default()
     };
-    let study = start::open(&args.start, &args.file, args.out.as_deref())?;
+    let (set, changes) = settings::split(&args.set)?;
+    let study = start::open(&args.start, &args.file, &changes, args.out.as_deref())?;
     let from = args
         .from
         .as_deref()
         .map(|path| Earlier::read(path, &study, args.start.quiet))
         .transpose()?;
-    let settings = settings::settings(&args.set, from.as_ref(), study.problem())?;
+    let settings = settings::settings(&set, from.as_ref(), study.problem())?;
     let extras = Extras {
         pareto: false,
         evidence: args.out.is_some(),

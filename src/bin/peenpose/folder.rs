@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use peenpose::atomic::temporary;
 use peenpose::report::figure::Figure;
 use tempfile::TempPath;
 
@@ -147,15 +148,4 @@ impl<'a> Staged<'a> {
         };
         self.failed.entry(reason).or_default().push(name.to_owned());
     }
-}
-
-/// A temporary file that may be read by whom the umask lets; usually nobody else may.
-fn temporary() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder
 }

@@ -4,6 +4,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod args;
+mod campaign;
 mod chart;
 mod check;
 mod checkpoint;
@@ -34,6 +35,7 @@ use output::Failure;
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match &arguments.command {
+        Command::Campaign(args) => campaign::run(&args.command),
         Command::Solve(args) => solve::run(args),
         Command::Evaluate(args) => evaluate::run(args),
         Command::Map(args) => map::run(args),

@@ -31,7 +31,8 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         let name = x.setting.name();
         return Err(format!("--y {name}: both axes are the same setting").into());
     }
-    let mut study = start::open(&args.start, &args.file, Some(&args.out))?;
+    let (set, changes) = settings::split(&args.set)?;
+    let mut study = start::open(&args.start, &args.file, &changes, Some(&args.out))?;
     let from = args
         .from
         .as_deref()
@@ -46,7 +47,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
     y.check(study.problem())?;
     let varied = [x.setting, y.setting];
     let checkpoint = checkpoint::open(args.checkpoint.as_deref(), study.scenario())?.map(Arc::new);
-    let given = given(args, from.as_ref(), study.problem(), varied)?;
+    let given = given(args, set, from.as_ref(), study.problem(), varied)?;
     let watcher = Watcher::new(args.start.quiet);
     let control = Control {
         checkpoint: checkpoint.clone(),
@@ -61,7 +62,7 @@ pub fn run(args: &MapArgs) -> Result<ExitCode, Failure> {
         Ok(Axis::over(asked.setting, range, args.steps.into()))
     };
     let axes = [axis(&x)?, axis(&y)?];
-    watcher.show_drawing();
+    watcher.say("drawing the map");
     let map = study.map(&settings, axes, args.shots as usize, &control);
     watcher.finish();
     checkpoint::close(checkpoint.as_deref(), args.start.quiet);
@@ -115,14 +116,14 @@ fn write(args: &MapArgs, view: &MapView, varied: [Setting; 2]) -> Result<ExitCod
 /// nothing is given.
 fn given(
     args: &MapArgs,
+    mut set: Vec<String>,
     from: Option<&Earlier>,
     problem: &Problem,
     varied: [Setting; 2],
 ) -> Result<Option<(Settings, bool)>, String> {
-    if args.set.is_empty() && from.is_none() {
+    if set.is_empty() && from.is_none() {
         return Ok(None);
     }
-    let mut set = args.set.clone();
     set.extend(args.contact.iter().map(|name| format!("contact={name}")));
     settings::choice_round(varied, &set, from, problem).map(Some)
 }

@@ -1,5 +1,6 @@
 //! The progress bar: on a terminal only.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{Builder, sleep};
@@ -102,9 +103,9 @@ impl Watcher {
         self.bar.finish_and_clear();
     }
 
-    /// Takes the drawing of a map to the bar.
-    pub fn show_drawing(&self) {
-        self.bar.set_message("drawing the map");
+    /// Shows something else.
+    pub fn say(&self, message: impl Into<Cow<'static, str>>) {
+        self.bar.set_message(message);
     }
 }
 

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use peenpose::printable;
+use peenpose::problem::change::Change;
 use peenpose::problem::fault::nearest_name;
 use peenpose::problem::setting::{Setting, Settings};
-use peenpose::problem::{Problem, Source, given};
+use peenpose::problem::{Problem, Source, given, schema};
 use peenpose::record::{Record, mesh_sha256};
 use peenpose::scenario::Scenario;
 use peenpose::study::Study;
@@ -39,6 +40,25 @@ pub fn choice_round(
         }
     }
     Ok((known.complete(problem)?, all_known))
+}
+
+/// Changes of the problem file that `--set` asks for.
+pub fn changes(set: &[String]) -> Result<Vec<Change>, String> {
+    let changes = set.iter().map(|text| Change::parse(text));
+    let changes: Result<_, _> = changes.collect();
+    changes.map_err(|fault| format!("--set {fault}"))
+}
+
+/// What `--set` says of settings, and what of other keys of the problem file: these have a dot, or are one of its groups.
+pub fn split(set: &[String]) -> Result<(Vec<String>, Vec<Change>), String> {
+    let schema = schema();
+    let is_change = |text: &&String| {
+        let key = text.split('=').next().unwrap_or_default().trim();
+        key.contains(['.', '[']) || schema["properties"].get(key).is_some()
+    };
+    let (keys, settings): (Vec<&String>, Vec<&String>) = set.iter().partition(is_change);
+    let keys: Vec<String> = keys.into_iter().cloned().collect();
+    Ok((settings.into_iter().cloned().collect(), changes(&keys)?))
 }
 
 /// The setting with a name.

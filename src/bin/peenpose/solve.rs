@@ -12,12 +12,14 @@ use crate::checkpoint;
 use crate::output::{self, Failure};
 use crate::progress::Watcher;
 use crate::result::{self, Form};
+use crate::settings;
 use crate::start;
 
 /// Solves a problem file and reports the answer.
 pub fn run(args: &SolveArgs) -> Result<ExitCode, Failure> {
     let clock = start::clock();
-    let mut study = start::open(&args.start, &args.file, args.out.as_deref())?;
+    let changes = settings::changes(&args.set)?;
+    let mut study = start::open(&args.start, &args.file, &changes, args.out.as_deref())?;
     if let Some(accuracy) = &args.accuracy {
         let accuracy = given::accuracy(accuracy).map_err(|fault| format!("--accuracy: {fault}"))?;
         study = study.with_accuracy(accuracy);

@@ -6,6 +6,7 @@ use std::thread::{available_parallelism, sleep};
 use std::time::{Duration, Instant};
 
 use peenpose::control::Clock;
+use peenpose::problem::change::Change;
 use peenpose::problem::fault::Fault;
 use peenpose::study::Study;
 
@@ -39,10 +40,19 @@ pub enum Engine {
 }
 
 /// Reads a problem file and shows its warnings, after it is known that results can be written.
-pub fn open(args: &StartArgs, file: &Path, out: Option<&Path>) -> Result<Study, Failure> {
+pub fn open(
+    args: &StartArgs,
+    file: &Path,
+    changes: &[Change],
+    out: Option<&Path>,
+) -> Result<Study, Failure> {
     use_threads(args.threads)?;
     folder::prepare(out)?;
-    let study = Study::open(file)?;
+    let study = Study::open_changed(file, changes).inspect_err(|rejection| {
+        if !changes.is_empty() && rejection.source.is_some() {
+            output::note("lines are those of the file with what --set changes in it");
+        }
+    })?;
     if !args.quiet {
         output::warnings(&study);
         for warning in study.scenario().scene.warnings() {

@@ -13,7 +13,7 @@ pub(super) mod objective;
 mod origins;
 pub(super) mod received;
 mod scatter;
-pub(super) mod setting;
+pub(crate) mod setting;
 pub(super) mod settings;
 pub(super) mod stroke;
 pub(super) mod subject;
