@@ -121,7 +121,7 @@ def impact(
         *(np.asarray(it, dtype=float) for it in (restitution, tangential_restitution, spin, radius, density)),
     )
     flat = [np.ascontiguousarray(column).reshape(-1) for column in columns]
-    return Table(_core.impact(*flat, law))
+    return Table(_core.impact(law, *flat))
 
 
 def media() -> dict[str, Any]:

@@ -33,6 +33,16 @@ class Table(Mapping[str, NDArray[Any]]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Table) or list(self) != list(other):
+            return False
+        return all(
+            np.array_equal(column, other[name], equal_nan=column.dtype.kind == "f")
+            for name, column in self._columns.items()
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
     @property
     def rows(self) -> int:
         """How many rows it has."""

@@ -73,7 +73,7 @@ def gather(folder: PathLike) -> Table:
     return Table.of_rows([dict(row) for row in rows])
 
 
-def _number(cell: str) -> str | float | None:  # type: ignore[misc]
+def _number(cell: str) -> str | float | None:
     if cell == "":
         return None
     try:

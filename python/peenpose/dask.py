@@ -35,7 +35,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--scheduler", help="address of the scheduler; a cluster on this machine by default")
     parser.add_argument("--shards", type=int, help="tasks; eight for each thread of the cluster by default")
     given = parser.parse_args(arguments)
-    with Client(given.scheduler) as client:
+    connect: Any = Client
+    with connect(given.scheduler) as client:
         found = run(client, given.folder, given.shards)
     print(f"{found.done} done, {found.missing} missing, {found.faulty} faulty")
     return 2 if found.faulty else 0

@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 #[expect(clippy::too_many_arguments, reason = "a column each")]
 pub fn impact<'py>(
     py: Python<'py>,
+    law: &str,
     speed: PyReadonlyArray1<'py, f64>,
     angle: PyReadonlyArray1<'py, f64>,
     mu_s: PyReadonlyArray1<'py, f64>,
@@ -20,7 +21,6 @@ pub fn impact<'py>(
     spin: PyReadonlyArray1<'py, f64>,
     radius: PyReadonlyArray1<'py, f64>,
     density: PyReadonlyArray1<'py, f64>,
-    law: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
     let law = Law::ALL
         .into_iter()

@@ -53,19 +53,19 @@ def parallel(program: Path, folder: Path) -> list[str]:
 
 
 def hyperqueue(program: Path, folder: Path) -> list[str]:
-    tool = Path(sys.executable).with_name("hq")
-    if not tool.exists():
-        pytest.skip("HyperQueue is not installed")
-    home = folder / "hq"
-    script = (
-        f"set -e; export HQ_SERVER_DIR={home}; {tool} server start >{folder}/hq.log 2>&1 & "
-        f"export HQ_SERVER_DIR={home}; until {tool} server info >/dev/null 2>&1; do sleep 0.1; done; "
-        f"{tool} worker start --cpus 2 >{folder}/worker.log 2>&1 & "
-        f"{tool} submit --wait --array 1-{SHARDS} --stdout none --stderr none -- sh -c "
-        f"'{program} campaign run {folder} --quiet --threads 1 --shard $HQ_TASK_ID/{SHARDS}'; "
-        f"{tool} server stop"
-    )
-    return ["bash", "-c", script]
+    pytest.importorskip("hyperqueue")
+    script = f"""
+from hyperqueue import Job
+from hyperqueue.cluster import LocalCluster, WorkerConfig
+with LocalCluster(worker_config=WorkerConfig(cores=2)) as cluster:
+    job = Job()
+    for number in range(1, {SHARDS} + 1):
+        command = [{str(program)!r}, "campaign", "run", {str(folder)!r}, "--quiet", "--threads", "1"]
+        job.program([*command, "--shard", f"{{number}}/{SHARDS}"], stdout=None, stderr=None)
+    client = cluster.client()
+    client.wait_for_jobs([client.submit(job)])
+"""
+    return [sys.executable, "-c", script]
 
 
 def dask(program: Path, folder: Path) -> list[str]:
