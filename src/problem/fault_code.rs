@@ -244,6 +244,8 @@ listed! {
         MeshNotInHeader,
         /// A region without a triangle.
         RegionEmpty,
+        /// A region of a mesh at a point between two faces.
+        RegionOnEdge,
         /// A region whose triangles all belong to later ones.
         RegionCovered,
     }

@@ -28,7 +28,7 @@ pub(super) fn homes_of(name: &str) -> &'static [String] {
 }
 
 /// Groups most of whose keys are those of other groups, where they are meant when they stand in the wrong place.
-const REPEATING: [&str; 2] = ["stroke", "measured_at"];
+const REPEATING: [&str; 3] = ["stroke", "measured_at", "regions"];
 
 /// What a schema knows.
 #[derive(Default)]

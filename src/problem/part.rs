@@ -77,7 +77,7 @@ pub enum Shape {
         file: MeshFile,
         /// Metres per unit of length in the file.
         metres_per_unit: f64,
-        /// Boxes (in the file's frame, m) that name the triangles whose centre they hold.
+        /// Regions that name triangles.
         regions: Vec<Region>,
     },
 }
@@ -162,12 +162,24 @@ impl Segment {
 /// A named axis-parallel box.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
-    /// Name of the surface that the box cuts out of the mesh.
+    /// Name of the surface that it cuts out of the mesh.
     pub name: String,
-    /// Smallest corner, m.
-    pub min: Point3<f64>,
-    /// Largest corner, m.
-    pub max: Point3<f64>,
+    /// Which of its triangles that are.
+    pub place: RegionPlace,
+}
+
+/// Where a region of a mesh is, in the frame of the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RegionPlace {
+    /// Triangles whose centre lies in a box.
+    Box {
+        /// Smallest corner, m.
+        min: Point3<f64>,
+        /// Largest corner, m.
+        max: Point3<f64>,
+    },
+    /// The smooth face that a point lies on, m.
+    Face(Point3<f64>),
 }
 
 /// The surface to be peened.

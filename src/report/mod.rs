@@ -2,6 +2,7 @@
 
 mod chart;
 pub mod export;
+mod faces;
 pub mod figure;
 mod files;
 mod finding;
@@ -19,6 +20,7 @@ pub mod table;
 mod typeset;
 
 pub use chart::chart;
+pub use faces::faces;
 pub use files::{files, names};
 pub use library::library;
 pub use library_json::library_json;

@@ -1,5 +1,6 @@
 //! Triangles with named surfaces.
 
+mod faces;
 mod pieces;
 mod seams;
 mod shells;
@@ -7,6 +8,7 @@ mod smoothness;
 mod topology;
 mod winding;
 
+pub use faces::{Form, SHARP, SmoothFace, SmoothFaces};
 pub(super) use pieces::tiny_pieces;
 pub(super) use seams::rims;
 pub(super) use shells::{Shell, Shells};

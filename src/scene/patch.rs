@@ -136,7 +136,10 @@ impl Patch {
                 extent(scene, surface, target.lengths_in)
             ))]);
         }
-        let aim = target.aim.unwrap_or(centre);
+        let aim = target
+            .aim
+            .or_else(|| nearest_to_centre(scene, surface, &centre))
+            .unwrap_or(centre);
         let nearest = scene.foot(&aim, surface);
         let on_patch = |p: &Point3<f64>| {
             let limits = target.within;
@@ -199,6 +202,18 @@ impl Frame {
         })
     }
 }
+
+/// The point of a surface nearest to its centre, which is off it where it is curved; `None` where another one is about as near, as
+/// all round a hole.
+fn nearest_to_centre(scene: &Scene, surface: u32, centre: &Point3<f64>) -> Option<Point3<f64>> {
+    let foot = scene.foot(centre, surface)?.point;
+    let way = foot - centre;
+    let beyond = scene.foot(&(centre - way * ASIDE), surface)?.point;
+    ((beyond - foot).norm() <= 0.5 * way.norm()).then_some(foot)
+}
+
+/// By how much of the way to the nearest point a centre is moved away from it, to see whether another one is as near.
+const ASIDE: f64 = 0.5;
 
 /// How far from the target a point may be that is on it, m: a mesh's facets lie a little inside the true surface that a
 /// drawing's numbers mean.

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::common::cases::cases;
 use nalgebra::Point3;
 use peenpose::control::Control;
-use peenpose::problem::part::Region;
+use peenpose::problem::part::{Region, RegionPlace};
 use peenpose::scene::mesh::Mesh;
 use peenpose::scene::mesh_file::{Defect, LARGEST_FILE, MeshFault, MeshWarning, Place, read};
 use peenpose::study::{Extras, Study};
@@ -47,8 +47,10 @@ fn region(name: &str, min: [f64; 3], max: [f64; 3]) -> Region {
     let metres = |point: [f64; 3]| Point3::from(point.map(|value| value * MILLIMETRE));
     Region {
         name: name.to_owned(),
-        min: metres(min),
-        max: metres(max),
+        place: RegionPlace::Box {
+            min: metres(min),
+            max: metres(max),
+        },
     }
 }
 
@@ -799,4 +801,33 @@ fn a_mesh_from_memory_is_the_mesh_of_the_file() {
     let empty = [("hub-blind-keyway.obj", Arc::from([]))];
     let empty = Study::from_memory(&text, nowhere, &empty).err().unwrap();
     assert!(empty.to_string().contains("is empty"), "{empty}");
+}
+
+/// A point names the smooth face that it lies on, of a mesh without names as well; it lies on the drawing, of which the facets are a
+/// little inside.
+#[test]
+fn a_point_names_the_face_that_it_lies_on() {
+    let text = fs::read_to_string("problems/hub-blind-keyway.obj").unwrap();
+    let unnamed: String = text
+        .lines()
+        .filter(|line| !line.starts_with("g "))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let face = |name: &str, at: [f64; 3]| Region {
+        name: name.to_owned(),
+        place: RegionPlace::Face(Point3::from(at.map(|value| value * MILLIMETRE))),
+    };
+    let regions = [
+        face("shaft", [25.0, 0.0, 30.0]),
+        face("mouth", [0.0, -20.0, 60.0]),
+    ];
+    let (mesh, _) = read_bytes("obj", unnamed.as_bytes(), &regions).unwrap();
+    let (named, _) = read_bytes("obj", text.as_bytes(), &[]).unwrap();
+    let count = |mesh: &Mesh, name: &str| {
+        let sizes = surface_sizes(mesh);
+        sizes.iter().find(|(known, _)| *known == name).unwrap().1
+    };
+    assert_eq!(count(&mesh, "shaft"), count(&named, "outside"));
+    assert_eq!(count(&mesh, "mouth"), count(&named, "face_far"));
+    assert_eq!(mesh.triangles.len(), named.triangles.len());
 }

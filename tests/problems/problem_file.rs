@@ -10,7 +10,7 @@ use peenpose::problem::equipment::{Body, Dent, Jet, Nozzle, PathLimits, Role, Sh
 use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::goal::{Goals, Miss, NormalImpulse, Rebound, TangentialImpulse};
 use peenpose::problem::model::{Effect, Model};
-use peenpose::problem::part::{Ends, Keyway, Part, Place, Shape, Target};
+use peenpose::problem::part::{Ends, Keyway, Part, Place, RegionPlace, Shape, Target};
 use peenpose::problem::setting::{Range, Tolerance};
 use peenpose::problem::{self, LengthUnit, Problem, Reading};
 use proptest::prelude::*;
@@ -302,7 +302,10 @@ fn every_other_key_is_read() {
     assert_eq!(file.path, Path::new("problems/parts/mask.obj"));
     assert_eq!(*metres_per_unit, 0.0254);
     assert_eq!(regions[0].name, "lip");
-    assert_eq!(regions[0].max.z, 3.0 * 0.0254);
+    let RegionPlace::Box { max, .. } = regions[0].place else {
+        panic!("it is a box")
+    };
+    assert_eq!(max.z, 3.0 * 0.0254);
     assert!(
         matches!(&cover.shape, Shape::Mesh { metres_per_unit, regions, .. }
             if *metres_per_unit == 0.01 && regions.is_empty())

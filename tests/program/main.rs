@@ -13,3 +13,4 @@ mod limits;
 mod nothing_is_lost;
 mod same_bits;
 mod supply_chain;
+mod surfaces;

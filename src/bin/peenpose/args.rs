@@ -65,6 +65,9 @@ pub enum Command {
     /// List shot and contacts that a problem file may use, with the source of every number
     #[command(after_help = MEDIA_EXAMPLES)]
     Media(MediaArgs),
+    /// List the smooth faces of a mesh, each with a point that names it in a problem file
+    #[command(after_help = SURFACES_EXAMPLES)]
+    Surfaces(SurfacesArgs),
     /// Print the JSON Schema of problem files, for editors
     #[command(after_help = SCHEMA_EXAMPLES)]
     Schema,
@@ -224,6 +227,28 @@ pub struct GatherArgs {
     /// The folder of the campaign
     pub folder: PathBuf,
     /// Where the table goes; table.csv in the folder by default
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+const SURFACES_EXAMPLES: &str = "\
+Examples:
+  peenpose surfaces housing.stl                     numbers, forms, sizes, and a point of each
+  peenpose surfaces housing.stl --angle '20 deg' --out faces.svg
+In the problem file: regions: { floor: { at: [x, y, z] } }";
+
+/// Arguments of `surfaces`.
+#[derive(clap::Args)]
+pub struct SurfacesArgs {
+    /// The mesh: STL, OBJ or PLY
+    pub file: PathBuf,
+    /// Faces end where neighbours differ by this angle
+    #[arg(long, value_name = "ANGLE", default_value = "30 deg")]
+    pub angle: String,
+    /// How many faces are listed, the largest first
+    #[arg(long, value_name = "N", default_value_t = 40)]
+    pub most: usize,
+    /// Draw them with their numbers into this SVG
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 }

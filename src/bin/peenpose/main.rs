@@ -24,6 +24,7 @@ mod settings;
 mod shell;
 mod solve;
 mod start;
+mod surfaces;
 
 use std::process::ExitCode;
 
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
             .and_then(output::text),
         Command::Init(args) => init::run(args),
         Command::Media(args) => media::run(args),
+        Command::Surfaces(args) => surfaces::run(args),
         Command::Schema => schema::run(),
     };
     match outcome {

@@ -8,7 +8,7 @@ use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::LengthUnit;
 use crate::problem::fault_code::FaultCode;
-use crate::problem::field::{Field, Needed};
+use crate::problem::field::Field;
 use crate::problem::file::scene::BoxEntry;
 use crate::problem::file::{Pair, Triple};
 
@@ -73,11 +73,21 @@ impl<'a> Coordinates<'a> {
         entry: &BoxEntry,
         unit: Option<LengthUnit>,
     ) -> Option<(Point3<f64>, Point3<f64>)> {
-        let corner = |name: &str, field: &Needed<Triple>| {
-            let triple = scope.required(name, field, "a corner `[x, y, z]`")?;
+        self.corners_of(scope, [&entry.min, &entry.max], unit)
+    }
+
+    /// The same of fields that need not be there for themselves.
+    pub fn corners_of(
+        &self,
+        scope: &Scope<'_>,
+        [min, max]: [&Field<Triple>; 2],
+        unit: Option<LengthUnit>,
+    ) -> Option<(Point3<f64>, Point3<f64>)> {
+        let corner = |name: &str, field: &Field<Triple>| {
+            let triple = scope.required_here(name, field, "a corner `[x, y, z]`")?;
             self.point_in(&scope.of(name), triple, unit)
         };
-        let (min, max) = (corner("min", &entry.min), corner("max", &entry.max));
+        let (min, max) = (corner("min", min), corner("max", max));
         let (min, max) = (min?, max?);
         let axes = ["x", "y", "z"].into_iter().enumerate();
         let flat: Vec<&str> = axes

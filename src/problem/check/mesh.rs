@@ -4,11 +4,12 @@ use std::path::{Component, Path, PathBuf};
 
 use super::coordinates::Coordinates;
 use super::scope::Scope;
+use crate::problem::LengthUnit;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::Named;
-use crate::problem::file::scene::PartEntry;
-use crate::problem::part::{Region, Shape};
+use crate::problem::file::scene::{PartEntry, RegionEntry};
+use crate::problem::part::{Region, RegionPlace, Shape};
 
 /// The mesh `file` of a part, with its unit and regions.
 pub(super) fn check(
@@ -33,12 +34,11 @@ pub(super) fn check(
                 .iter()
                 .map(|(name, field)| {
                     let valid = list.valid_name(name);
-                    let entry = list.required(name, field, "`{ min: [..], max: [..] }`")?;
-                    let (min, max) = coordinates.corners(&list.of(name), entry, unit)?;
+                    let entry = list.required(name, field, PLACE)?;
+                    let place = region(&list.of(name), entry, coordinates, unit)?;
                     valid.then(|| Region {
                         name: name.clone(),
-                        min,
-                        max,
+                        place,
                     })
                 })
                 .collect();
@@ -50,6 +50,36 @@ pub(super) fn check(
         metres_per_unit: unit?.metres(1.0),
         regions: regions?,
     })
+}
+
+/// How a region is told.
+const PLACE: &str = "`{ at: [x, y, z] }` or `{ min: [..], max: [..] }`";
+
+/// A face at a point, or a box.
+fn region(
+    scope: &Scope<'_>,
+    entry: &RegionEntry,
+    coordinates: &Coordinates<'_>,
+    unit: Option<LengthUnit>,
+) -> Option<RegionPlace> {
+    let has_box = entry.min.is_given() || entry.max.is_given();
+    if !entry.at.is_given() && !has_box && !scope.is_misspelt("at") {
+        let fault = scope.own_fault(FaultCode::NoneOfSeveral, "says not where it is");
+        scope.report(fault.expecting(PLACE));
+        return None;
+    }
+    if !entry.at.is_given() {
+        let corners = coordinates.corners_of(scope, [&entry.min, &entry.max], unit);
+        return corners.map(|(min, max)| RegionPlace::Box { min, max });
+    }
+    if has_box {
+        let key = if entry.min.is_given() { "min" } else { "max" };
+        let fault = scope.fault(FaultCode::EitherOr, key, "stands beside `at`");
+        scope.report_name(fault.expecting("the point or the box"));
+        return None;
+    }
+    let point = coordinates.point_in(&scope.of("at"), entry.at.value()?, unit)?;
+    Some(RegionPlace::Face(point))
 }
 
 /// The mesh file within the folder of the problem file. Whether it exists shows when it is read.

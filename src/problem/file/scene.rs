@@ -49,13 +49,14 @@ pub(in crate::problem) struct PartEntry {
     /// Unit of this mesh file; the file's `lengths_in` where absent.
     #[schemars(example = &"in")]
     pub lengths_in: Field<LengthUnit>,
-    /// Named boxes, in the mesh's own coordinates. Triangles whose centre lies in one become the
-    /// surface of that name; later boxes win; none where absent.
+    /// Named regions, in the mesh's own coordinates: the smooth face that a point lies on (`peenpose surfaces`
+    /// lists them), or the triangles whose centre lies in a box. They become the surface of that name; later regions win; none
+    /// where absent.
     #[schemars(
-        example = json!({ "lip": { "min": [-5, 8, 0], "max": [5, 9, 2] } }),
+        example = json!({ "floor": { "at": [0, 18.3, 20] } }),
         extend("propertyNames" = form::names())
     )]
-    pub regions: Field<Named<BoxEntry>>,
+    pub regions: Field<Named<RegionEntry>>,
     /// Where the part stands; at the origin of the scene, unturned, where absent.
     pub place: Field<PlaceEntry>,
 }
@@ -116,6 +117,27 @@ pub(in crate::problem) struct BoxEntry {
     /// Largest corner, larger along every axis.
     #[schemars(example = [20, 10, 50])]
     pub max: Needed<Triple>,
+}
+
+/// A part of a mesh: the smooth face at a point, or what lies in a box.
+///
+/// A smooth face ends at edges where the normals of neighbours differ by 30 deg or more, and with the surface that the file names.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+#[schemars(extend(
+    "oneOf" = json!([{ "required": ["at"] }, { "required": ["min", "max"] }]),
+    "dependentRequired" = json!({ "min": ["max"], "max": ["min"] }),
+))]
+pub(in crate::problem) struct RegionEntry {
+    /// A point on the face, not on its edge; a box where absent.
+    #[schemars(example = json!([0, 18.3, 20]))]
+    pub at: Field<Triple>,
+    /// Smallest corner of a box; a face where absent.
+    #[schemars(example = [-5, 8, 0])]
+    pub min: Field<Triple>,
+    /// Largest corner of a box, larger along every axis; a face where absent.
+    #[schemars(example = [5, 9, 2])]
+    pub max: Field<Triple>,
 }
 
 /// A cross-section of lines and arcs, along z from 0 to `length`. Free space lies to the left of its

@@ -4,6 +4,7 @@
 
 mod axis;
 mod effect;
+mod faces;
 mod field;
 mod front;
 mod hits;
@@ -26,6 +27,7 @@ pub(super) use pose::curve_name;
 use super::map::{MAPS, MapView};
 use crate::chart::Chart;
 use crate::record::{MapTerm, Record};
+use crate::scene::mesh::{Mesh, SmoothFaces};
 
 /// A figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,6 +54,14 @@ impl Figure {
             Self::named("effect", effect::svg(chart)),
         ];
         drawn.into_iter().filter_map(Result::transpose).collect()
+    }
+
+    /// The smooth faces of a mesh, the largest with their numbers.
+    pub fn of_faces(mesh: &Mesh, faces: &SmoothFaces, most: usize) -> Self {
+        Self {
+            name: "faces",
+            svg: faces::svg(mesh, faces, most),
+        }
     }
 
     /// The figure of a map; `None` when it has no extent.

@@ -44,7 +44,7 @@ impl Mesh {
     }
 
     /// The three sides of every triangle, those of one edge next to each other.
-    fn sorted_sides(&self) -> Vec<Side> {
+    pub(super) fn sorted_sides(&self) -> Vec<Side> {
         let mut sides = Vec::with_capacity(3 * self.triangles.len());
         for (number, triangle) in (0..).zip(&self.triangles) {
             let [a, b, c] = triangle.corners;
@@ -62,7 +62,7 @@ impl Mesh {
 
     /// The angle between the normals on both sides of an edge, whichever way they are wound, rad.
     /// It is not a number below any limit when a triangle has no area.
-    fn turn(&self, a: &Side, b: &Side) -> f64 {
+    pub(super) fn turn(&self, a: &Side, b: &Side) -> f64 {
         let normal = |side: &Side| -> Vector3<f64> {
             self.doubled_area(&self.triangles[side.triangle as usize])
         };
@@ -82,9 +82,9 @@ impl Mesh {
 
 /// One side of a triangle; the order puts those of one edge side by side.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
-    ends: [u32; 2],
-    triangle: u32,
+pub(super) struct Side {
+    pub ends: [u32; 2],
+    pub triangle: u32,
     backwards: bool,
 }
 

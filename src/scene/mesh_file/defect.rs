@@ -5,6 +5,7 @@ use std::fmt;
 use nalgebra::Point3;
 
 use super::warning::Coordinates;
+use crate::digits::significant;
 use crate::problem::fault_code::FaultCode;
 
 /// Bytes of the longest line that is read; a face of four thousand corners fits.
@@ -123,6 +124,18 @@ pub enum Defect {
         /// Largest coordinates of the mesh, in the file's unit.
         max: Point3<f64>,
     },
+    /// The point of a region is off the mesh.
+    RegionOffMesh {
+        /// Name of the region.
+        region: String,
+        /// How far, m.
+        distance: f64,
+    },
+    /// The point of a region lies on an edge between smooth faces.
+    RegionOnEdge {
+        /// Name of the region.
+        region: String,
+    },
     /// Later regions of the problem file take every triangle of an earlier one.
     CoveredRegion {
         /// Name of the earlier region.
@@ -158,7 +171,10 @@ impl Defect {
     /// The region of the problem file that it is about, if that is to blame.
     pub fn region(&self) -> Option<&str> {
         match self {
-            Self::EmptyRegion { region, .. } | Self::CoveredRegion { region } => Some(region),
+            Self::EmptyRegion { region, .. }
+            | Self::RegionOffMesh { region, .. }
+            | Self::RegionOnEdge { region }
+            | Self::CoveredRegion { region } => Some(region),
             _ => None,
         }
     }
@@ -188,7 +204,8 @@ impl Defect {
             Self::Unexpected { .. } => FaultCode::MeshUnexpected,
             Self::EndsEarly { .. } => FaultCode::MeshEndsEarly,
             Self::NotInHeader { .. } => FaultCode::MeshNotInHeader,
-            Self::EmptyRegion { .. } => FaultCode::RegionEmpty,
+            Self::EmptyRegion { .. } | Self::RegionOffMesh { .. } => FaultCode::RegionEmpty,
+            Self::RegionOnEdge { .. } => FaultCode::RegionOnEdge,
             Self::CoveredRegion { .. } => FaultCode::RegionCovered,
         }
     }
@@ -334,6 +351,15 @@ impl fmt::Display for Defect {
                  in the file's unit",
                 Coordinates(min),
                 Coordinates(max)
+            ),
+            Self::RegionOffMesh { region, distance } => write!(
+                f,
+                "the point of region `{region}` is {} mm off the mesh; `peenpose surfaces` lists points on its faces",
+                significant(distance * 1e3, 3)
+            ),
+            Self::RegionOnEdge { region } => write!(
+                f,
+                "the point of region `{region}` lies on the edge between two faces; move it onto one of them"
             ),
             Self::CoveredRegion { region } => write!(
                 f,

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::io::Write;
 
 use nalgebra::{Point3, Vector3};
-use peenpose::problem::part::{Part, Place, Region, Shape, Target};
+use peenpose::problem::part::{Part, Place, Region, RegionPlace, Shape, Target};
 use peenpose::scene::mesh::Mesh;
 use peenpose::scene::mesh_file::{self, LARGEST_COORDINATE};
 use peenpose::scene::patch::Patch;
@@ -66,8 +66,14 @@ pub fn run(data: &[u8]) {
 fn regions(count: usize, metres_per_unit: f64) -> Vec<Region> {
     let region = |index: usize| Region {
         name: format!("region{index}"),
-        min: Point3::from(Vector3::repeat(index as f64 - 1.0) * metres_per_unit),
-        max: Point3::from(Vector3::repeat(index as f64 + 1.0) * metres_per_unit),
+        place: match index {
+            // A point that may be anywhere, and boxes.
+            0 => RegionPlace::Face(Point3::origin()),
+            _ => RegionPlace::Box {
+                min: Point3::from(Vector3::repeat(index as f64 - 1.0) * metres_per_unit),
+                max: Point3::from(Vector3::repeat(index as f64 + 1.0) * metres_per_unit),
+            },
+        },
     };
     (0..count).map(region).collect()
 }
