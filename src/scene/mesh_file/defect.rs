@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::Point3;
 
 use super::warning::Coordinates;
-use crate::digits::significant;
+use crate::digits::rounded;
 use crate::problem::fault_code::FaultCode;
 
 /// Bytes of the longest line that is read; a face of four thousand corners fits.
@@ -355,7 +355,7 @@ impl fmt::Display for Defect {
             Self::RegionOffMesh { region, distance } => write!(
                 f,
                 "the point of region `{region}` is {} mm off the mesh; `peenpose surfaces` lists points on its faces",
-                significant(distance * 1e3, 3)
+                rounded(distance * 1e3, 3)
             ),
             Self::RegionOnEdge { region } => write!(
                 f,
