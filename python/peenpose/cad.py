@@ -9,6 +9,7 @@ import argparse
 import math
 import re
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -57,7 +58,7 @@ class Converted:
     deflection: float
     """How far triangles may be from the surface, mm."""
     skipped: list[str] = field(default_factory=list)
-    """What the kernel could not read or mesh."""
+    """What the kernel could not read or mesh, and names that tell nothing."""
 
     @property
     def table(self) -> Table:
@@ -105,9 +106,13 @@ def convert(step: PathLike, out: PathLike, *, deflection: float | str = "0.01 mm
     ]
     faces: list[Face] = []
     first = 1
-    for number, face in enumerate(_faces(shape), 1):
-        entity = transfer.EntityFromShapeResult(face, 1)
-        own = _name(entity)
+    found = [(face, _name(transfer.EntityFromShapeResult(face, 1))) for face in _faces(shape)]
+    # Some kernels give all faces the name of their body.
+    (common, count), *_ = [*Counter(name for _, name in found if name is not None).most_common(1), ("", 0)]
+    if count > 1 and 2 * count > len(found):
+        skipped.append(f"`{common}` names {count} of {len(found)} faces and tells none of them apart: they are numbered")
+        found = [(face, None if name == common else name) for face, name in found]
+    for number, (face, own) in enumerate(found, 1):
         name = own or f"face_{number}"
         mesh = _triangles(face)
         if mesh is None:

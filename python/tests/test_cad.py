@@ -108,6 +108,15 @@ def test_units_faces_and_deflection(tmp_path: Path) -> None:
     assert coarse.table["surface"].tolist() == [face.name for face in coarse.faces]
 
 
+def test_a_name_that_all_faces_have_names_none(tmp_path: Path) -> None:
+    hub(tmp_path / "hub.step")
+    text = (tmp_path / "hub.step").read_text()
+    (tmp_path / "body.step").write_text(re.sub(r"ADVANCED_FACE\s*\('[^']*'", "ADVANCED_FACE('PartBody'", text))
+    found = cad.convert(tmp_path / "body.step", tmp_path / "body.obj")
+    assert [face.name for face in found.faces] == [f"face_{number}" for number in range(1, 9)]
+    assert "`PartBody` names 8 of 8 faces" in found.skipped[0]
+
+
 def test_what_is_no_step_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "text.step").write_text("solid\n")
     for arguments, word in [

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import runpy
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -41,6 +43,18 @@ def test_another_optimiser_comes_near(problems: Path) -> None:
     assert 10 < evaluations and best.feasible
     # It optimises on few shots, whose least J is not that of the jet.
     assert ours.objective.total <= best.objective.total * 1.01 < ours.objective.total * 5
+
+
+def test_the_document_runs(problems: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("pandas")
+    text = (problems.parent / "docs" / "python.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert blocks
+    shutil.copytree(problems, tmp_path / "problems")
+    monkeypatch.chdir(tmp_path)
+    for block in blocks:
+        exec(block, {})
+    assert (tmp_path / "result" / "report.html").exists()
 
 
 def test_everything_is_typed() -> None:
