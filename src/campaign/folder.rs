@@ -166,6 +166,7 @@ impl CampaignFolder {
                 keys: record.keys,
                 cases: reader.records().map(case).collect::<Result<_, String>>()?,
                 repeated: 0,
+                faults_of_first: None,
             },
             folder: folder.to_owned(),
         })

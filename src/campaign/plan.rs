@@ -37,6 +37,8 @@ pub struct Plan {
     pub cases: Vec<Case>,
     /// Cases that were left out, as they are the same as earlier ones.
     pub repeated: usize,
+    /// What is wrong with the first case, in words, if anything is.
+    pub faults_of_first: Option<String>,
 }
 
 /// More cases than a folder should hold.
@@ -56,7 +58,7 @@ impl Plan {
             .canonicalize()
             .map_err(|error| refusal(format!("base: cannot read {}: {error}", base.display())))?;
         let maker = Maker::new(&base, &keys)?;
-        maker.check_keys(&rows)?;
+        let faults_of_first = maker.check_first(&rows)?;
         let ids: Result<Vec<String>, String> = rows.par_iter().map(|row| maker.id(row)).collect();
         let mut seen = HashSet::new();
         let asked = rows.len();
@@ -72,6 +74,7 @@ impl Plan {
             keys,
             repeated: asked - cases.len(),
             cases,
+            faults_of_first,
         })
     }
 }
@@ -223,8 +226,8 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// Refuses keys that no problem file has: all cases would fail of them. The first case tells.
-    fn check_keys(&self, rows: &[Vec<String>]) -> Result<(), Box<Rejection>> {
+    /// Refuses keys that no problem file has: all cases would fail of them, as the first one does. Tells other faults of that.
+    fn check_first(&self, rows: &[Vec<String>]) -> Result<Option<String>, Box<Rejection>> {
         let Some(first) = rows.first() else {
             return Err(refusal("the campaign has no case".to_owned()));
         };
@@ -236,10 +239,12 @@ impl<'a> Maker<'a> {
             read_text(changed.text(), self.base).map_err(|fault| Rejection::unread(*fault))?;
         let is_of_keys =
             |fault: &Fault| matches!(fault.rule, FaultCode::UnknownKey | FaultCode::MisplacedKey);
-        let faults: Vec<Fault> = reading.faults.into_iter().filter(is_of_keys).collect();
-        match faults.is_empty() {
-            true => Ok(()),
-            false => Err(Rejection::new(reading.source, faults)),
+        match reading.faults.iter().any(is_of_keys) {
+            true => Err(Rejection::new(reading.source, reading.faults)),
+            false if reading.faults.is_empty() => Ok(None),
+            false => Ok(Some(
+                Rejection::new(reading.source, reading.faults).render(false),
+            )),
         }
     }
 }

@@ -60,6 +60,27 @@ impl Curve {
         })
     }
 
+    /// The least x of any of its points.
+    pub fn least_x(&self) -> f64 {
+        let [from, to] = self.ends();
+        let least = from.x.min(to.x);
+        match *self {
+            Self::Arc {
+                centre,
+                radius,
+                start,
+                sweep,
+            } => {
+                let to_the_left = (std::f64::consts::PI - start) * sweep.signum();
+                match to_the_left.rem_euclid(TAU) <= sweep.abs() {
+                    true => centre.x - radius,
+                    false => least,
+                }
+            }
+            Self::Line { .. } => least,
+        }
+    }
+
     /// The points that it starts and ends at.
     pub fn ends(&self) -> [Point2<f64>; 2] {
         match *self {

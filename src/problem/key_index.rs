@@ -91,7 +91,13 @@ mod tests {
             homes_of("radius"),
             ["shot", "nozzle.body[].ball", "nozzle.body[].capsule"]
         );
-        assert_eq!(homes_of("via"), ["scene.<name>.extrude.profile[]"]);
+        assert_eq!(
+            homes_of("via"),
+            [
+                "scene.<name>.extrude.profile[]",
+                "scene.<name>.revolve.profile[]"
+            ]
+        );
         // Of a stroke only what is its own.
         assert_eq!(homes_of("run_out"), ["stroke"]);
         assert!(!homes_of("speed").iter().any(|home| home.contains("stroke")));

@@ -64,6 +64,11 @@ pub enum Shape {
         /// Which of the two ends carry a flat cap.
         ends: Ends,
     },
+    /// A cross-section of lines and arcs, turned about the z axis; x of its points is the distance from that, y is z.
+    Revolve {
+        /// The outline, in the order in which it was written; free space lies to its left.
+        profile: Vec<Segment>,
+    },
     /// An axis-parallel block.
     Box {
         /// Smallest corner, m.
@@ -218,13 +223,10 @@ impl Shape {
                 names.append(&mut ends.surface_names());
             }
             Self::Extrude { profile, ends, .. } => {
-                for segment in profile {
-                    if !names.contains(&segment.surface.as_str()) {
-                        names.push(&segment.surface);
-                    }
-                }
+                names.extend(names_of(profile));
                 names.append(&mut ends.surface_names());
             }
+            Self::Revolve { profile } => names.extend(names_of(profile)),
             Self::Box { .. } => {
                 names.extend(["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]);
             }
@@ -236,6 +238,17 @@ impl Shape {
         }
         names
     }
+}
+
+/// The surfaces of a cross-section, each once.
+fn names_of(profile: &[Segment]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for segment in profile {
+        if !names.contains(&segment.surface.as_str()) {
+            names.push(&segment.surface);
+        }
+    }
+    names
 }
 
 impl Ends {

@@ -88,6 +88,9 @@ pub(super) struct Geometry {
     by_parry: bool,
 }
 
+/// Facets of revolved parts turn by this angle: shots meet them, as nothing else stands for those walls.
+const REVOLVED_CHORD_ANGLE: f64 = std::f64::consts::PI / 360.0;
+
 /// Chords that stand in for arcs where distances are measured turn by at most this angle.
 const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
@@ -118,6 +121,18 @@ impl Geometry {
                 length,
                 ends,
             } => prismatic(Profile::outline(profile), *length, *ends, walls),
+            Shape::Revolve { profile } => {
+                let chord_angle = match walls {
+                    Walls::Exact => REVOLVED_CHORD_ANGLE,
+                    Walls::TriangleMesh { chord_angle } | Walls::Parry { chord_angle } => {
+                        chord_angle
+                    }
+                };
+                let mesh = tessellate::revolved(&Profile::outline(profile), chord_angle);
+                // A body of its own tells what is inside it.
+                shells = mesh.is_closed().then(|| Shells::of(&mesh));
+                (mesh, None)
+            }
             Shape::Box { min, max } => (tessellate::block(*min, *max), None),
             Shape::Mesh {
                 file: source,

@@ -4,6 +4,7 @@ use nalgebra::{Point2, Point3};
 
 use super::mesh::{Mesh, Triangle};
 use super::profile::Profile;
+use crate::elementary::sin_cos;
 use crate::problem::part::{Ends, Place};
 
 /// A prism as triangles; arcs become chords that turn by at most `chord_angle` rad each.
@@ -31,6 +32,68 @@ pub fn prism(profile: &Profile, length: f64, ends: Ends, chord_angle: f64) -> Me
     }
     if ends.far_closed {
         add_cap(&mut mesh, &outline, &far, false, "far");
+    }
+    mesh
+}
+
+/// A cross-section turned about the z axis, whose points are (distance from the axis, z), as triangles; arcs and the way round become
+/// chords that turn by at most `chord_angle` rad each.
+pub fn revolved(profile: &Profile, chord_angle: f64) -> Mesh {
+    let mut mesh = Mesh {
+        surfaces: profile.surfaces.clone(),
+        ..Mesh::default()
+    };
+    let steps = (std::f64::consts::TAU / chord_angle).ceil().max(3.0) as u32;
+    let directions: Vec<[f64; 2]> = (0..steps)
+        .map(|step| {
+            let angle = std::f64::consts::TAU * f64::from(step) / f64::from(steps);
+            let (sin, cos) = sin_cos(angle);
+            [cos, sin]
+        })
+        .collect();
+    // The ring of corners of each place of the outline; one corner on the axis.
+    let mut rings: Vec<(Point2<f64>, Vec<u32>)> = Vec::new();
+    let mut ring = |mesh: &mut Mesh, at: Point2<f64>| -> usize {
+        let size = at.coords.norm().max(f64::MIN_POSITIVE);
+        let known = rings
+            .iter()
+            .position(|(known, _)| (known - at).norm() <= 1e-9 * size);
+        known.unwrap_or_else(|| {
+            let first = mesh.vertices.len() as u32;
+            let corners = if at.x <= 1e-9 * size {
+                mesh.vertices.push(Point3::new(0.0, 0.0, at.y));
+                vec![first; steps as usize]
+            } else {
+                let around = directions
+                    .iter()
+                    .map(|[x, y]| Point3::new(at.x * x, at.x * y, at.y));
+                mesh.vertices.extend(around);
+                (first..first + steps).collect()
+            };
+            rings.push((at, corners));
+            rings.len() - 1
+        })
+    };
+    let mut quads = Vec::new();
+    for (piece, chain) in profile.pieces.iter().zip(profile.chords(chord_angle)) {
+        let places: Vec<usize> = chain.into_iter().map(|at| ring(&mut mesh, at)).collect();
+        quads.extend(
+            places
+                .windows(2)
+                .map(|pair| ([pair[0], pair[1]], piece.surface)),
+        );
+    }
+    for ([from, to], surface) in quads {
+        let [from, to] = [from, to].map(|index| &rings[index].1);
+        for step in 0..steps as usize {
+            let next = (step + 1) % steps as usize;
+            let corners = [from[step], to[step], to[next], from[next]];
+            let halves = [[0, 1, 2], [0, 2, 3]].map(|half| half.map(|corner| corners[corner]));
+            let flat = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+            let triangles = halves.into_iter().filter(flat);
+            mesh.triangles
+                .extend(triangles.map(|corners| Triangle { corners, surface }));
+        }
     }
     mesh
 }
@@ -144,6 +207,47 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A ring of rectangular section, closed: its volume and the radii of its surfaces are those of the drawing.
+    #[test]
+    fn a_closed_outline_turned_about_the_axis_is_a_body() {
+        use crate::problem::part::Segment;
+        let corners = [[6.0, 0.0], [9.0, 0.0], [9.0, 4.0], [6.0, 4.0], [6.0, 0.0]];
+        // Clockwise, so that free space is outside.
+        let segments: Vec<Segment> = corners
+            .windows(2)
+            .rev()
+            .map(|pair| Segment {
+                from: pair[1].into(),
+                to: pair[0].into(),
+                via: None,
+                surface: "ring".to_owned(),
+            })
+            .collect();
+        let mesh = revolved(&Profile::outline(&segments), 0.01);
+        let topology = mesh.topology();
+        assert!(mesh.is_closed() && topology.is_consistently_wound());
+        let volume = std::f64::consts::PI * (81.0 - 36.0) * 4.0;
+        assert!(
+            (topology.signed_volume / volume - 1.0).abs() < 1e-4,
+            "{topology:?}"
+        );
+        // A cone down to its point on the axis is closed by a disc.
+        let cone = [[0.0, 5.0], [3.0, 0.0], [0.0, 0.0]].map(nalgebra::Point2::from);
+        let segments: Vec<Segment> = cone
+            .windows(2)
+            .map(|pair| Segment {
+                from: pair[0],
+                to: pair[1],
+                via: None,
+                surface: "cone".to_owned(),
+            })
+            .collect();
+        let mesh = revolved(&Profile::outline(&segments), 0.01);
+        let volume = std::f64::consts::PI * 9.0 * 5.0 / 3.0;
+        assert!(mesh.is_closed());
+        assert!((mesh.topology().signed_volume / volume - 1.0).abs() < 1e-4);
     }
 
     #[test]

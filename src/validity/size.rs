@@ -99,7 +99,7 @@ fn target_part(scenario: &Scenario) -> Option<&Part> {
 fn smallest_fillet(shape: &Shape) -> Option<f64> {
     match shape {
         Shape::Keyway(keyway) => (keyway.root_radius > 0.0).then_some(keyway.root_radius),
-        Shape::Extrude { profile, .. } => {
+        Shape::Extrude { profile, .. } | Shape::Revolve { profile } => {
             let pieces = Profile::outline(profile).pieces;
             let concave = pieces.into_iter().filter_map(|piece| match piece.curve {
                 // Counter-clockwise arcs have their centre, and free space, to the left.
@@ -120,6 +120,13 @@ fn narrowest_gap(scenario: &Scenario, settings: &Settings, part: &Part) -> Optio
             is_shot_from_inside(scenario, settings, part, *diameter).then_some(*diameter)
         }
         Shape::Extrude { profile, .. } => gap_of_outline(&Profile::outline(profile)),
+        // Across the axis it is twice the least distance from that.
+        Shape::Revolve { profile } => {
+            let least = profile.iter().map(|it| it.curve().least_x());
+            let least = least.fold(f64::INFINITY, f64::min);
+            (least > 0.0 && is_shot_from_inside(scenario, settings, part, 2.0 * least))
+                .then_some(2.0 * least)
+        }
         Shape::Box { .. } | Shape::Mesh { .. } => None,
     }
 }

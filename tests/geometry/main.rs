@@ -13,4 +13,5 @@ mod mesh_files;
 mod mesh_rays;
 mod open_mesh;
 mod parry_rays;
+mod revolved;
 mod scene_faults;

@@ -24,6 +24,10 @@ pub fn run(command: &CampaignCommand) -> Result<ExitCode, Failure> {
 fn plan(args: &PlanArgs) -> Result<ExitCode, Failure> {
     start::use_threads(None)?;
     let plan = Plan::read(&args.file)?;
+    if let Some(faults) = &plan.faults_of_first {
+        output::aside(faults);
+        output::warn("the first case has these faults, and so may others: they will be faulty");
+    }
     let (cases, repeated) = (plan.cases.len(), plan.repeated);
     CampaignFolder::create(&args.out, plan)?;
     let again = match repeated {

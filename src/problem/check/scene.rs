@@ -173,6 +173,7 @@ fn part(
         entry.bore.is_given(),
         entry.block.is_given(),
         entry.extrude.is_given(),
+        entry.revolve.is_given(),
         entry.mesh.is_given(),
     ];
     let given: Vec<&str> = PartEntry::SHAPES
@@ -234,11 +235,15 @@ fn part(
         .extrude
         .value()
         .and_then(|extrude| shape::extrude(&scope.of("extrude"), extrude, coordinates));
+    let revolve = entry
+        .revolve
+        .value()
+        .and_then(|revolve| shape::revolve(&scope.of("revolve"), revolve, coordinates));
     let mesh = entry
         .mesh
         .value()
         .and_then(|file| mesh::check(scope, file, entry, coordinates, folder));
-    let shape = keyway.or(bore).or(block).or(extrude).or(mesh)?;
+    let shape = keyway.or(bore).or(block).or(extrude).or(revolve).or(mesh)?;
     if given.len() != 1 {
         return None;
     }

@@ -6,7 +6,9 @@ use super::profile;
 use super::scope::Scope;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
-use crate::problem::file::scene::{BoreEntry, End, EndsEntry, ExtrudeEntry, KeywayEntry};
+use crate::problem::file::scene::{
+    BoreEntry, End, EndsEntry, ExtrudeEntry, KeywayEntry, RevolveEntry,
+};
 use crate::problem::part::{Ends, Keyway, Shape};
 
 /// A bore with a groove.
@@ -97,6 +99,32 @@ pub(super) fn extrude(
         ends: ends?,
     })
 }
+
+/// A cross-section about z.
+pub(super) fn revolve(
+    scope: &Scope<'_>,
+    entry: &RevolveEntry,
+    coordinates: &Coordinates<'_>,
+) -> Option<Shape> {
+    let segments = scope.required("profile", &entry.profile, "a list of lines and arcs")?;
+    let list = scope.of("profile");
+    let profile = profile::check(&list, segments, coordinates, None)?;
+    for (index, segment) in profile.iter().enumerate() {
+        let beyond = segment.curve().least_x() < -ON_AXIS;
+        if beyond {
+            let fault = list.item(index).own_fault(
+                FaultCode::Negative,
+                "reaches beyond the axis, where the distance from it is below 0",
+            );
+            list.report(fault.expecting("points `[distance from the axis, z]`"));
+            return None;
+        }
+    }
+    Some(Shape::Revolve { profile })
+}
+
+/// What is nearer to the axis than this is on it, m.
+const ON_AXIS: f64 = 1e-9;
 
 fn ends(field: &Field<EndsEntry>) -> Option<Ends> {
     let (near, far) = match field {

@@ -8,7 +8,7 @@ use super::{Angle, Length, Named, Pair, Triple, form};
 use crate::problem::LengthUnit;
 use crate::problem::field::{Field, Needed};
 
-/// One part: exactly one shape out of `keyway`, `bore`, `box`, `extrude` and `mesh`, and where it
+/// One part: exactly one shape out of `keyway`, `bore`, `box`, `extrude`, `revolve` and `mesh`, and where it
 /// stands.
 ///
 /// ```yaml
@@ -24,6 +24,12 @@ use crate::problem::field::{Field, Needed};
 ///         - { arc_to: [3, 26], via: [0, 23], surface: floor }
 ///         - { line_to: [3, 30], surface: wall_pos }
 ///     place: { at: [-40, 0, 0], rotate: [0 deg, 0 deg, 90 deg] }
+///   seat:
+///     revolve:
+///       profile:
+///         - { from: [6, 0], line_to: [6, 20], surface: guide }
+///         - { line_to: [9, 23], surface: cone }
+///         - { line_to: [9, 40], surface: mouth }
 /// ```
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
@@ -41,6 +47,8 @@ pub(in crate::problem) struct PartEntry {
     pub block: Field<BoxEntry>,
     /// A cross-section of lines and arcs, along z.
     pub extrude: Field<ExtrudeEntry>,
+    /// A cross-section of lines and arcs, turned about z.
+    pub revolve: Field<RevolveEntry>,
     /// A file of triangles, STL, OBJ or PLY, in the folder of the problem file or below, with `/`
     /// between names. Named groups of an OBJ or solids of an STL become surfaces; without any there
     /// is one, `all`.
@@ -63,7 +71,7 @@ pub(in crate::problem) struct PartEntry {
 
 impl PartEntry {
     /// The keys of which one must be there.
-    pub const SHAPES: [&str; 5] = ["keyway", "bore", "box", "extrude", "mesh"];
+    pub const SHAPES: [&str; 6] = ["keyway", "bore", "box", "extrude", "revolve", "mesh"];
 }
 
 /// A bore along z from 0 to `length` with a groove of rectangular section towards
@@ -153,6 +161,19 @@ pub(in crate::problem) struct ExtrudeEntry {
     #[schemars(example = &"closed", extend("default" = "open"))]
     pub ends: Field<EndsEntry>,
     /// Its lines and arcs, each from the end of the one before.
+    #[schemars(extend("minItems" = 1))]
+    pub profile: Needed<Vec<Field<SegmentEntry>>>,
+}
+
+/// A cross-section of lines and arcs, turned about the z axis: stepped bores, seats, grooves for rings, shafts. Its points are
+/// `[distance from the axis, z]`, and free space lies to the left of its direction: an outline that runs towards +z is a hole. Surfaces:
+/// those that its segments name. Its walls are facets that turn by 0.5 deg from one to the next, about the axis and along arcs:
+/// they lie off the drawing by at most 1e-5 of the radius, and their normals by 0.25 deg each way.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub(in crate::problem) struct RevolveEntry {
+    /// Its lines and arcs, each from the end of the one before; a body of its own where it is closed, or begins and ends on the
+    /// axis.
     #[schemars(extend("minItems" = 1))]
     pub profile: Needed<Vec<Field<SegmentEntry>>>,
 }
