@@ -159,6 +159,7 @@ impl<'a> Sections<'a> {
             });
         }
         Ok(match property["type"].as_str() {
+            Some("array") if property["items"]["type"] == "array" => code("[[x, y, z], ..]"),
             Some("array") => match property["minItems"].as_u64() {
                 Some(2) if referred(&property["items"]).is_some() => code("[min, max]"),
                 Some(2) if key == "mu_s" => code("[min, max]"),

@@ -47,13 +47,15 @@ def test_another_optimiser_comes_near(problems: Path) -> None:
 
 def test_the_document_runs(problems: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pandas")
+    pytest.importorskip("tqdm")
     text = (problems.parent / "docs" / "python.md").read_text()
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     assert blocks
     shutil.copytree(problems, tmp_path / "problems")
     monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
     for block in blocks:
-        exec(block, {})
+        exec(block, names)
     assert (tmp_path / "result" / "report.html").exists()
 
 

@@ -829,5 +829,7 @@ fn a_point_names_the_face_that_it_lies_on() {
     };
     assert_eq!(count(&mesh, "shaft"), count(&named, "outside"));
     assert_eq!(count(&mesh, "mouth"), count(&named, "face_far"));
+    assert_eq!(count(&mesh, "bottom"), count(&named, "floor"));
+    assert_eq!(count(&mesh, "side"), count(&named, "wall_neg"));
     assert_eq!(mesh.triangles.len(), named.triangles.len());
 }

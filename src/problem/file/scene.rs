@@ -129,7 +129,8 @@ pub(in crate::problem) struct BoxEntry {
 
 /// A part of a mesh: the smooth face at a point, or what lies in a box.
 ///
-/// A smooth face ends at edges where the normals of neighbours differ by 30 deg or more, and with the surface that the file names.
+/// A smooth face ends at edges where the normals of neighbours differ by 30 deg or more, with the surface that the file names, and, where
+/// it is flat, where it goes over into a fillet. Curved faces that go over into each other without an edge are one.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 #[schemars(extend(
