@@ -820,6 +820,9 @@ fn a_point_names_the_face_that_it_lies_on() {
     let regions = [
         face("shaft", [25.0, 0.0, 30.0]),
         face("mouth", [0.0, -20.0, 60.0]),
+        // Between fillets, into which they go over without an edge.
+        face("bottom", [1.2, 18.3, 38.0]),
+        face("side", [-4.0, 15.6, 38.0]),
     ];
     let (mesh, _) = read_bytes("obj", unnamed.as_bytes(), &regions).unwrap();
     let (named, _) = read_bytes("obj", text.as_bytes(), &[]).unwrap();
