@@ -1,6 +1,7 @@
 //! Triangles with named surfaces.
 
 mod faces;
+mod groups;
 mod pieces;
 mod seams;
 mod shells;

@@ -88,7 +88,7 @@ pub(super) struct Geometry {
     by_parry: bool,
 }
 
-/// Facets of revolved parts turn by this angle: shots meet them, as nothing else stands for those walls.
+/// Facets of revolved parts turn by this angle: shots meet them, as these walls have no exact form.
 const REVOLVED_CHORD_ANGLE: f64 = std::f64::consts::PI / 360.0;
 
 /// Chords that stand in for arcs where distances are measured turn by at most this angle.

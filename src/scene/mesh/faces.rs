@@ -1,14 +1,18 @@
 //! The smooth faces of a mesh: what triangles are left together when it is cut along its sharp edges, and where flat faces go over
 //! into fillets.
 
+mod form;
+
 use std::collections::HashMap;
 
-use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
+use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::Triangle as ParryTriangle;
 
 use super::Mesh;
+use super::groups::Groups;
+pub use form::Form;
 
 /// Neighbours whose normals differ by less than this are on one smooth face, rad.
 pub const SHARP: f64 = std::f64::consts::PI / 6.0;
@@ -41,27 +45,6 @@ pub struct SmoothFace {
     pub form: Form,
 }
 
-/// What a smooth face looks like.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form {
-    /// Flat.
-    Plane {
-        /// Unit normal on its front.
-        normal: Vector3<f64>,
-    },
-    /// Round about an axis.
-    Cylinder {
-        /// Unit vector along the axis.
-        axis: Vector3<f64>,
-        /// m.
-        radius: f64,
-        /// Whether its front looks to the axis: a hole.
-        is_hole: bool,
-    },
-    /// Anything else.
-    Free,
-}
-
 /// Neighbours whose normals differ by less lie in one plane, rad: files have seven digits.
 const COPLANAR: f64 = 3e-3;
 /// Facets of one curved face differ less in width; a flat face is many times as wide as the first facet of a fillet.
@@ -69,31 +52,21 @@ const ALIKE: f64 = 8.0;
 /// What is smaller than this beside a smooth neighbour is a part of it.
 const CRUMB: f64 = 2e-3;
 
-/// Normals of a plane differ by less, rad; so do those of a cylinder from the plane across its axis.
-const FLAT: f64 = 0.01;
-/// How far corners may lie from a cylinder, as a share of its radius.
-const ROUND: f64 = 0.01;
-
 impl Mesh {
     /// The smooth faces: neighbours whose normals differ by less than `limit`, rad, are on one. A flat face ends where it goes
     /// over into a fillet, too: there it is many times as wide as the next facet.
     pub fn smooth_faces(&self, limit: f64) -> SmoothFaces {
         let edges = self.smooth_edges(limit);
-        let mut flat = Groups::new(self.triangles.len());
-        for edge in edges.iter().filter(|edge| edge.turn < COPLANAR) {
-            flat.join(edge.triangles);
-        }
-        let mut facets: Vec<Vec<u32>> = vec![Vec::new(); self.triangles.len()];
-        for triangle in 0..self.triangles.len() as u32 {
-            facets[flat.leader(triangle) as usize].push(triangle);
-        }
-        let mut faces = flat.clone();
+        let flat = edges.iter().filter(|edge| edge.turn < COPLANAR);
+        let (facet_of, count) = self.joined_by(flat);
+        let pair_of = |edge: &SmoothEdge| edge.triangles.map(|it| facet_of[it as usize]);
+        let facets = members(&facet_of, count);
         // Which of two facets is much wider than the other, if one is; those that meet in several edges are looked at once.
         let mut wider: HashMap<[u32; 2], Option<u32>> = HashMap::new();
         // A facet with a neighbour of about its width is one of many on a curved face.
-        let mut is_curved = vec![false; self.triangles.len()];
+        let mut is_curved = vec![false; count];
         for edge in &edges {
-            let pair = edge.triangles.map(|triangle| flat.leader(triangle));
+            let pair = pair_of(edge);
             let wider = *wider.entry(pair).or_insert_with(|| {
                 let [from, to] = edge.ends.map(|end| self.vertices[end as usize]);
                 let along = (to - from).normalize();
@@ -106,44 +79,52 @@ impl Mesh {
                 }
             }
         }
-        for edge in &edges {
-            let pair = edge.triangles.map(|triangle| flat.leader(triangle));
-            let wider = wider.get(&pair).copied().flatten();
-            if wider.is_none_or(|wider| is_curved[wider as usize]) {
-                faces.join(edge.triangles);
-            }
-        }
-        self.join_crumbs(&edges, &mut faces);
-        let mut numbers = vec![u32::MAX; self.triangles.len()];
-        let mut members: Vec<Vec<u32>> = Vec::new();
-        let of = (0..self.triangles.len() as u32).map(|triangle| {
-            let first = faces.leader(triangle) as usize;
-            if numbers[first] == u32::MAX {
-                numbers[first] = members.len() as u32;
-                members.push(Vec::new());
-            }
-            members[numbers[first] as usize].push(triangle);
-            numbers[first]
-        });
-        let of = of.collect();
+        let goes_on = |edge: &&SmoothEdge| {
+            let wider = wider.get(&pair_of(edge)).copied().flatten();
+            wider.is_none_or(|wider| is_curved[wider as usize])
+        };
+        let (faces, count) = self.joined_by(edges.iter().filter(goes_on));
+        // What is small beside a smooth neighbour belongs to it: a facet that is cut short is no face.
+        let areas: Vec<f64> = members(&faces, count)
+            .iter()
+            .map(|it| self.area(it))
+            .collect();
+        let is_crumb = |edge: &&SmoothEdge| {
+            let [a, b] = edge.triangles.map(|it| areas[faces[it as usize] as usize]);
+            a.min(b) < CRUMB * a.max(b)
+        };
+        let joined = edges.iter().filter(|edge| goes_on(edge) || is_crumb(edge));
+        let (of, count) = self.joined_by(joined);
         SmoothFaces {
-            list: members.iter().map(|members| self.face(members)).collect(),
+            list: members(&of, count).iter().map(|it| self.face(it)).collect(),
             of,
         }
     }
 
+    /// The group of each triangle where those on both sides of some edges belong together, and how many groups there are.
+    fn joined_by<'a>(&self, edges: impl Iterator<Item = &'a SmoothEdge>) -> (Vec<u32>, usize) {
+        let mut groups = Groups::new(self.triangles.len());
+        edges.for_each(|edge| groups.join(edge.triangles));
+        groups.numbered()
+    }
+
+    /// m2.
+    fn area(&self, members: &[u32]) -> f64 {
+        let triangles = members.iter().map(|&index| &self.triangles[index as usize]);
+        triangles.map(|it| self.doubled_area(it).norm() / 2.0).sum()
+    }
+
     /// How wide a flat piece is across a direction in its plane, on average: its area over its length.
     fn width(&self, members: &[u32], along: &Vector3<f64>) -> f64 {
-        let (mut area, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for triangle in members.iter().map(|&index| &self.triangles[index as usize]) {
-            area += self.doubled_area(triangle).norm() / 2.0;
             for corner in self.corners(triangle) {
                 let place = corner.coords.dot(along);
                 low = place.min(low);
                 high = place.max(high);
             }
         }
-        area / (high - low)
+        self.area(members) / (high - low)
     }
 
     /// Edges between triangles of one surface that go on smoothly.
@@ -165,20 +146,6 @@ impl Mesh {
         edges.collect()
     }
 
-    /// Joins what is small beside a smooth neighbour with it: a facet that is cut short is no face.
-    fn join_crumbs(&self, edges: &[SmoothEdge], faces: &mut Groups) {
-        let areas = faces.areas(self);
-        let whole = faces.clone();
-        for edge in edges {
-            let [a, b] = edge
-                .triangles
-                .map(|triangle| areas[whole.leader(triangle) as usize]);
-            if a.min(b) < CRUMB * a.max(b) {
-                faces.join(edge.triangles);
-            }
-        }
-    }
-
     fn face(&self, members: &[u32]) -> SmoothFace {
         let triangles = || members.iter().map(|&index| &self.triangles[index as usize]);
         let corners = || triangles().flat_map(|triangle| self.corners(triangle));
@@ -186,12 +153,9 @@ impl Mesh {
         let (low, high) = corners().fold((first, first), |(low, high), it| {
             (low.inf(&it), high.sup(&it))
         });
-        let (mut area, mut centre) = (0.0, Vector3::zeros());
-        for triangle in triangles() {
-            let own = self.doubled_area(triangle).norm() / 2.0;
-            area += own;
-            centre += self.centre(triangle).coords * own;
-        }
+        let area = self.area(members);
+        let weighed = |it| self.centre(it).coords * (self.doubled_area(it).norm() / 2.0);
+        let centre: Vector3<f64> = triangles().map(weighed).sum();
         let centre = Point3::from(centre / area.max(f64::MIN_POSITIVE));
         let centres = triangles().map(|triangle| self.centre(triangle));
         let at = centres.min_by(|a, b| (a - centre).norm().total_cmp(&(b - centre).norm()));
@@ -203,54 +167,6 @@ impl Mesh {
             high,
             at: at.unwrap_or(first),
             form: self.form(members),
-        }
-    }
-
-    fn form(&self, members: &[u32]) -> Form {
-        let triangles = || members.iter().map(|&index| &self.triangles[index as usize]);
-        let normals: Vec<Vector3<f64>> = triangles()
-            .filter_map(|triangle| self.doubled_area(triangle).try_normalize(0.0))
-            .collect();
-        let mean: Vector3<f64> = triangles()
-            .map(|triangle| self.doubled_area(triangle))
-            .sum();
-        if let Some(normal) = mean.try_normalize(0.0)
-            && normals
-                .iter()
-                .all(|it| it.cross(&normal).norm() < FLAT && it.dot(&normal) > 0.0)
-        {
-            return Form::Plane { normal };
-        }
-        // The axis of a cylinder is across all of its normals.
-        let spread: Matrix3<f64> = normals.iter().map(|it| it * it.transpose()).sum();
-        let eigen = SymmetricEigen::new(spread);
-        let least = eigen.eigenvalues.imin();
-        let axis: Vector3<f64> = eigen.eigenvectors.column(least).into_owned();
-        let axis = axis * axis[axis.iamax()].signum();
-        if normals.iter().any(|it| it.dot(&axis).abs() > FLAT) {
-            return Form::Free;
-        }
-        let points: Vec<Point3<f64>> = triangles().flat_map(|it| self.corners(it)).collect();
-        let Some((through, radius)) = circle(&points, &axis) else {
-            return Form::Free;
-        };
-        let outwards = |point: &Point3<f64>| {
-            let from = point - through;
-            from - axis * from.dot(&axis)
-        };
-        if points
-            .iter()
-            .any(|it| (outwards(it).norm() - radius).abs() > ROUND * radius)
-        {
-            return Form::Free;
-        }
-        let facing: f64 = triangles()
-            .map(|it| self.doubled_area(it).dot(&outwards(&self.centre(it))))
-            .sum();
-        Form::Cylinder {
-            axis,
-            radius,
-            is_hole: facing < 0.0,
         }
     }
 
@@ -276,24 +192,6 @@ impl Mesh {
     }
 }
 
-/// The axis of a cylinder through points, by a point of it, and its radius: the circle of least squares across the axis.
-fn circle(points: &[Point3<f64>], axis: &Vector3<f64>) -> Option<(Point3<f64>, f64)> {
-    let u = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
-    let v = axis.cross(&u);
-    let origin = points[0];
-    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
-    for point in points {
-        let from = point - origin;
-        let row = Vector3::new(from.dot(&u), from.dot(&v), 1.0);
-        matrix += row * row.transpose();
-        right += row * (row.x * row.x + row.y * row.y);
-    }
-    let solved = matrix.try_inverse()? * right;
-    let (x, y) = (solved.x / 2.0, solved.y / 2.0);
-    let radius = (solved.z + x * x + y * y).sqrt();
-    radius.is_finite().then(|| (origin + u * x + v * y, radius))
-}
-
 /// An edge over which a surface goes on smoothly.
 struct SmoothEdge {
     triangles: [u32; 2],
@@ -303,131 +201,14 @@ struct SmoothEdge {
     turn: f64,
 }
 
-/// Triangles that belong together.
-#[derive(Clone)]
-struct Groups(Vec<u32>);
-
-impl Groups {
-    fn new(triangles: usize) -> Self {
-        Self((0..triangles as u32).collect())
+/// The triangles of each group.
+fn members(of: &[u32], count: usize) -> Vec<Vec<u32>> {
+    let mut members = vec![Vec::new(); count];
+    for (triangle, group) in (0..).zip(of) {
+        members[*group as usize].push(triangle);
     }
-
-    /// The first triangle that is known to be of the same group.
-    fn leader(&self, triangle: u32) -> u32 {
-        let mut at = triangle;
-        while self.0[at as usize] != at {
-            at = self.0[at as usize];
-        }
-        at
-    }
-
-    fn join(&mut self, triangles: [u32; 2]) {
-        let leaders = triangles.map(|triangle| self.leader(triangle));
-        let first = leaders[0].min(leaders[1]);
-        // Ways are kept short.
-        for mut at in triangles {
-            while at != first {
-                let next = self.0[at as usize];
-                self.0[at as usize] = first;
-                at = next;
-                if at == self.0[at as usize] {
-                    self.0[at as usize] = first;
-                    break;
-                }
-            }
-        }
-    }
-
-    /// The area of each group, m2, at its first triangle.
-    fn areas(&self, mesh: &Mesh) -> Vec<f64> {
-        let mut areas = vec![0.0; self.0.len()];
-        for (index, triangle) in (0..).zip(&mesh.triangles) {
-            areas[self.leader(index) as usize] += mesh.doubled_area(triangle).norm() / 2.0;
-        }
-        areas
-    }
+    members
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::problem::part::{Ends, Keyway};
-    use crate::scene::profile::Profile;
-    use crate::scene::tessellate;
-
-    /// The faces of a hole of 12 mm with both ends closed, without the names of its surfaces.
-    fn faces(chord_angle: f64) -> SmoothFaces {
-        let ends = Ends {
-            near_closed: true,
-            far_closed: true,
-        };
-        let mut mesh = tessellate::prism(&Profile::circle(12e-3), 0.03, ends, chord_angle);
-        mesh.triangles.iter_mut().for_each(|it| it.surface = 0);
-        mesh.smooth_faces(SHARP)
-    }
-
-    #[test]
-    fn a_closed_hole_has_three_faces() {
-        let faces = faces(0.1);
-        assert_eq!(faces.list.len(), 3);
-        let round = faces
-            .list
-            .iter()
-            .find(|it| matches!(it.form, Form::Cylinder { .. }))
-            .unwrap();
-        let Form::Cylinder {
-            axis,
-            radius,
-            is_hole,
-        } = round.form
-        else {
-            unreachable!()
-        };
-        assert!(is_hole && (radius - 6e-3).abs() < 1e-9 && (axis.z.abs() - 1.0).abs() < 1e-9);
-        assert!((round.area / (std::f64::consts::TAU * 6e-3 * 0.03) - 1.0).abs() < 1e-3);
-        let flat = faces
-            .list
-            .iter()
-            .filter(|it| matches!(it.form, Form::Plane { .. }));
-        assert_eq!(flat.count(), 2);
-        assert_eq!(
-            faces.of.len(),
-            faces.list.iter().map(|it| it.triangles).sum::<usize>()
-        );
-    }
-
-    /// With fillets, into which floor and walls go over without an edge, and without.
-    #[test]
-    fn a_keyway_has_the_faces_of_its_drawing() {
-        for (root_radius, chord_angle) in [(0.0, 0.02), (0.2e-3, 0.02), (1e-3, 0.1)] {
-            assert_faces(root_radius, chord_angle);
-        }
-    }
-
-    fn assert_faces(root_radius: f64, chord_angle: f64) {
-        let keyway = Keyway {
-            bore: 30e-3,
-            width: 8e-3,
-            depth: 3.3e-3,
-            length: 40e-3,
-            root_radius,
-        };
-        let profile = Profile::keyway(&keyway);
-        let mut mesh = tessellate::prism(&profile, 0.04, Ends::default(), chord_angle);
-        let names = mesh.surfaces.len();
-        mesh.triangles.iter_mut().for_each(|it| it.surface = 0);
-        let faces = mesh.smooth_faces(SHARP);
-        assert_eq!(faces.list.len(), names);
-        // A point on the floor is on one face, one on its edge on two.
-        let near = |x: f64| {
-            let (found, gap) = mesh.nearest_triangles(&Point3::new(x, 18.3e-3, 0.011), 1e-9);
-            assert!(gap < 1e-9, "{gap}");
-            let mut found: Vec<u32> = found.iter().map(|&it| faces.of[it]).collect();
-            found.sort_unstable();
-            found.dedup();
-            found.len()
-        };
-        let edge = 4e-3 - root_radius;
-        assert_eq!((near(1e-3), near(edge)), (1, 2));
-    }
-}
+mod tests;

@@ -3,6 +3,7 @@
 use nalgebra::Point3;
 
 use super::Mesh;
+use super::groups::Groups;
 
 /// A piece is tiny when the box round it is this much shorter than the one round the mesh.
 const TINY: f64 = 0.01;
@@ -11,17 +12,15 @@ const TINY: f64 = 0.01;
 pub(in crate::scene) fn tiny_pieces(mesh: &Mesh) -> Option<(usize, Point3<f64>)> {
     let (low, high) = mesh.bounds()?;
     let limit = TINY * (high - low).norm();
-    let mut leaders: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+    let mut groups = Groups::new(mesh.vertices.len());
     for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.corners.map(|corner| leader(&mut leaders, corner));
-        let first = a.min(b).min(c);
-        for corner in [a, b, c] {
-            leaders[corner as usize] = first;
-        }
+        let [a, b, c] = triangle.corners;
+        groups.join([a, b]);
+        groups.join([b, c]);
     }
     let mut boxes: Vec<Option<(Point3<f64>, Point3<f64>)>> = vec![None; mesh.vertices.len()];
     for triangle in &mesh.triangles {
-        let piece = leader(&mut leaders, triangle.corners[0]) as usize;
+        let piece = groups.leader(triangle.corners[0]) as usize;
         for point in mesh.corners(triangle) {
             let (low, high) = boxes[piece].unwrap_or((point, point));
             boxes[piece] = Some((low.inf(&point), high.sup(&point)));
@@ -35,17 +34,6 @@ pub(in crate::scene) fn tiny_pieces(mesh: &Mesh) -> Option<(usize, Point3<f64>)>
     let mut places = tiny.map(|(_, place)| *place).peekable();
     let first = *places.peek()?;
     Some((places.count(), first))
-}
-
-/// The first vertex that is known to be of the same piece.
-fn leader(leaders: &mut [u32], vertex: u32) -> u32 {
-    let mut at = vertex;
-    while leaders[at as usize] != at {
-        let next = leaders[at as usize];
-        leaders[at as usize] = leaders[next as usize];
-        at = next;
-    }
-    at
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::groups::Groups;
 use super::seams::are_seams;
 use super::{Mesh, Triangle};
 use crate::elementary::power;
@@ -243,38 +244,13 @@ impl Edges {
 
 /// The component of each triangle along edges of exactly two triangles.
 fn components(triangles: usize, edges: &Edges) -> Vec<u32> {
-    let mut leaders: Vec<u32> = (0..triangles as u32).collect();
+    let mut groups = Groups::new(triangles);
     for uses in edges.sides.chunk_by(|a, b| a.ends == b.ends) {
         if let [one, other] = uses {
-            join(&mut leaders, one.triangle, other.triangle);
+            groups.join([one.triangle, other.triangle]);
         }
     }
-    let mut numbers = vec![u32::MAX; triangles];
-    let mut next = 0;
-    (0..triangles as u32)
-        .map(|triangle| {
-            let first = leader(&mut leaders, triangle) as usize;
-            if numbers[first] == u32::MAX {
-                numbers[first] = next;
-                next += 1;
-            }
-            numbers[first]
-        })
-        .collect()
-}
-
-fn leader(leaders: &mut [u32], mut of: u32) -> u32 {
-    while leaders[of as usize] != of {
-        leaders[of as usize] = leaders[leaders[of as usize] as usize];
-        of = leaders[of as usize];
-    }
-    of
-}
-
-fn join(leaders: &mut [u32], one: u32, other: u32) {
-    let (one, other) = (leader(leaders, one), leader(leaders, other));
-    let (low, high) = (one.min(other), one.max(other));
-    leaders[high as usize] = low;
+    groups.numbered().0
 }
 
 /// Length, m, and number of edges of each loop that some edges form together.
@@ -283,13 +259,13 @@ fn loops(mesh: &Mesh, edges: &[[u32; 2]]) -> Vec<(f64, usize)> {
     vertices.sort_unstable();
     vertices.dedup();
     let place = |vertex: u32| vertices.partition_point(|&it| it < vertex) as u32;
-    let mut leaders: Vec<u32> = (0..vertices.len() as u32).collect();
+    let mut groups = Groups::new(vertices.len());
     for [a, b] in edges {
-        join(&mut leaders, place(*a), place(*b));
+        groups.join([place(*a), place(*b)]);
     }
     let mut found: Vec<(f64, usize)> = vec![(0.0, 0); vertices.len()];
     for [a, b] in edges {
-        let (length, count) = &mut found[leader(&mut leaders, place(*a)) as usize];
+        let (length, count) = &mut found[groups.leader(place(*a)) as usize];
         *length += nalgebra::distance(&mesh.vertices[*a as usize], &mesh.vertices[*b as usize]);
         *count += 1;
     }
