@@ -203,16 +203,7 @@ impl Study {
 }
 
 fn setting_named(name: &str) -> PyResult<Setting> {
-    let found = Setting::ALL
-        .into_iter()
-        .find(|setting| setting.name() == name);
-    found.ok_or_else(|| {
-        let names: Vec<&str> = Setting::ALL.iter().map(|setting| setting.name()).collect();
-        PyValueError::new_err(format!(
-            "there is no setting `{name}`; expected one of {}",
-            names.join(", ")
-        ))
-    })
+    given::setting_named(name).map_err(PyValueError::new_err)
 }
 
 impl Study {
@@ -277,20 +268,7 @@ impl Study {
 
     /// The index of a contact.
     pub fn contact_named(&self, name: &str) -> PyResult<usize> {
-        let contacts = &self.study.problem().contacts;
-        contacts
-            .iter()
-            .position(|contact| contact.name == name)
-            .ok_or_else(|| {
-                let names: Vec<&str> = contacts
-                    .iter()
-                    .map(|contact| contact.name.as_str())
-                    .collect();
-                PyValueError::new_err(format!(
-                    "there is no contact `{name}`; expected one of {}",
-                    names.join(", ")
-                ))
-            })
+        given::contact_named(name, self.study.problem()).map_err(PyValueError::new_err)
     }
 }
 

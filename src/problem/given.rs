@@ -2,8 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::Limit;
+use super::fault::nearest_name;
 use super::setting::{Range, Setting, Settings};
+use super::{Limit, Problem};
 use crate::units::{self, Dimension, shortened};
 
 /// A value of a setting, SI.
@@ -49,6 +50,39 @@ pub fn range(of: Setting, from: &str, to: &str) -> Result<Range, String> {
         );
     }
     Ok(range)
+}
+
+/// The setting with a name.
+///
+/// # Errors
+/// There is none; with those that there are.
+pub fn setting_named(name: &str) -> Result<Setting, String> {
+    let mut all = Setting::ALL.into_iter();
+    let found = all.find(|setting| setting.name() == name);
+    found.ok_or_else(|| {
+        let names = Setting::ALL.map(|setting| setting.name());
+        unknown("setting", name, &names)
+    })
+}
+
+/// The index of the contact with a name.
+///
+/// # Errors
+/// There is none; with those that there are.
+pub fn contact_named(name: &str, problem: &Problem) -> Result<usize, String> {
+    let contacts = problem.contacts.iter();
+    let names: Vec<&str> = contacts.map(|contact| contact.name.as_str()).collect();
+    let found = names.iter().position(|known| *known == name);
+    found.ok_or_else(|| unknown("contact", name, &names))
+}
+
+/// Says that there is no such thing, and what there is.
+pub fn unknown(what: &str, name: &str, known: &[&str]) -> String {
+    let nearest = nearest_name(name, known.iter().copied()).map_or_else(String::new, |nearest| {
+        format!("; did you mean `{nearest}`?")
+    });
+    let known = known.join(", ");
+    format!("there is no {what} `{name}`; expected one of {known}{nearest}")
 }
 
 /// The accuracy of J, relative.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use peenpose::control::Control;
 use peenpose::map::Axis;
+use peenpose::problem::given::{contact_named, setting_named};
 use peenpose::problem::setting::{Range, Setting, Settings};
 use peenpose::problem::{Problem, given};
 use peenpose::record::{AnswerRecord, MapRecord, MapTerm, QuestionRecord};
@@ -19,7 +20,7 @@ use crate::checkpoint;
 use crate::folder::Staged;
 use crate::output::{self, Failure, both};
 use crate::progress::{ENDED, Watcher};
-use crate::settings::{self, Earlier, contact_named, setting_named};
+use crate::settings::{self, Earlier};
 use crate::start;
 
 /// Draws a map and writes it as SVG, PNG and CSV.

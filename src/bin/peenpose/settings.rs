@@ -4,7 +4,7 @@ use std::path::Path;
 
 use peenpose::printable;
 use peenpose::problem::change::Change;
-use peenpose::problem::fault::nearest_name;
+use peenpose::problem::given::{contact_named, unknown};
 use peenpose::problem::setting::{Setting, Settings};
 use peenpose::problem::{Problem, Source, given, schema};
 use peenpose::record::{Record, mesh_sha256};
@@ -61,24 +61,8 @@ pub fn split(set: &[String]) -> Result<(Vec<String>, Vec<Change>), String> {
     Ok((settings.into_iter().cloned().collect(), changes(&keys)?))
 }
 
-/// The setting with a name.
-pub fn setting_named(name: &str) -> Result<Setting, String> {
-    let mut all = SETTINGS.into_iter();
-    let found = all.find(|setting| setting.name() == name);
-    found.ok_or_else(|| unknown("setting", name, &names().collect::<Vec<_>>()))
-}
-
 fn names() -> impl Iterator<Item = &'static str> {
     SETTINGS.iter().map(|setting| setting.name())
-}
-
-/// Says that there is no such thing, and what there is.
-fn unknown(what: &str, name: &str, known: &[&str]) -> String {
-    let nearest = nearest_name(name, known.iter().copied()).map_or_else(String::new, |nearest| {
-        format!("; did you mean `{nearest}`?")
-    });
-    let known = known.join(", ");
-    format!("there is no {what} `{name}`; expected one of {known}{nearest}")
 }
 
 /// The result that `--from` names.
@@ -142,21 +126,6 @@ fn differences(record: &Record, scenario: &Scenario, source: &Source) -> Vec<Str
         }
     }
     changed
-}
-
-/// The index of the contact with a name.
-pub fn contact_named(name: &str, problem: &Problem) -> Result<usize, String> {
-    let contacts = &problem.contacts;
-    contacts
-        .iter()
-        .position(|contact| contact.name == name)
-        .ok_or_else(|| {
-            let names: Vec<&str> = contacts
-                .iter()
-                .map(|contact| contact.name.as_str())
-                .collect();
-            unknown("contact", name, &names)
-        })
 }
 
 /// The settings that are known so far.
