@@ -62,9 +62,7 @@ pub fn campaign_run(
 #[pyfunction]
 pub fn campaign_status(folder: PathBuf) -> PyResult<(usize, usize, usize)> {
     let campaign = open(&folder)?;
-    let cases = campaign.plan().cases.iter();
-    let statuses: Vec<CaseStatus> = cases.map(|case| campaign.status(case)).collect();
-    let count = |wanted: CaseStatus| statuses.iter().filter(|status| **status == wanted).count();
+    let count = |status| campaign.count(status);
     Ok((
         count(CaseStatus::Done),
         count(CaseStatus::Missing),

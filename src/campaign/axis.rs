@@ -15,8 +15,16 @@ pub(super) struct Axis {
 pub(super) enum Values {
     /// These, as they stand in a problem file.
     Listed(Vec<String>),
-    /// Any from one number to another, in a unit.
-    Between { ends: [f64; 2], unit: String },
+    /// Any of a range.
+    Between(Range),
+}
+
+/// From one number to another, in a unit.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Range {
+    from: f64,
+    to: f64,
+    unit: String,
 }
 
 /// Most values of one key.
@@ -24,59 +32,54 @@ const MOST_VALUES: f64 = 1e6;
 /// A last step that ends within this share of a step beyond the range belongs to it.
 const ROUNDING: f64 = 1e-9;
 
-impl Values {
-    /// From one number to another, such as `5 m/s` to `40 m/s`.
-    pub fn between(from: &str, to: &str) -> Result<Self, String> {
+impl Range {
+    /// Such as `5 m/s` to `40 m/s`.
+    pub fn new(from: &str, to: &str) -> Result<Self, String> {
         let (from, unit) = number_with_unit(from)?;
         let to = in_unit(to, unit)?;
         if from >= to {
             return Err(format!("`from` ({from}) is not below `to` ({to})"));
         }
-        Ok(Self::Between {
-            ends: [from, to],
-            unit: unit.to_owned(),
-        })
+        let unit = unit.to_owned();
+        Ok(Self { from, to, unit })
     }
 
-    /// The same in steps, both ends included where the last step ends there.
-    pub fn in_steps(self, step: &str) -> Result<Self, String> {
-        let Self::Between {
-            ends: [from, to],
-            unit,
-        } = self
-        else {
-            return Ok(self);
-        };
-        let step = in_unit(step, &unit)?;
-        let steps = (to - from) / step + ROUNDING;
+    /// Its values in steps, both ends included where the last step ends there.
+    pub fn in_steps(&self, step: &str) -> Result<Values, String> {
+        let step = in_unit(step, &self.unit)?;
+        let steps = (self.to - self.from) / step + ROUNDING;
         if step <= 0.0 || steps > MOST_VALUES {
             return Err(format!("`step` ({step}) gives no or too many values"));
         }
-        let values = (0..=steps as u64).map(|index| written(from + index as f64 * step, &unit));
-        Ok(Self::Listed(values.collect()))
+        let values = (0..=steps as u64).map(|index| self.written(self.from + index as f64 * step));
+        Ok(Values::Listed(values.collect()))
     }
 
-    /// The same as so many values, both ends included.
-    pub fn counted(self, count: &str) -> Result<Self, String> {
-        let Self::Between {
-            ends: [from, to],
-            unit,
-        } = self
-        else {
-            return Ok(self);
-        };
+    /// So many of its values, both ends included.
+    pub fn counted(&self, count: &str) -> Result<Values, String> {
+        let count = count.parse::<u32>().ok();
         let count = count
-            .parse::<u32>()
-            .ok()
-            .filter(|&count| count >= 2 && f64::from(count) <= MOST_VALUES);
-        let count =
-            count.ok_or_else(|| format!("`count` is no whole number from 2 to {MOST_VALUES}"))?;
-        let at = |index| from + (to - from) * f64::from(index) / f64::from(count - 1);
-        Ok(Self::Listed(
-            (0..count).map(|index| written(at(index), &unit)).collect(),
-        ))
+            .filter(|&count| count >= 2 && f64::from(count) <= MOST_VALUES)
+            .ok_or_else(|| format!("`count` is no whole number from 2 to {MOST_VALUES}"))?;
+        let width = self.to - self.from;
+        let at = |index| self.from + width * f64::from(index) / f64::from(count - 1);
+        let values = (0..count).map(|index| self.written(at(index)));
+        Ok(Values::Listed(values.collect()))
     }
 
+    /// A number as it stands in a file: without the rounding errors of steps.
+    fn written(&self, value: f64) -> String {
+        let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
+        // No -0.
+        let rounded = rounded + 0.0;
+        match self.unit.as_str() {
+            "" => format!("{rounded}"),
+            unit => format!("{rounded} {unit}"),
+        }
+    }
+}
+
+impl Values {
     /// The value at a coordinate from 0 to below 1.
     pub fn at(&self, coordinate: f64) -> String {
         match self {
@@ -84,10 +87,9 @@ impl Values {
                 let index = (coordinate * values.len() as f64) as usize;
                 values[index.min(values.len() - 1)].clone()
             }
-            Self::Between {
-                ends: [from, to],
-                unit,
-            } => written(from + (to - from) * coordinate, unit),
+            Self::Between(range) => {
+                range.written(range.from + (range.to - range.from) * coordinate)
+            }
         }
     }
 }
@@ -111,17 +113,6 @@ fn in_unit(text: &str, unit: &str) -> Result<f64, String> {
     }
 }
 
-/// A number as it stands in a file: without the rounding errors of steps.
-fn written(value: f64, unit: &str) -> String {
-    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
-    // No -0.
-    let rounded = rounded + 0.0;
-    match unit {
-        "" => format!("{rounded}"),
-        unit => format!("{rounded} {unit}"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,33 +120,36 @@ mod tests {
     fn listed(values: Values) -> Vec<String> {
         match values {
             Values::Listed(values) => values,
-            Values::Between { .. } => panic!("not listed"),
+            Values::Between(_) => panic!("not listed"),
         }
     }
 
     #[test]
     fn steps_end_with_the_range_and_have_no_rounding_errors() {
-        let range = |from, to| Values::between(from, to).unwrap();
+        let range = |from, to| Range::new(from, to).unwrap();
         let tenths = listed(range("0.1", "0.7").in_steps("0.1").unwrap());
         assert_eq!(tenths, ["0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"]);
         let speeds = listed(range("5 m/s", "9m/s").in_steps("1.5 m/s").unwrap());
         assert_eq!(speeds, ["5 m/s", "6.5 m/s", "8 m/s"]);
         let counted = listed(range("-1 deg", "1 deg").counted("3").unwrap());
         assert_eq!(counted, ["-1 deg", "0 deg", "1 deg"]);
-        assert_eq!(range("1e1 mm", "2e1 mm").at(0.25), "12.5 mm");
+        assert_eq!(
+            Values::Between(range("1e1 mm", "2e1 mm")).at(0.25),
+            "12.5 mm"
+        );
         assert_eq!(Values::Listed(vec!["a".into(), "b".into()]).at(0.5), "b");
     }
 
     #[test]
     fn what_is_no_range_is_refused() {
-        assert!(Values::between("a", "b").unwrap_err().contains("no number"));
+        assert!(Range::new("a", "b").unwrap_err().contains("no number"));
         assert!(
-            Values::between("1 mm", "2 m")
+            Range::new("1 mm", "2 m")
                 .unwrap_err()
                 .contains("not in the unit")
         );
-        assert!(Values::between("2", "2").unwrap_err().contains("not below"));
-        let range = || Values::between("1 mm", "2 mm").unwrap();
+        assert!(Range::new("2", "2").unwrap_err().contains("not below"));
+        let range = || Range::new("1 mm", "2 mm").unwrap();
         for step in ["0 mm", "-1 mm", "1e-9 mm"] {
             assert!(
                 range()

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::axis::{Axis, Values};
+use super::axis::{Axis, Range, Values};
 use crate::problem::Source;
 use crate::problem::change::Change;
 use crate::problem::fault::{Fault, Span, nearest_name, one_of};
@@ -122,7 +122,7 @@ fn parse(text: &str, folder: &Path) -> Result<CampaignFile, Vec<Fault>> {
         }
         (Some(axes), None, None) => {
             for axis in &axes {
-                if let Values::Between { .. } = axis.values {
+                if let Values::Between(_) = axis.values {
                     let key = format!("vary.{}", axis.key);
                     reader.push(
                         root.span,
@@ -261,7 +261,7 @@ impl<'a> Reader<'a> {
         let axes = entries.iter().filter_map(|entry| {
             let key = format!("vary.{}", entry.key);
             let values = match &entry.node.value {
-                Value::List(items) if !items.is_empty() => self.listed(&key, &entry.key, items),
+                Value::List(items) if !items.is_empty() => self.listed(&entry.key, items),
                 Value::Map(ends) => self.range(&key, entry.node.span, ends),
                 _ => Err((entry.node.span, "is neither a list nor a range".to_owned())),
             };
@@ -278,7 +278,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Values as they are written.
-    fn listed(&mut self, _: &str, key: &str, items: &[Node]) -> Result<Values, (Span, String)> {
+    fn listed(&self, key: &str, items: &[Node]) -> Result<Values, (Span, String)> {
         let value = |item: &Node| {
             let written = self
                 .text
@@ -307,12 +307,12 @@ impl<'a> Reader<'a> {
         let (Some((_, from)), Some((_, to))) = (find("from"), find("to")) else {
             return Err((span, "has no `from` or no `to`".to_owned()));
         };
-        let range = Values::between(from, to).map_err(|message| (span, message))?;
+        let range = Range::new(from, to).map_err(|message| (span, message))?;
         match (find("step"), find("count")) {
             (Some(_), Some((span, _))) => Err((span, "has `step` and `count`".to_owned())),
             (Some((span, step)), None) => range.in_steps(step).map_err(|message| (span, message)),
             (None, Some((span, count))) => range.counted(count).map_err(|message| (span, message)),
-            (None, None) => Ok(range),
+            (None, None) => Ok(Values::Between(range)),
         }
     }
 

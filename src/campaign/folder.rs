@@ -177,25 +177,25 @@ impl CampaignFolder {
         &self.plan
     }
 
-    fn result(&self, case: &Case) -> PathBuf {
-        self.folder.join(RESULTS).join(format!("{}.json", case.id))
-    }
-
-    fn fault(&self, case: &Case) -> PathBuf {
-        self.folder
-            .join(RESULTS)
-            .join(format!("{}.fault.txt", case.id))
+    fn results(&self) -> PathBuf {
+        self.folder.join(RESULTS)
     }
 
     /// What has come of a case.
     pub fn status(&self, case: &Case) -> CaseStatus {
-        if self.result(case).exists() {
+        if self.results().join(result_of(case)).exists() {
             CaseStatus::Done
-        } else if self.fault(case).exists() {
+        } else if self.results().join(fault_of(case)).exists() {
             CaseStatus::Faulty
         } else {
             CaseStatus::Missing
         }
+    }
+
+    /// How many cases have come to this.
+    pub fn count(&self, wanted: CaseStatus) -> usize {
+        let cases = self.plan.cases.iter();
+        cases.filter(|case| self.status(case) == wanted).count()
     }
 
     /// The result of a case; `None` where there is none.
@@ -203,7 +203,7 @@ impl CampaignFolder {
     /// # Errors
     /// What is there is no result.
     pub fn record(&self, case: &Case) -> Result<Option<Record>, String> {
-        let path = self.result(case);
+        let path = self.results().join(result_of(case));
         let text = match fs::read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
@@ -278,27 +278,16 @@ impl CampaignFolder {
                     return Ok(CaseStatus::Missing);
                 };
                 let json = record.to_json().map_err(|error| error.to_string())?;
-                (self.result(case), json, CaseStatus::Done)
+                (result_of(case), json, CaseStatus::Done)
             }
             Err(rejection) => {
                 if maker.id(&case.values)? != case.id {
                     return Err(stale());
                 }
-                (
-                    self.fault(case),
-                    rejection.render(false),
-                    CaseStatus::Faulty,
-                )
+                (fault_of(case), rejection.render(false), CaseStatus::Faulty)
             }
         };
-        let name = name
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned());
-        write(
-            &self.folder.join(RESULTS),
-            &name.unwrap_or_default(),
-            contents.as_bytes(),
-        )?;
+        write(&self.results(), &name, contents.as_bytes())?;
         Ok(status)
     }
 
@@ -317,6 +306,16 @@ impl CampaignFolder {
             .collect();
         table::gathered(&self.plan, &records, &statuses).map_err(|error| error.to_string())
     }
+}
+
+/// The file of a case's result.
+fn result_of(case: &Case) -> String {
+    format!("{}.json", case.id)
+}
+
+/// The file of what is wrong with a case's problem.
+fn fault_of(case: &Case) -> String {
+    format!("{}.fault.txt", case.id)
 }
 
 /// A path from a folder on; both are absolute.

@@ -135,7 +135,7 @@ fn names(axes: Vec<Axis>) -> Vec<String> {
 fn listed(values: &Values) -> &[String] {
     match values {
         Values::Listed(values) => values,
-        Values::Between { .. } => &[],
+        Values::Between(_) => &[],
     }
 }
 

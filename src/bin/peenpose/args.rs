@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
-use peenpose::campaign::Shard;
 use peenpose::record::MapTerm;
 
+use crate::campaign::CampaignArgs;
 use crate::impact::ImpactArgs;
 use crate::init::Template;
 use crate::start::StartArgs;
+use crate::surfaces::SurfacesArgs;
 
 /// Finds nozzle settings for precision shot peening deep inside keyways, bores and slots.
 #[derive(Parser)]
@@ -167,91 +168,11 @@ Examples:
   peenpose campaign gather study                    study/table.csv
 A run that was ended goes on where it was. Exit status of `run`: 0 also where verdicts fail, 2 where problems have faults.";
 
-/// Arguments of `campaign`.
-#[derive(clap::Args)]
-pub struct CampaignArgs {
-    /// What to do
-    #[command(subcommand)]
-    pub command: CampaignCommand,
-}
-
-/// Commands of a campaign.
-#[derive(clap::Subcommand)]
-pub enum CampaignCommand {
-    /// Write what there is to solve into a folder
-    Plan(PlanArgs),
-    /// Solve the cases that are missing
-    Run(RunArgs),
-    /// Count the cases that are done, missing and faulty
-    Status(StatusArgs),
-    /// Write the table of all cases
-    Gather(GatherArgs),
-}
-
-/// Arguments of `campaign plan`.
-#[derive(clap::Args)]
-pub struct PlanArgs {
-    /// The campaign file
-    pub file: PathBuf,
-    /// The folder of the campaign
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
-}
-
-/// Arguments of `campaign run`.
-#[derive(clap::Args)]
-pub struct RunArgs {
-    /// The folder of the campaign
-    pub folder: PathBuf,
-    /// Every so many-th case only: `3/8` is the third of eight shards
-    #[arg(long, value_name = "I/N", default_value = "1/1")]
-    pub shard: Shard,
-    /// Threads; all cores by default. Only times depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
-    /// No progress bar
-    #[arg(long)]
-    pub quiet: bool,
-}
-
-/// Arguments of `campaign status`.
-#[derive(clap::Args)]
-pub struct StatusArgs {
-    /// The folder of the campaign
-    pub folder: PathBuf,
-}
-
-/// Arguments of `campaign gather`.
-#[derive(clap::Args)]
-pub struct GatherArgs {
-    /// The folder of the campaign
-    pub folder: PathBuf,
-    /// Where the table goes; table.csv in the folder by default
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-}
-
 const SURFACES_EXAMPLES: &str = "\
 Examples:
   peenpose surfaces housing.stl                     numbers, forms, sizes, and a point of each
   peenpose surfaces housing.stl --angle '20 deg' --out faces.svg
 In the problem file: regions: { floor: { at: [x, y, z] } }";
-
-/// Arguments of `surfaces`.
-#[derive(clap::Args)]
-pub struct SurfacesArgs {
-    /// The mesh: STL, OBJ or PLY
-    pub file: PathBuf,
-    /// Faces end where neighbours differ by this angle
-    #[arg(long, value_name = "ANGLE", default_value = "30 deg")]
-    pub angle: String,
-    /// How many faces are listed, the largest first
-    #[arg(long, value_name = "N", default_value_t = 40)]
-    pub most: usize,
-    /// Draw them with their numbers into this SVG
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-}
 
 /// Arguments of `completions`.
 #[derive(clap::Args)]

@@ -1,15 +1,79 @@
 //! `peenpose campaign`: many problems from one.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use peenpose::campaign::{CampaignFolder, CaseStatus, Outcome, Plan};
+use peenpose::campaign::{CampaignFolder, CaseStatus, Outcome, Plan, Shard};
 use peenpose::control::Control;
 
-use crate::args::{CampaignCommand, GatherArgs, PlanArgs, RunArgs, StatusArgs};
 use crate::output::{self, BAD_INPUT, Failure};
 use crate::progress::{ENDED, Watcher};
 use crate::{folder, start};
+
+/// Arguments of `campaign`.
+#[derive(clap::Args)]
+pub struct CampaignArgs {
+    /// What to do
+    #[command(subcommand)]
+    pub command: CampaignCommand,
+}
+
+/// Commands of a campaign.
+#[derive(clap::Subcommand)]
+pub enum CampaignCommand {
+    /// Write what there is to solve into a folder
+    Plan(PlanArgs),
+    /// Solve the cases that are missing
+    Run(RunArgs),
+    /// Count the cases that are done, missing and faulty
+    Status(StatusArgs),
+    /// Write the table of all cases
+    Gather(GatherArgs),
+}
+
+/// Arguments of `campaign plan`.
+#[derive(clap::Args)]
+pub struct PlanArgs {
+    /// The campaign file
+    pub file: PathBuf,
+    /// The folder of the campaign
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Arguments of `campaign run`.
+#[derive(clap::Args)]
+pub struct RunArgs {
+    /// The folder of the campaign
+    pub folder: PathBuf,
+    /// Every so many-th case only: `3/8` is the third of eight shards
+    #[arg(long, value_name = "I/N", default_value = "1/1")]
+    pub shard: Shard,
+    /// Threads; all cores by default. Only times depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// No progress bar
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `campaign status`.
+#[derive(clap::Args)]
+pub struct StatusArgs {
+    /// The folder of the campaign
+    pub folder: PathBuf,
+}
+
+/// Arguments of `campaign gather`.
+#[derive(clap::Args)]
+pub struct GatherArgs {
+    /// The folder of the campaign
+    pub folder: PathBuf,
+    /// Where the table goes; table.csv in the folder by default
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
 
 /// Runs one of its commands.
 pub fn run(command: &CampaignCommand) -> Result<ExitCode, Failure> {
@@ -78,15 +142,8 @@ fn solve(args: &RunArgs) -> Result<ExitCode, Failure> {
 
 fn status(args: &StatusArgs) -> Result<ExitCode, Failure> {
     let campaign = CampaignFolder::open(&args.folder)?;
-    let statuses: Vec<CaseStatus> = campaign
-        .plan()
-        .cases
-        .iter()
-        .map(|case| campaign.status(case))
-        .collect();
-    let count = |wanted| statuses.iter().filter(|status| **status == wanted).count();
-    let [done, missing, faulty] =
-        [CaseStatus::Done, CaseStatus::Missing, CaseStatus::Faulty].map(count);
+    let [done, missing, faulty] = [CaseStatus::Done, CaseStatus::Missing, CaseStatus::Faulty]
+        .map(|status| campaign.count(status));
     output::text(format!("{done} done, {missing} missing, {faulty} faulty\n"))
 }
 
@@ -94,19 +151,12 @@ fn gather(args: &GatherArgs) -> Result<ExitCode, Failure> {
     start::use_threads(None)?;
     let campaign = CampaignFolder::open(&args.folder)?;
     let table = campaign.gather()?;
-    match &args.out {
-        Some(file) => {
-            let name = file
-                .file_name()
-                .ok_or("--out: expected a file".to_owned())?;
-            let written = folder::folder_of(file);
-            folder::write(written, &name.to_string_lossy(), table.csv.as_bytes())?;
-        }
-        None => folder::write(&args.folder, "table.csv", table.csv.as_bytes())?,
-    }
-    let path = args
-        .out
-        .clone()
-        .unwrap_or_else(|| args.folder.join("table.csv"));
+    let path = args.out.clone();
+    let path = path.unwrap_or_else(|| args.folder.join("table.csv"));
+    let name = path
+        .file_name()
+        .ok_or("--out: expected a file".to_owned())?;
+    let name = name.to_string_lossy();
+    folder::write(folder::folder_of(&path), &name, table.csv.as_bytes())?;
     output::text(format!("{}\n", path.display()))
 }

@@ -1,14 +1,30 @@
 //! `peenpose surfaces`: what a mesh without names consists of.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use peenpose::report::{faces, figure::Figure};
 use peenpose::scene::mesh_file;
 use peenpose::units::{Dimension, parse};
 
-use crate::args::SurfacesArgs;
 use crate::folder;
 use crate::output::{self, Failure};
+
+/// Arguments of `surfaces`.
+#[derive(clap::Args)]
+pub struct SurfacesArgs {
+    /// The mesh: STL, OBJ or PLY
+    pub file: PathBuf,
+    /// Faces end where neighbours differ by this angle
+    #[arg(long, value_name = "ANGLE", default_value = "30 deg")]
+    pub angle: String,
+    /// How many faces are listed, the largest first
+    #[arg(long, value_name = "N", default_value_t = 40)]
+    pub most: usize,
+    /// Draw them with their numbers into this SVG
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
 
 /// Lists the smooth faces of a mesh, in its own unit, and draws them where that is asked for.
 pub fn run(args: &SurfacesArgs) -> Result<ExitCode, Failure> {
