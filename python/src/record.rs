@@ -20,6 +20,19 @@ fn unexpected(error: impl ToString) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
 }
 
+/// Adds a column for each coordinate of some points.
+fn add_coordinates<const N: usize>(
+    columns: &Bound<'_, PyDict>,
+    names: [&str; N],
+    points: &[[f32; N]],
+) -> PyResult<()> {
+    for (axis, name) in names.into_iter().enumerate() {
+        let values: Vec<f32> = points.iter().map(|point| point[axis]).collect();
+        columns.set_item(name, values.into_pyarray(columns.py()))?;
+    }
+    Ok(())
+}
+
 #[pymethods]
 impl Record {
     /// From the text of a result.json.
@@ -72,14 +85,8 @@ impl Record {
         };
         let hits = evidence.hits.clone();
         let columns = PyDict::new(py);
-        for (axis, name) in ["x_m", "y_m", "z_m"].into_iter().enumerate() {
-            let values: Vec<f32> = hits.points_m.iter().map(|point| point[axis]).collect();
-            columns.set_item(name, values.into_pyarray(py))?;
-        }
-        for (axis, name) in ["along_m", "across_m"].into_iter().enumerate() {
-            let values: Vec<f32> = hits.plane_m.iter().map(|point| point[axis]).collect();
-            columns.set_item(name, values.into_pyarray(py))?;
-        }
+        add_coordinates(&columns, ["x_m", "y_m", "z_m"], &hits.points_m)?;
+        add_coordinates(&columns, ["along_m", "across_m"], &hits.plane_m)?;
         columns.set_item("angle_deg", hits.angle_deg.into_pyarray(py))?;
         columns.set_item("normal_impulse_N_s", hits.normal_impulse.into_pyarray(py))?;
         columns.set_item(
@@ -98,10 +105,7 @@ impl Record {
         };
         let rebounds = evidence.rebounds.clone();
         let columns = PyDict::new(py);
-        for (axis, name) in ["x_m", "y_m", "z_m"].into_iter().enumerate() {
-            let values: Vec<f32> = rebounds.points_m.iter().map(|point| point[axis]).collect();
-            columns.set_item(name, values.into_pyarray(py))?;
-        }
+        add_coordinates(&columns, ["x_m", "y_m", "z_m"], &rebounds.points_m)?;
         columns.set_item("surface", rebounds.surface.into_pyarray(py))?;
         columns.set_item("number", rebounds.number.into_pyarray(py))?;
         columns.set_item(

@@ -7,6 +7,20 @@ use std::time::Duration;
 use assert_cmd::Command;
 use serde_json::Value;
 
+/// Settings near the best of the keyway.
+pub const GOOD: [&str; 10] = [
+    "--set",
+    "incidence=67deg",
+    "--set",
+    "azimuth=0deg",
+    "--set",
+    "standoff=8mm",
+    "--set",
+    "speed=9.4m/s",
+    "--set",
+    "contact=oiled",
+];
+
 /// What the program did.
 pub struct Run {
     pub status: i32,

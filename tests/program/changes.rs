@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::common::program::{self, Run};
+use crate::common::program::{self, GOOD, Run};
 
 const KEYWAY: &str = "problems/keyway.yaml";
 
@@ -56,22 +56,7 @@ fn a_changed_key_is_that_of_the_file() {
 /// The command of the sheet gives the same again, and settings go beside keys.
 #[test]
 fn an_evaluation_takes_settings_and_keys() {
-    let set = [
-        "evaluate",
-        KEYWAY,
-        "--shots",
-        "1024",
-        "--set",
-        "incidence=67deg",
-        "--set",
-        "azimuth=0deg",
-        "--set",
-        "standoff=8mm",
-        "--set",
-        "speed=9.4m/s",
-        "--set",
-        "contact=oiled",
-    ];
+    let set = [&["evaluate", KEYWAY, "--shots", "1024"][..], &GOOD].concat();
     let plain = answer(&set);
     let changed = [&set[..], &["--set", "jet.exit_diameter=3 mm"]].concat();
     let run = peenpose(&changed);

@@ -4,6 +4,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use crate::common::program::GOOD;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -139,17 +140,7 @@ fn warnings_go_to_stderr_and_change_no_status() {
     assert_eq!(denied.status.code(), Some(2));
     assert!(messages(&denied).starts_with("warning: jet.exit_diameter"));
     assert!(!out(&denied).contains("exit_too_small") && out(&denied).contains("keyway.yaml: ok"));
-    let settings = [
-        "--set",
-        "incidence=67deg",
-        "--set",
-        "azimuth=0deg",
-        "--set",
-        "standoff=8mm",
-        "--set",
-        "speed=9.4m/s",
-    ];
-    let evaluate = [&["evaluate", DOUBTFUL][..], &settings].concat();
+    let evaluate = [&["evaluate", DOUBTFUL][..], &GOOD[..8]].concat();
     let evaluated = run(&evaluate);
     assert!(messages(&evaluated).contains("warning: jet.exit_diameter"));
     let quiet = run(&[&evaluate[..], &["--quiet"]].concat());

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use crate::common::program::Run;
+use crate::common::program::{GOOD, Run};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -33,19 +33,6 @@ fn refused(arguments: &[&str], words: &[&str]) {
 
 const KEYWAY: &str = "problems/keyway.yaml";
 const PLATE: &str = "problems/plate.yaml";
-/// Settings near the best of the keyway.
-const GOOD: [&str; 10] = [
-    "--set",
-    "incidence=67deg",
-    "--set",
-    "azimuth=0deg",
-    "--set",
-    "standoff=8mm",
-    "--set",
-    "speed=9.4m/s",
-    "--set",
-    "contact=oiled",
-];
 
 fn evaluate(file: &str, settings: &[&str], more: &[&str]) -> Run {
     let arguments: Vec<&str> = ["evaluate", file]
