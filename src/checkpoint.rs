@@ -174,7 +174,14 @@ fn description(part: &Part) -> String {
         Shape::Mesh { .. } => String::new(),
         exact => format!("{exact:?}"),
     };
-    format!("{} {shape} {:?} {}", part.name, part.place, part.on_nozzle)
+    let Part {
+        name,
+        place,
+        on_nozzle,
+        cut,
+        ..
+    } = part;
+    format!("{name} {shape} {place:?} {on_nozzle} {cut:?}")
 }
 
 fn add(hash: &mut Sha256, numbers: &[f64]) {

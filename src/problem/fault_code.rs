@@ -177,6 +177,18 @@ listed! {
         CrossingOutline,
         /// A cap on an outline that is not closed.
         OpenOutline,
+        /// A part that is cut out of itself.
+        CutsItself,
+        /// A part that is cut out of another one, and is cut itself.
+        CutOfACut,
+        /// A part on the nozzle that is cut out of one that is not, or the other way round.
+        CutAcrossFrames,
+        /// What is cut, or cut out, encloses no volume.
+        CutWithoutVolume,
+        /// A part that does not reach the one that it is cut out of.
+        CutMisses,
+        /// A part of which cutting leaves nothing.
+        CutLeavesNothing,
         /// A path of a mesh file that other systems read differently.
         PathNotPortable,
         /// A path out of the folder of the problem file.

@@ -21,6 +21,8 @@ pub struct Part {
     /// Whether it is fixed to the nozzle and moves with it. The nozzle's frame has its origin in
     /// the centre of the exit, z along the jet, and y across it in the target's plane.
     pub on_nozzle: bool,
+    /// Names of the parts whose insides are cut out of it; what is left of their walls bounds the openings.
+    pub cut: Vec<String>,
 }
 
 /// A rotation about fixed x, then y, then z, followed by a shift (m).
@@ -54,6 +56,8 @@ pub enum Shape {
         length: f64,
         /// Which of the two ends carry a flat cap.
         ends: Ends,
+        /// The side of its wall that is free; where absent the target decides.
+        free: Option<RoundSide>,
     },
     /// A cross-section of lines and arcs, along z from 0 to `length`.
     Extrude {
@@ -85,6 +89,15 @@ pub enum Shape {
         /// Regions that name triangles.
         regions: Vec<Region>,
     },
+}
+
+/// A side of a round wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoundSide {
+    /// That of a hole.
+    Inside,
+    /// That of a pin.
+    Outside,
 }
 
 /// A mesh file: on disk, or its bytes under a name.

@@ -1,5 +1,6 @@
 //! From the parts of a problem to a scene.
 
+use super::cut;
 use super::mesh_file::MOST_TRIANGLES;
 use super::part::Geometry;
 use super::{SLACK, Scene, Walls};
@@ -12,18 +13,28 @@ impl Scene {
     /// Builds every part.
     ///
     /// # Errors
-    /// Every mesh that cannot be read, and the part from which on there are too many triangles.
+    /// Every mesh that cannot be read, every cut that cannot be made, and the part from which on there are too many triangles.
     pub fn build(parts: &[Part], walls: Walls) -> Result<Self, Vec<Fault>> {
         let mut faults = Vec::new();
         let mut geometries: Vec<Geometry> = Vec::new();
         let mut triangles = 0;
-        for part in parts {
-            match Geometry::of(part, walls) {
+        let standing = || parts.iter().filter(|part| !is_cut_out(part, parts));
+        for part in standing() {
+            let geometry = match part.cut.is_empty() {
+                true => Geometry::of(part, walls).map_err(|fault| vec![*fault]),
+                false => cut::geometry(part, &cut_out_of(part, parts), walls),
+            };
+            match geometry {
                 Ok(geometry) => {
                     triangles += geometry.mesh.triangles.len();
                     geometries.push(geometry);
                 }
-                Err(fault) => faults.push(*fault),
+                // What is cut out of two parts may be told of twice.
+                Err(found) => found.into_iter().for_each(|fault| {
+                    if !faults.contains(&fault) {
+                        faults.push(fault);
+                    }
+                }),
             }
             if let Some(fault) = too_many_triangles(part, triangles) {
                 faults.push(fault);
@@ -42,17 +53,54 @@ impl Scene {
             size,
             reach: size.min(longest_side(&geometries)),
         };
-        for (part, mut geometry) in parts.iter().zip(geometries) {
-            let base = scene.surfaces.len() as u32;
-            let names = geometry.mesh.surfaces.iter();
-            let full = names.map(|name| format!("{}.{}", part.name, printable::line(name)));
-            scene.surfaces.extend(full);
+        for (part, mut geometry) in standing().zip(geometries) {
+            let base = scene.number_surfaces(part, &mut geometry);
             scene.warnings.append(&mut geometry.warnings);
-            scene.files.extend(geometry.file.take());
+            scene.files.append(&mut geometry.files);
             scene.parts.push(geometry.build(part, base, SLACK * size));
         }
         Ok(scene)
     }
+
+    /// Gives the surfaces of a part their numbers; returns what is still to be added to those of its triangles.
+    fn number_surfaces(&mut self, part: &Part, geometry: &mut Geometry) -> u32 {
+        let names = geometry.mesh.surfaces.iter();
+        if !geometry.has_full_names {
+            let base = self.surfaces.len() as u32;
+            let full = names.map(|name| format!("{}.{}", part.name, printable::line(name)));
+            self.surfaces.extend(full);
+            return base;
+        }
+        // What is cut out of two parts has surfaces in both.
+        let numbers: Vec<u32> = names
+            .map(|name| {
+                let name = printable::line(name);
+                let known = self.surfaces.iter().position(|it| *it == name);
+                let number = known.unwrap_or_else(|| {
+                    self.surfaces.push(name.into_owned());
+                    self.surfaces.len() - 1
+                });
+                number as u32
+            })
+            .collect();
+        for triangle in &mut geometry.mesh.triangles {
+            triangle.surface = numbers[triangle.surface as usize];
+        }
+        0
+    }
+}
+
+/// Whether a part is cut out of another one, and stands nowhere itself.
+fn is_cut_out(part: &Part, parts: &[Part]) -> bool {
+    parts.iter().any(|other| other.cut.contains(&part.name))
+}
+
+/// What is cut out of a part.
+fn cut_out_of<'a>(part: &Part, parts: &'a [Part]) -> Vec<&'a Part> {
+    let tools = part.cut.iter();
+    tools
+        .filter_map(|name| parts.iter().find(|part| part.name == *name))
+        .collect()
 }
 
 /// The fault of a part with which the scene gets too large.

@@ -6,6 +6,7 @@
 mod build;
 mod bvh8;
 mod clearance;
+mod cut;
 mod departure;
 mod free_side;
 pub mod lanes;

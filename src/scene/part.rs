@@ -18,7 +18,7 @@ use super::triangle_mesh::{self, TriangleMesh};
 use super::winding::Winding;
 use crate::printable;
 use crate::problem::fault::Fault;
-use crate::problem::part::{Ends, Part, Place, Shape};
+use crate::problem::part::{Ends, Part, Place, RoundSide, Shape};
 
 /// A part whose surfaces have their indices in the scene.
 #[derive(Clone)]
@@ -76,20 +76,68 @@ pub struct MeshSource {
 
 /// The geometry of a part before its surfaces are numbered.
 pub(super) struct Geometry {
+    /// Its triangles in their place.
     pub mesh: Mesh,
     /// What the reader of a mesh file noticed.
     pub warnings: Vec<String>,
-    /// The file that it was read from.
-    pub file: Option<MeshSource>,
-    free: FreeSide,
-    shells: Option<Shells>,
-    prism: Option<(Profile, f64, Ends)>,
+    /// The files that it was read from.
+    pub files: Vec<MeshSource>,
+    pub free: FreeSide,
+    pub shells: Option<Shells>,
+    pub prism: Option<(Profile, f64, Ends)>,
     /// Whether parry casts the rays.
-    by_parry: bool,
+    pub by_parry: bool,
+    /// Whether its surfaces have the names of their parts before their own.
+    pub has_full_names: bool,
 }
 
-/// Facets of revolved parts turn by this angle: shots meet them, as these walls have no exact form.
-const REVOLVED_CHORD_ANGLE: f64 = std::f64::consts::PI / 360.0;
+/// A mesh from a file, where the file has it.
+pub(super) struct LoadedMesh {
+    pub mesh: Mesh,
+    pub shells: Shells,
+    pub warnings: Vec<String>,
+    pub file: MeshSource,
+}
+
+impl LoadedMesh {
+    /// The mesh of a part that is one.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or with a region of it.
+    pub fn of(part: &Part) -> Result<Self, Box<Fault>> {
+        let Shape::Mesh {
+            file,
+            metres_per_unit,
+            regions,
+        } = &part.shape
+        else {
+            unreachable!("asked of meshes alone");
+        };
+        let loaded = mesh_file::load(file, *metres_per_unit, regions).map_err(|fault| {
+            let key = match fault.defect.region() {
+                Some(region) => format!("scene.{}.regions.{region}", part.name),
+                None => format!("scene.{}.mesh", part.name),
+            };
+            Fault::at_key(fault.defect.rule(), key, fault.to_string())
+        })?;
+        let named = |warning| {
+            let text = format!("part `{}`: {warning}", part.name);
+            printable::line(&text).into_owned()
+        };
+        Ok(Self {
+            mesh: loaded.mesh,
+            shells: loaded.shells,
+            warnings: loaded.warnings.iter().map(named).collect(),
+            file: MeshSource {
+                path: file.path.clone(),
+                sha256: loaded.sha256,
+            },
+        })
+    }
+}
+
+/// Facets of revolved and of cut parts turn by this angle: shots meet them, as these walls have no exact form.
+pub(super) const REVOLVED_CHORD_ANGLE: f64 = std::f64::consts::PI / 360.0;
 
 /// Chords that stand in for arcs where distances are measured turn by at most this angle.
 const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
@@ -98,10 +146,14 @@ impl Geometry {
     /// The geometry of a part in its place.
     pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
         let mut warnings = Vec::new();
-        let mut file = None;
+        let mut files = Vec::new();
         let mut shells = None;
         let free = match &part.shape {
-            Shape::Bore { .. } => FreeSide::Round,
+            Shape::Bore { free, .. } => match free {
+                None => FreeSide::Round,
+                Some(RoundSide::Inside) => FreeSide::Front,
+                Some(RoundSide::Outside) => FreeSide::Back,
+            },
             _ => FreeSide::Front,
         };
         let (mesh, prism) = match &part.shape {
@@ -115,6 +167,7 @@ impl Geometry {
                 diameter,
                 length,
                 ends,
+                ..
             } => prismatic(Profile::circle(*diameter), *length, *ends, walls),
             Shape::Extrude {
                 profile,
@@ -134,25 +187,11 @@ impl Geometry {
                 (mesh, None)
             }
             Shape::Box { min, max } => (tessellate::block(*min, *max), None),
-            Shape::Mesh {
-                file: source,
-                metres_per_unit,
-                regions,
-            } => {
-                let loaded =
-                    mesh_file::load(source, *metres_per_unit, regions).map_err(|fault| {
-                        let key = match fault.defect.region() {
-                            Some(region) => format!("scene.{}.regions.{region}", part.name),
-                            None => format!("scene.{}.mesh", part.name),
-                        };
-                        Fault::at_key(fault.defect.rule(), key, fault.to_string())
-                    })?;
+            Shape::Mesh { .. } => {
+                let loaded = LoadedMesh::of(part)?;
                 warnings = loaded.warnings;
                 shells = Some(loaded.shells);
-                file = Some(MeshSource {
-                    path: source.path.clone(),
-                    sha256: loaded.sha256,
-                });
+                files.push(loaded.file);
                 (loaded.mesh, None)
             }
         };
@@ -162,18 +201,15 @@ impl Geometry {
         } else {
             free
         };
-        let named = |warning| {
-            let text = format!("part `{}`: {warning}", part.name);
-            printable::line(&text).into_owned()
-        };
         Ok(Self {
             mesh: tessellate::placed(mesh, &part.place),
             free,
             shells,
-            warnings: warnings.iter().map(named).collect(),
-            file,
+            warnings,
+            files,
             prism,
             by_parry: matches!(walls, Walls::Parry { .. }),
+            has_full_names: false,
         })
     }
 
@@ -193,7 +229,7 @@ impl Geometry {
             solid: OnceLock::new(),
             anchor: None,
             on_nozzle: part.on_nozzle,
-            is_block: matches!(part.shape, Shape::Box { .. }),
+            is_block: matches!(part.shape, Shape::Box { .. }) && part.cut.is_empty(),
             round: match part.shape {
                 Shape::Bore {
                     diameter, length, ..

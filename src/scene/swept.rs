@@ -229,6 +229,7 @@ mod tests {
             },
             place: Place::default(),
             on_nozzle: false,
+            cut: Vec::new(),
         };
         Scene::build(&[part], Walls::Exact).expect("it is sound")
     }

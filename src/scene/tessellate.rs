@@ -12,6 +12,18 @@ use crate::problem::part::{Ends, Place};
 /// The corner points lie on the true surface, so facets lie inside an arc by up to
 /// radius (1 - cos(chord_angle / 2)) and their normals are off by up to half the angle.
 pub fn prism(profile: &Profile, length: f64, ends: Ends, chord_angle: f64) -> Mesh {
+    let near = ends.near_closed.then_some("near");
+    let far = ends.far_closed.then_some("far");
+    capped(profile, length, [near, far], chord_angle)
+}
+
+/// The same with the names of its caps at z = 0 and z = `length`, where it has them.
+pub(super) fn capped(
+    profile: &Profile,
+    length: f64,
+    caps: [Option<&str>; 2],
+    chord_angle: f64,
+) -> Mesh {
     let mut mesh = Mesh {
         surfaces: profile.surfaces.clone(),
         ..Mesh::default()
@@ -27,11 +39,12 @@ pub fn prism(profile: &Profile, length: f64, ends: Ends, chord_angle: f64) -> Me
             far.push(quad[1]);
         }
     }
-    if ends.near_closed {
-        add_cap(&mut mesh, &outline, &near, true, "near");
+    let [near_cap, far_cap] = caps;
+    if let Some(name) = near_cap {
+        add_cap(&mut mesh, &outline, &near, true, name);
     }
-    if ends.far_closed {
-        add_cap(&mut mesh, &outline, &far, false, "far");
+    if let Some(name) = far_cap {
+        add_cap(&mut mesh, &outline, &far, false, name);
     }
     mesh
 }

@@ -15,6 +15,7 @@ fn part(name: &str, shape: Shape, on_nozzle: bool) -> Part {
         shape,
         place: Place::default(),
         on_nozzle,
+        cut: Vec::new(),
     }
 }
 
@@ -92,6 +93,7 @@ fn walls_are_exact_where_no_part_is_of_triangles() {
         diameter: 2.0,
         length: 5.0,
         ends: Ends::default(),
+        free: None,
     };
     let one = [part("bore", bore(), false)];
     let two = [
@@ -209,6 +211,7 @@ fn normals_of_round_walls_are_those_of_the_round_wall() {
         diameter: 2.0,
         length: 5.0,
         ends,
+        free: None,
     };
     let scene = Scene::build(&[part("bore", bore, false)], Walls::Exact).expect("it is sound");
     for step in 0..100 {
@@ -239,6 +242,7 @@ fn many_rays_meet_what_each_of_them_meets() {
             near_closed: true,
             far_closed: true,
         },
+        free: None,
     };
     let pot = part("pot", pot, false);
     let stone = part("stone", block([-0.3, -0.2, 0.4], [0.1, 0.3, 0.9]), false);
@@ -358,6 +362,7 @@ fn the_wall_of_a_long_and_narrow_bore_faces_its_axis() {
         diameter: 0.5e-3,
         length: 1.0,
         ends: Ends::default(),
+        free: None,
     };
     let scene = Scene::build(&[part("bore", bore, false)], Walls::Exact).expect("it is sound");
     for step in 0..20 {

@@ -1,10 +1,10 @@
-//! By how much the facets of a mesh turn rebounds from the smooth surface that they stand for.
+//! By how much facets turn rebounds from the smooth surface that they stand for.
 
 use std::f64::consts::PI;
 
 use super::Note;
 use crate::digits::fixed;
-use crate::problem::part::Shape;
+use crate::problem::part::{Part, Shape};
 use crate::scenario::Scenario;
 use crate::scene::mesh::Mesh;
 
@@ -16,8 +16,8 @@ const FLAT: f64 = 0.01 / 180.0 * PI;
 /// The largest angle between neighbouring facets of a smooth surface, deg.
 pub(super) fn note(scenario: &Scenario) -> Option<Note> {
     let parts = scenario.problem.parts.iter();
-    let meshes = parts.filter(|part| matches!(part.shape, Shape::Mesh { .. }));
-    let angles = meshes.filter_map(|part| {
+    let faceted = parts.filter(|part| has_facets(part, scenario));
+    let angles = faceted.filter_map(|part| {
         let angle = mesh_of(scenario, &part.name).largest_smooth_angle(SMOOTH)?;
         Some((angle, part.name.as_str()))
     });
@@ -26,12 +26,20 @@ pub(super) fn note(scenario: &Scenario) -> Option<Note> {
         name: "facets",
         value: angle.to_degrees(),
         text: format!(
-            "the facets of mesh `{part}` turn by up to {} deg from one to the next where it looks smooth \
+            "the facets of `{part}` turn by up to {} deg from one to the next where it looks smooth \
              (by less than {} deg): rebounds there are turned by up to that angle",
             fixed(angle.to_degrees(), 2),
             fixed(SMOOTH.to_degrees(), 0),
         ),
     })
+}
+
+/// Whether shots meet triangles where a part is round.
+fn has_facets(part: &Part, scenario: &Scenario) -> bool {
+    let mut others = scenario.problem.parts.iter();
+    matches!(part.shape, Shape::Mesh { .. } | Shape::Revolve { .. })
+        || !part.cut.is_empty()
+        || others.any(|other| other.cut.contains(&part.name))
 }
 
 /// The triangles of a part in their place; corners at the same point are one.

@@ -39,6 +39,7 @@ pub fn keyway(length: f64) -> Problem {
             }),
             place: Place::default(),
             on_nozzle: false,
+            cut: Vec::new(),
         }],
         target: Target {
             lengths_in: Default::default(),

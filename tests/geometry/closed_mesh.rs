@@ -138,6 +138,7 @@ impl Room {
             shape,
             place,
             on_nozzle: false,
+            cut: Vec::new(),
         };
         Self {
             name: name.into(),

@@ -143,6 +143,7 @@ fn the_inside_of_eleven_meshes_is_that_of_counted_rays() {
             },
             place: Place::default(),
             on_nozzle: false,
+            cut: Vec::new(),
         };
         let scene = Scene::build(&[part], Walls::Exact).expect("it is sound");
         let (low, high) = body.bounds();

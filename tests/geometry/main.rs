@@ -6,6 +6,7 @@ mod common;
 mod bad_geometry;
 mod bad_meshes;
 mod closed_mesh;
+mod cuts;
 mod facets_converge;
 mod found_files;
 mod free_space;

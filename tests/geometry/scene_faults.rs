@@ -204,9 +204,11 @@ fn surfaces_are_two_sided() {
             diameter: 12e-3,
             length: 48e-3,
             ends: Ends::default(),
+            free: None,
         },
         place: Place::default(),
         on_nozzle: false,
+        cut: Vec::new(),
     }];
     problem.target = Target {
         lengths_in: Default::default(),

@@ -78,6 +78,7 @@ fn scene(shape: Shape, walls: Walls) -> Scene {
         shape,
         place: Place::default(),
         on_nozzle: false,
+        cut: Vec::new(),
     };
     Scene::build(&[part], walls).expect("a sound part")
 }
@@ -156,7 +157,7 @@ proptest! {
         radius in 0.05e-3..2.5e-3_f64,
     ) {
         let ends = Ends { near_closed: true, far_closed: true };
-        let pin = Shape::Bore { diameter: 6e-3, length: 12e-3, ends };
+        let pin = Shape::Bore { diameter: 6e-3, length: 12e-3, ends, free: None };
         let ray = Ray { origin: Point3::new(x, y, z), direction: direction(height, turn) };
         let distance = |p: &Point3<f64>| to_pin(p, 3e-3, 12e-3);
         prop_assume!(distance(&ray.origin) > radius * (1.0 + 1e-9));
@@ -226,6 +227,7 @@ fn shots_that_bounce_for_ever_stay_inside() {
                     near_closed: true,
                     far_closed: true,
                 },
+                free: None,
             },
             |p| (3e-3 - p.x.hypot(p.y)).min(p.z.min(20e-3 - p.z)),
         ),

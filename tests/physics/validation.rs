@@ -293,6 +293,7 @@ fn between_plates(contact: Contact) -> (Vec<PathImpact>, Vector3<f64>) {
         },
         place: Place::default(),
         on_nozzle: false,
+        cut: Vec::new(),
     };
     let mut problem = crate::common::keyway(40e-3);
     problem.parts = vec![plate("bottom", -5e-3, 0.0), plate("top", GAP, GAP + 5e-3)];

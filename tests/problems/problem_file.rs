@@ -45,6 +45,7 @@ fn the_keyway_is_read_in_si() {
             }),
             place: Place::default(),
             on_nozzle: false,
+            cut: Vec::new(),
         }]
     );
     assert_eq!(problem.target.surface, "hub.floor");
@@ -289,6 +290,7 @@ fn every_other_key_is_read() {
                 near_closed: true,
                 far_closed: true
             },
+            free: None,
         }
     );
     let Shape::Mesh {

@@ -6,6 +6,7 @@
 mod calibration;
 mod contacts;
 mod coordinates;
+mod cut;
 mod goals;
 mod library;
 pub(in crate::problem) mod limit;

@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use super::coordinates::Coordinates;
 use super::limit::Limit;
 use super::scope::Scope;
-use super::{mesh, shape};
+use super::{cut, mesh, shape};
 use crate::problem::fault::{Fault, one_of};
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
@@ -145,8 +145,9 @@ pub(super) fn check(
             (name.clone(), part)
         })
         .collect();
+    let cuts_are_sound = cut::check(&scope, entries, &parts);
     Scene {
-        sound: !parts.is_empty(),
+        sound: !parts.is_empty() && cuts_are_sound,
         parts,
     }
 }
@@ -248,11 +249,13 @@ fn part(
         return None;
     }
     let (place, base) = place?;
+    let cut = cut::names(scope, &entry.cut);
     Some(Part {
         name: name.to_owned(),
         shape,
         place,
         on_nozzle: base == BaseEntry::Nozzle,
+        cut: cut?,
     })
 }
 

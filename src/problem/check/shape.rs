@@ -7,9 +7,9 @@ use super::scope::Scope;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::scene::{
-    BoreEntry, End, EndsEntry, ExtrudeEntry, KeywayEntry, RevolveEntry,
+    BoreEntry, End, EndsEntry, ExtrudeEntry, KeywayEntry, RevolveEntry, RoundSideEntry,
 };
-use crate::problem::part::{Ends, Keyway, Shape};
+use crate::problem::part::{Ends, Keyway, RoundSide, Shape};
 
 /// A bore with a groove.
 pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
@@ -73,10 +73,17 @@ pub(super) fn bore(scope: &Scope<'_>, entry: &BoreEntry) -> Option<Shape> {
     let diameter = scope.needed("diameter", &entry.diameter, Limit::LENGTH);
     let length = scope.needed("length", &entry.length, Limit::LENGTH);
     let ends = ends(&entry.ends);
+    let free = match &entry.free {
+        Field::Missing => None,
+        Field::Faulty => return None,
+        Field::Present(RoundSideEntry::Inside) => Some(RoundSide::Inside),
+        Field::Present(RoundSideEntry::Outside) => Some(RoundSide::Outside),
+    };
     Some(Shape::Bore {
         diameter: diameter?,
         length: length?,
         ends: ends?,
+        free,
     })
 }
 

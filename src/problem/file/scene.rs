@@ -30,6 +30,8 @@ use crate::problem::field::{Field, Needed};
 ///         - { from: [6, 0], line_to: [6, 20], surface: guide }
 ///         - { line_to: [9, 23], surface: cone }
 ///         - { line_to: [9, 40], surface: mouth }
+///   shaft: { bore: { diameter: 30 mm, length: 60 mm, free: outside }, cut: [oil_hole], place: { at: [0, 60, 0] } }
+///   oil_hole: { bore: { diameter: 4 mm, length: 40 mm }, place: { at: [-20, 60, 30], rotate: [0 deg, 90 deg, 0 deg] } }
 /// ```
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
@@ -67,6 +69,12 @@ pub(in crate::problem) struct PartEntry {
     pub regions: Field<Named<RegionEntry>>,
     /// Where the part stands; at the origin of the scene, unturned, where absent.
     pub place: Field<PlaceEntry>,
+    /// Parts whose insides are cut out of this one, such as holes that are drilled into it. Its surfaces end where these open them, and of
+    /// their surfaces what lies in its material is left, under their own names; they stand nowhere else in the scene. Both must
+    /// enclose a volume, for which open ends count as closed: a `bore` that is cut says which side of it is `free`, outlines are closed, meshes have
+    /// no holes. Round walls become facets that turn by 0.5 deg, as those of `revolve` are; nothing is cut where absent.
+    #[schemars(example = json!(["hole"]), extend("uniqueItems" = true, "minItems" = 1))]
+    pub cut: Field<Vec<Field<String>>>,
 }
 
 impl PartEntry {
@@ -112,6 +120,20 @@ pub(in crate::problem) struct BoreEntry {
     /// Whether its ends are closed: both alike, or each on its own.
     #[schemars(example = json!({ "far": "closed" }), extend("default" = "open"))]
     pub ends: Field<EndsEntry>,
+    /// The side of its wall that is free: `inside`, a hole, or `outside`, a pin; the one that the target, and the way to it, is on where absent.
+    #[schemars(example = &"outside")]
+    pub free: Field<RoundSideEntry>,
+}
+
+/// A side of a round wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(inline)]
+pub(in crate::problem) enum RoundSideEntry {
+    /// A hole.
+    Inside,
+    /// A pin.
+    Outside,
 }
 
 /// An axis-parallel box by two opposite corners. Surfaces, where it is a part: `x_min`, `x_max`,

@@ -12,6 +12,7 @@ fn plate(min: Point3<f64>, max: Point3<f64>) -> Scene {
         shape: Shape::Box { min, max },
         place: Place::default(),
         on_nozzle: false,
+        cut: Vec::new(),
     };
     Scene::build(&[part], Walls::Exact).expect("it is sound")
 }
@@ -241,9 +242,11 @@ fn rounding_loses_no_hit_in_a_face_of_the_box() {
             diameter: 0.03,
             length: 0.04,
             ends: crate::problem::part::Ends::default(),
+            free: None,
         },
         place: Place::default(),
         on_nozzle: false,
+        cut: Vec::new(),
     };
     let exact = Scene::build(&[keyway], Walls::Exact).expect("it is sound");
     let corner = |z: f64| Point3::new(0.02, 0.02, z);

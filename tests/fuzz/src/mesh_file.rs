@@ -57,6 +57,7 @@ pub fn run(data: &[u8]) {
         },
         place: Place::default(),
         on_nozzle: false,
+        cut: Vec::new(),
     };
     let scene = Scene::build(&[part], Walls::Exact).expect("it could be read before");
     assert_eq!(scene.triangles(), mesh.triangles.len());

@@ -63,6 +63,7 @@ fn heap(bytes: &mut Bytes<'_>) -> Option<Scene> {
         },
         place: Place::default(),
         on_nozzle: false,
+        cut: Vec::new(),
     };
     Scene::build(&[part], Walls::Exact).ok()
 }

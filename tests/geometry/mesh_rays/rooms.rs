@@ -87,6 +87,7 @@ impl Plan {
             shape,
             place: self.place,
             on_nozzle: false,
+            cut: Vec::new(),
         }
     }
 
