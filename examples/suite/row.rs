@@ -14,7 +14,7 @@ use crate::known::KnownBest;
 
 /// Names of the columns.
 pub const HEADER: &str = "problem,seeds,best_J,best_passes,within_1_percent,pass,as_good,converged,converged_true,\
-                          median_excess_percent,worst_excess_percent,median_seconds,worst_seconds,median_rays";
+                          median_excess_percent,worst_excess_percent,errors_cover,median_seconds,worst_seconds,median_rays";
 
 /// An answer with what it cost.
 pub struct Run {
@@ -23,6 +23,8 @@ pub struct Run {
     fits: bool,
     passes: bool,
     violation: f64,
+    /// J with its standard error, as told.
+    told: Mean,
     status: Status,
     rays: usize,
     seconds: f64,
@@ -41,12 +43,22 @@ impl Run {
             fits: best.evaluation.is_some(),
             passes: best.passes(),
             violation: best.largest_violation(),
+            told: best.evaluation.as_ref().map_or(NOWHERE, |it| Mean {
+                value: it.terms.total(),
+                standard_error: it.standard_error,
+            }),
             status: solution.status,
             rays: solution.rays,
             seconds,
         }
     }
 }
+
+/// Where the nozzle does not fit.
+const NOWHERE: Mean = Mean {
+    value: f64::INFINITY,
+    standard_error: 0.0,
+};
 
 /// The row of a problem.
 pub struct Row {
@@ -60,6 +72,8 @@ pub struct Row {
 const GOOD: f64 = 0.01;
 /// Where nothing passes, violations are alike up to this: so well does a search know them.
 const SURE: f64 = 0.05;
+/// Standard errors that hold 95 % of all answers.
+const SIGMAS: f64 = 1.96;
 /// What is better by more than this is told.
 const BETTER: f64 = 0.002;
 
@@ -122,8 +136,14 @@ impl Row {
         let converged: Vec<usize> = indices
             .filter(|&index| runs[index].status == Status::Converged)
             .collect();
+        // Both have errors, that of common shots the smaller one.
+        let covers = |index: usize| {
+            let (told, true_one) = (&runs[index].told, Mean::of_choice(&objectives, index));
+            (told.value - true_one.value).abs()
+                <= SIGMAS * told.standard_error.hypot(true_one.standard_error)
+        };
         let line = format!(
-            "{name},{},{best:.6},{best_passes},{},{},{as_good},{},{},{:.3},{:.2},{:.2},{:.2},{:.0}",
+            "{name},{},{best:.6},{best_passes},{},{},{as_good},{},{},{:.3},{:.2},{},{:.2},{:.2},{:.0}",
             runs.len(),
             excesses.iter().filter(|&&it| it <= good).count(),
             runs.iter().filter(|run| run.passes).count(),
@@ -131,6 +151,7 @@ impl Row {
             converged.iter().filter(|index| is_good(index)).count(),
             100.0 * median(excesses.iter().copied()),
             100.0 * excesses.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            (0..runs.len()).filter(|&index| covers(index)).count(),
             median(runs.iter().map(|run| run.seconds)),
             runs.iter().map(|run| run.seconds).fold(0.0, f64::max),
             median(runs.iter().map(|run| run.rays as f64)),

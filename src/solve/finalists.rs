@@ -68,7 +68,7 @@ const LARGEST_SPREAD: f64 = 1e6;
 /// Share of the accuracy within which finalists agree: those that are stuck on the same slope are farther apart.
 const NEAR: f64 = 0.5;
 /// From this number of searched settings on.
-const MANY: usize = 4;
+pub(super) const MANY: usize = 4;
 
 #[cfg(test)]
 mod tests {

@@ -56,9 +56,9 @@ use crate::control::Control;
 use crate::problem::Problem;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use descent::{Descent, refine_in_turn, tell};
+use descent::{Descent, leading, refine_in_turn, tell};
 use figures::Figures;
-use finalists::Agreement;
+use finalists::{Agreement, MANY};
 use passing::Sought;
 use sampler::Sampler;
 use search::Search;
@@ -148,11 +148,21 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
     let mut searches = descent.best();
     answers = figures.renewed(answers, &searches);
     let problem = &asked.problem;
-    let not_converged = |searches: &[Search], answers: &[Answer], shots| {
-        not_converged(searches, answers, problem, shots, control.validation_shots)
-    };
     let (mut sampler, mut shots) = (descent.sampler.clone(), descent.shots);
-    let mut open = not_converged(&searches, &answers, shots);
+    let still_open = |sampler: &Sampler, searches: &[Search], answers: &[Answer], shots| {
+        let mut open = not_converged(searches, answers, problem, shots, control.validation_shots);
+        // Many settings fit themselves to the shots: where these are few, J on others has to be the same.
+        let leader = leading(searches);
+        if open.is_empty()
+            && shots < control.validation_shots
+            && searches[leader].dimensions() >= MANY
+            && !sampler.is_precise(searches, shots, &effort)
+        {
+            open.push(leader);
+        }
+        open
+    };
+    let mut open = still_open(&sampler, &searches, &answers, shots);
     while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
         shots *= RISE;
         sampler.adapt(&searches, &effort, control);
@@ -161,7 +171,7 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
         refine_in_turn(&mut searches, &open, &evaluator, &Stage::beyond(shots));
         tell(control, &effort, &searches);
         answers = figures.renewed(answers, &searches);
-        open = not_converged(&searches, &answers, shots);
+        open = still_open(&sampler, &searches, &answers, shots);
     }
     let sought = Sought {
         asked: &asked,

@@ -76,10 +76,8 @@ pub(super) fn recommended<'a>(answers: &'a [Answer], problem: &Problem) -> Optio
     tied.min_by_key(|answer| place_in_file(answer, problem))
 }
 
-fn ties(answer: &Answer, (least, failing): Fitness, problem: &Problem) -> bool {
-    fitness(answer).is_some_and(|(measured, fails)| {
-        fails == failing && is_tie(least, measured, problem.accuracy)
-    })
+fn ties(answer: &Answer, best: Fitness, problem: &Problem) -> bool {
+    fitness(answer).is_some_and(|it| it.is_as_good_as(&best, NEAR * problem.accuracy))
 }
 
 fn place_in_file(answer: &Answer, problem: &Problem) -> Option<usize> {
@@ -87,14 +85,41 @@ fn place_in_file(answer: &Answer, problem: &Problem) -> Option<usize> {
     contacts.position(|&contact| contact == answer.settings.contact)
 }
 
-/// J with its standard error, and how many verdicts fail.
-type Fitness = (Measured, usize);
+/// Share of the accuracy within which an answer may be recommended before a better one: the rest is for what the search misses.
+const NEAR: f64 = 0.5;
+
+/// What answers are compared by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Fitness {
+    objective: Measured,
+    /// How many verdicts fail.
+    failing: usize,
+    /// The largest share over the one that is allowed; 0 where all pass.
+    violation: f64,
+}
+
+impl Fitness {
+    fn is_as_good_as(&self, best: &Self, accuracy: f64) -> bool {
+        let (violation, least) = (self.violation, best.violation);
+        self.failing == best.failing
+            && violation - least <= accuracy.max(ROUNDING) * least
+            && is_tie(best.objective, self.objective, accuracy)
+    }
+}
 
 /// Where the nozzle fits.
 fn fitness(answer: &Answer) -> Option<Fitness> {
     let failing = answer.verdicts.iter().filter(|verdict| !verdict.passes());
-    let measured = (answer.objective()?, answer.standard_error());
-    Some((measured, failing.count()))
+    let failing = failing.count();
+    Some(Fitness {
+        objective: (answer.objective()?, answer.standard_error()),
+        failing,
+        violation: if failing > 0 {
+            answer.largest_violation()
+        } else {
+            0.0
+        },
+    })
 }
 
 #[cfg(test)]
@@ -110,5 +135,18 @@ mod tests {
         assert!(!is_tie((0.1, 0.003), (0.1055, 0.004), accuracy));
         assert!(is_tie((2e-28, 0.0), (9e-27, 0.0), accuracy));
         assert!(is_tie((0.25, 0.0), (0.25 * (1.0 + 1e-12), 0.0), 0.0));
+    }
+
+    #[test]
+    fn what_fails_by_more_is_not_as_good_whatever_its_objective() {
+        let of = |failing, violation| Fitness {
+            objective: (0.1, 0.001),
+            failing,
+            violation,
+        };
+        assert!(of(1, 1.504).is_as_good_as(&of(1, 1.5), 0.005));
+        assert!(!of(1, 2.0).is_as_good_as(&of(1, 1.5), 0.005));
+        assert!(!of(2, 1.5).is_as_good_as(&of(1, 1.5), 0.005));
+        assert!(of(0, 0.0).is_as_good_as(&of(0, 0.0), 0.0));
     }
 }

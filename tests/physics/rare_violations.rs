@@ -158,3 +158,33 @@ fn settings_that_share_their_shots_get_the_figures_that_each_gets_alone() {
     let none = evaluate_each_adaptively(&scenario, &[], &validation);
     assert!(none.is_empty());
 }
+
+/// A jet along a keyway's wall that one shot in 60 000 misses, at a cost of 500 mean shots. J is the mean of three times 2^22 shots,
+/// known to 3e-6.
+#[test]
+fn standard_errors_tell_of_events_that_most_samples_do_not_hold() {
+    const J: f64 = 0.004_352_8;
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/groove-wall.yaml");
+    let (mut scenario, _) = Scenario::load(std::path::Path::new(file)).expect("it is sound");
+    let settings = Settings {
+        incidence: 24.032_673_922_5_f64.to_radians(),
+        azimuth: 1.258_070_446_2_f64.to_radians(),
+        standoff: 0.030_048_143_7,
+        speed: 64.395_073_387,
+        aim_along: -0.002_161_453_1,
+        aim_across: 0.000_122_486_4,
+        aim_above: 0.000_463_865,
+        ..spread_settings(&scenario, 0, 1)[0]
+    };
+    let settings = Setting::StaticFriction.with(&settings, 0.082_956_344_6);
+    let mut apart: Vec<f64> = (1..=24)
+        .map(|seed| {
+            scenario.problem.seed = seed;
+            let validation = ValidationSample::new(&scenario.problem, purpose::ANSWERS, 1 << 14);
+            let found = evaluate_adaptively(&scenario, &settings, &validation);
+            (found.terms.total() - J).abs() / found.standard_error
+        })
+        .collect();
+    apart.sort_by(f64::total_cmp);
+    assert!(apart[21] < 2.0 && apart[23] < 4.0, "{apart:?}");
+}
