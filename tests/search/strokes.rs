@@ -41,7 +41,9 @@ fn one_setting_held_along_the_keyway_passes_wherever_the_nozzle_stands() {
     let record = solved(&study);
     assert!(record.passes() && record.status == StatusRecord::Converged);
     let stroke = record.stroke.as_ref().unwrap();
-    assert_eq!((stroke.segments.len(), stroke.stations.len()), (1, 9));
+    assert_eq!(stroke.segments.len(), 1);
+    // Those of the file, and what verdicts want between them.
+    assert!(stroke.stations.len() >= 9);
     let settings = settings(&study, &record, 0);
     // Places between the stations, too.
     for millimetres in [5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0] {

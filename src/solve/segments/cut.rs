@@ -107,27 +107,47 @@ impl<'a> Cut<'a> {
         part
     }
 
-    /// Settings rounded to what is worth programming.
-    fn rounded(&self, settings: &Settings) -> Settings {
-        let mut rounded = *settings;
+    /// Settings rounded to what is worth programming, up or down, the nearest ones first.
+    fn roundings(&self, settings: &Settings) -> Vec<Settings> {
         let is_held = |setting: &Setting| match &self.stroke.hold {
             Hold::All => true,
             Hold::Some { settings, .. } => settings.contains(setting),
         };
+        // Each with how far it is from the settings, in steps.
+        let mut all = vec![(0.0, *settings)];
         for &(setting, step) in &self.stroke.steps {
-            if let Some(range) = self.scenario.problem.ranges.range(setting)
-                && !is_held(&setting)
-            {
-                let value = (setting.of(settings) / step).round() * step;
-                rounded = setting.with(&rounded, value.clamp(range.min, range.max));
-            }
+            let range = self.scenario.problem.ranges.range(setting);
+            let Some(range) = range.filter(|_| !is_held(&setting)) else {
+                continue;
+            };
+            let exact = setting.of(settings) / step;
+            let both = |(far, rounded): (f64, Settings)| {
+                [exact.floor(), exact.ceil()].map(|steps| {
+                    let value = (steps * step).clamp(range.min, range.max);
+                    (far + (steps - exact).abs(), setting.with(&rounded, value))
+                })
+            };
+            all = all.into_iter().flat_map(both).collect();
         }
-        rounded
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.into_iter().map(|(_, rounded)| rounded).collect()
+    }
+
+    /// The nearest rounded settings that fit wherever these do: the clearance may be used up to the last bit.
+    fn rounded(&self, settings: &Settings, stations: &[Station]) -> Settings {
+        let fits = |settings: &Settings, station: &Station| {
+            infeasibility(&station.scenario, settings).is_none()
+        };
+        let open: Vec<&Station> = stations.iter().filter(|it| fits(settings, it)).collect();
+        let all = self.roundings(settings);
+        let fitting = all
+            .iter()
+            .find(|it| open.iter().all(|station| fits(it, station)));
+        *fitting.or(all.first()).unwrap_or(settings)
     }
 
     /// Where settings pass.
     pub fn candidate(&self, settings: &Settings, status: Status) -> Candidate {
-        let settings = self.rounded(settings);
         let mut places: Vec<f64> = self.ends.clone();
         places.extend(self.scenario.stations.iter().map(|it| it.place));
         places.sort_by(f64::total_cmp);
@@ -136,6 +156,7 @@ impl<'a> Cut<'a> {
             .par_iter()
             .map(|&place| self.asked.station(place))
             .collect();
+        let settings = self.rounded(settings, &stations);
         let violations = violations_at(&stations, &self.asked, &settings);
         let in_cell = |cell: usize| {
             let pairs = places.iter().zip(&violations);
@@ -153,9 +174,12 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// Searches a part of the stroke.
-    fn search(&mut self, from: usize, to: usize) -> Vec<Candidate> {
-        let part = self.part(from, to);
+    /// Searches a part of the stroke, for one contact alone if that is told.
+    fn search(&mut self, from: usize, to: usize, contact: Option<usize>) -> Vec<Candidate> {
+        let mut part = self.part(from, to);
+        if let Some(contact) = contact {
+            part.problem.ranges.contact = vec![contact];
+        }
         // What they come to is verified at all places of the cells.
         let control = Control {
             most_shots: self.control.most_shots.min(FEW_SHOTS),
@@ -176,13 +200,47 @@ impl<'a> Cut<'a> {
             .collect()
     }
 
-    /// Searches the cells at which no candidate passes.
+    fn holds_contact(&self) -> bool {
+        matches!(self.stroke.hold, Hold::Some { contact: true, .. })
+    }
+
+    /// Searches the cells at which no candidate passes; where the contact is held all along, none of the contact that passes at most
+    /// of them: what another one passes is of no use to it.
     pub fn fill(&mut self, candidates: &mut Vec<Candidate>) {
-        for cell in 0..self.cells() {
-            let is_passed = candidates.iter().any(|candidate| candidate.passes(cell));
-            if !is_passed && !self.control.is_stopped() {
-                candidates.extend(self.search(cell, cell + 1));
-            }
+        let mut searched: Vec<(usize, Option<usize>)> = Vec::new();
+        while !self.control.is_stopped() {
+            let contacts: Vec<Option<usize>> = match self.holds_contact() {
+                true => self
+                    .scenario
+                    .problem
+                    .ranges
+                    .contact
+                    .iter()
+                    .copied()
+                    .map(Some)
+                    .collect(),
+                false => vec![None],
+            };
+            let open = |contact: &Option<usize>| -> Vec<usize> {
+                let counts =
+                    |it: &&Candidate| contact.is_none_or(|it_is| it.settings.contact == it_is);
+                let passed =
+                    |cell: usize| candidates.iter().filter(counts).any(|it| it.passes(cell));
+                (0..self.cells()).filter(|&cell| !passed(cell)).collect()
+            };
+            let least = contacts
+                .iter()
+                .map(|it| (*it, open(it)))
+                .min_by_key(|(_, open)| open.len());
+            let Some((contact, open)) = least else { break };
+            let Some(&cell) = open
+                .iter()
+                .find(|&&cell| !searched.contains(&(cell, contact)))
+            else {
+                break;
+            };
+            searched.push((cell, contact));
+            candidates.extend(self.search(cell, cell + 1, contact));
         }
     }
 
@@ -194,10 +252,9 @@ impl<'a> Cut<'a> {
             (failing(candidates, &pieces) == 0).then_some(pieces)
         });
         let fewest = with_one.min_by_key(Vec::len);
-        let holds_contact = matches!(self.stroke.hold, Hold::Some { contact: true, .. });
         fewest
             .or_else(|| {
-                holds_contact
+                self.holds_contact()
                     .then(|| self.least_failing(candidates))
                     .flatten()
             })
@@ -251,7 +308,7 @@ impl<'a> Cut<'a> {
         let mut index = 0;
         while index + 1 < pieces.len() && !self.control.is_stopped() {
             let (from, to) = (pieces[index].from, pieces[index + 1].to);
-            let found = self.search(from, to);
+            let found = self.search(from, to, None);
             let fits = |it: &Candidate| it.reach(from) >= to;
             candidates.extend(found.iter().cloned());
             if found.iter().any(fits) {
