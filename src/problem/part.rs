@@ -163,7 +163,15 @@ pub struct Segment {
     pub surface: String,
 }
 
+/// Two ends nearer than this are one, m.
+pub(in crate::problem) const SAME_POINT: f64 = 1e-9;
+
 impl Segment {
+    /// Whether another one begins where this one ends.
+    pub fn leads_to(&self, next: &Self) -> bool {
+        (next.from - self.to).norm() <= SAME_POINT
+    }
+
     /// Its form.
     pub fn curve(&self) -> Curve {
         let line = Curve::Line {
@@ -218,6 +226,13 @@ pub struct Target {
     /// A direction that points to the nozzle's side of the target; the surface's own
     /// orientation decides when absent.
     pub facing: Option<Vector3<f64>>,
+}
+
+impl Part {
+    /// Whether it is cut out of one of these parts, and stands nowhere itself.
+    pub fn is_cut_out(&self, parts: &[Self]) -> bool {
+        parts.iter().any(|other| other.cut.contains(&self.name))
+    }
 }
 
 impl Shape {

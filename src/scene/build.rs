@@ -1,8 +1,9 @@
 //! From the parts of a problem to a scene.
 
-use super::cut;
+use super::cut::{self, Body};
+use super::geometry::Geometry;
 use super::mesh_file::MOST_TRIANGLES;
-use super::part::Geometry;
+use super::part::BuiltPart;
 use super::{SLACK, Scene, Walls};
 use crate::printable;
 use crate::problem::fault::Fault;
@@ -16,25 +17,28 @@ impl Scene {
     /// Every mesh that cannot be read, every cut that cannot be made, and the part from which on there are too many triangles.
     pub fn build(parts: &[Part], walls: Walls) -> Result<Self, Vec<Fault>> {
         let mut faults = Vec::new();
+        let (cut_out, standing): (Vec<&Part>, Vec<&Part>) =
+            parts.iter().partition(|part| part.is_cut_out(parts));
+        let mut tools: Vec<Body> = Vec::new();
+        for part in cut_out {
+            match Body::of(part, walls) {
+                Ok(body) => tools.push(body),
+                Err(fault) => faults.push(*fault),
+            }
+        }
         let mut geometries: Vec<Geometry> = Vec::new();
         let mut triangles = 0;
-        let standing = || parts.iter().filter(|part| !is_cut_out(part, parts));
-        for part in standing() {
+        for part in &standing {
             let geometry = match part.cut.is_empty() {
                 true => Geometry::of(part, walls).map_err(|fault| vec![*fault]),
-                false => cut::geometry(part, &cut_out_of(part, parts), walls),
+                false => cut::geometry(part, &tools, walls),
             };
             match geometry {
                 Ok(geometry) => {
                     triangles += geometry.mesh.triangles.len();
                     geometries.push(geometry);
                 }
-                // What is cut out of two parts may be told of twice.
-                Err(found) => found.into_iter().for_each(|fault| {
-                    if !faults.contains(&fault) {
-                        faults.push(fault);
-                    }
-                }),
+                Err(found) => faults.extend(found),
             }
             if let Some(fault) = too_many_triangles(part, triangles) {
                 faults.push(fault);
@@ -53,11 +57,16 @@ impl Scene {
             size,
             reach: size.min(longest_side(&geometries)),
         };
-        for (part, mut geometry) in standing().zip(geometries) {
+        for (part, mut geometry) in standing.into_iter().zip(geometries) {
             let base = scene.number_surfaces(part, &mut geometry);
             scene.warnings.append(&mut geometry.warnings);
             scene.files.append(&mut geometry.files);
-            scene.parts.push(geometry.build(part, base, SLACK * size));
+            let built = BuiltPart::new(geometry, part, base, SLACK * size);
+            scene.parts.push(built);
+        }
+        for tool in tools {
+            scene.warnings.extend(tool.warnings);
+            scene.files.extend(tool.file);
         }
         Ok(scene)
     }
@@ -88,19 +97,6 @@ impl Scene {
         }
         0
     }
-}
-
-/// Whether a part is cut out of another one, and stands nowhere itself.
-fn is_cut_out(part: &Part, parts: &[Part]) -> bool {
-    parts.iter().any(|other| other.cut.contains(&part.name))
-}
-
-/// What is cut out of a part.
-fn cut_out_of<'a>(part: &Part, parts: &'a [Part]) -> Vec<&'a Part> {
-    let tools = part.cut.iter();
-    tools
-        .filter_map(|name| parts.iter().find(|part| part.name == *name))
-        .collect()
 }
 
 /// The fault of a part with which the scene gets too large.

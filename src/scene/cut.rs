@@ -11,8 +11,9 @@ use manifold_rust::types::{BooleanEngine, Error, MeshGL64, OpType};
 use nalgebra::Point3;
 
 use super::Walls;
+use super::geometry::{Geometry, MeshSource};
 use super::mesh::{Mesh, Shells, Triangle};
-use super::part::{FreeSide, Geometry};
+use super::part::FreeSide;
 use crate::problem::fault::Fault;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::part::Part;
@@ -21,60 +22,102 @@ use solid::Solid;
 /// Volumes below this share of the smaller body are rounding.
 const NOTHING: f64 = 1e-9;
 
-/// The geometry of a part that others are cut out of, with full names of surfaces.
+/// A part as a body whose triangles carry the numbers of their surfaces.
+pub(super) struct Body<'a> {
+    part: &'a Part,
+    manifold: Manifold,
+    /// By which its triangles are known after a cut.
+    id: u32,
+    /// Names of its surfaces.
+    surfaces: Vec<String>,
+    /// Whether free space is inside.
+    is_hollow: bool,
+    /// What the reader of a mesh file noticed.
+    pub warnings: Vec<String>,
+    pub file: Option<MeshSource>,
+}
+
+impl<'a> Body<'a> {
+    /// # Errors
+    /// A part that encloses no volume, and a mesh that cannot be read.
+    pub fn of(part: &'a Part, walls: Walls) -> Result<Self, Box<Fault>> {
+        let solid = Solid::of(part, walls)?;
+        let coordinates = solid.mesh.vertices.iter();
+        let triangles = solid.mesh.triangles.iter();
+        let corners = triangles.clone().flat_map(|it| it.corners);
+        let id = Manifold::reserve_ids(1);
+        let manifold = Manifold::from_mesh_gl64(&MeshGL64 {
+            num_prop: 3,
+            vert_properties: coordinates.flat_map(|it| [it.x, it.y, it.z]).collect(),
+            tri_verts: corners.map(u64::from).collect(),
+            face_id: triangles.map(|it| u64::from(it.surface)).collect(),
+            run_original_id: vec![id],
+            ..MeshGL64::default()
+        });
+        if manifold.status() != Error::NoError {
+            let why = "does not close: some of its triangles meet in more than pairs";
+            return Err(Box::new(solid::without_volume(part, why)));
+        }
+        Ok(Self {
+            part,
+            manifold,
+            id,
+            surfaces: solid.mesh.surfaces,
+            is_hollow: solid.is_hollow,
+            warnings: solid.warnings,
+            file: solid.file,
+        })
+    }
+}
+
+/// The geometry of a part that some of the tools are cut out of, with full names of surfaces.
 ///
 /// # Errors
-/// Every part that encloses no volume or cannot be read, every one that does not reach the other, and a cut that leaves nothing.
-pub(super) fn geometry(part: &Part, tools: &[&Part], walls: Walls) -> Result<Geometry, Vec<Fault>> {
-    let mut labels = Labels::default();
-    let ready = |labels: &mut Labels, part: &Part| {
-        let solid = Solid::of(part, walls)?;
-        Ok((labels.manifold(&solid, part)?, solid))
-    };
-    let (mut found, body) = ready(&mut labels, part).map_err(|fault: Box<Fault>| vec![*fault])?;
+/// A part that encloses no volume or cannot be read, every tool that does not reach it, and a cut that leaves nothing.
+pub(super) fn geometry(part: &Part, tools: &[Body], walls: Walls) -> Result<Geometry, Vec<Fault>> {
+    let body = Body::of(part, walls).map_err(|fault| vec![*fault])?;
     let is_hollow = body.is_hollow;
-    let (mut warnings, mut files) = (body.warnings, Vec::from_iter(body.file));
+    let mut found = body.manifold.clone();
+    let mut taken: Vec<&Body> = Vec::new();
+    let mut has_file = body.file.is_some();
     let mut faults = Vec::new();
-    for (index, tool) in tools.iter().enumerate() {
-        let taken = match ready(&mut labels, tool) {
-            Ok((taken, solid)) => {
-                warnings.extend(solid.warnings);
-                files.extend(solid.file);
-                taken
-            }
-            Err(fault) => {
-                faults.push(*fault);
-                continue;
-            }
+    for (index, name) in part.cut.iter().enumerate() {
+        // One that cannot be read has a fault of its own.
+        let Some(tool) = tools.iter().find(|tool| tool.part.name == *name) else {
+            continue;
         };
+        has_file |= tool.file.is_some();
         let opened = Opened {
             body: &found,
-            taken: &taken,
+            taken: &tool.manifold,
             is_hollow,
             // Only meshes from files may run through themselves, which takes a hundred times as long to sort out.
-            engine: match files.is_empty() {
-                true => BooleanEngine::Exact,
-                false => BooleanEngine::Auto,
+            engine: match has_file {
+                true => BooleanEngine::Auto,
+                false => BooleanEngine::Exact,
             },
         };
         match opened.cut() {
-            Ok(left) => found = left,
+            Ok(left) => {
+                found = left;
+                taken.push(tool);
+            }
             Err(failure) => {
                 let key = format!("scene.{}.cut[{index}]", part.name);
-                faults.push(failure.fault(key, part, tool));
+                faults.push(failure.fault(key, part, tool.part));
             }
         }
     }
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mesh = labels.mesh(&found, is_hollow);
+    let mesh = named(&found, std::iter::once(&body).chain(taken), is_hollow);
     // A hollow is no body, whatever wraps round it.
     let shells = (!is_hollow && mesh.is_closed()).then(|| Shells::of(&mesh));
     Ok(Geometry {
         mesh,
-        warnings,
-        files,
+        warnings: body.warnings,
+        files: Vec::from_iter(body.file),
         free: FreeSide::Front,
         shells,
         prism: None,
@@ -83,67 +126,34 @@ pub(super) fn geometry(part: &Part, tools: &[&Part], walls: Walls) -> Result<Geo
     })
 }
 
-/// Names of surfaces by the numbers that their triangles carry through a cut; none for lids.
-#[derive(Default)]
-struct Labels(Vec<Option<String>>);
-
-impl Labels {
-    /// A body whose triangles carry numbers, which from then on stand for its surfaces.
-    fn manifold(&mut self, solid: &Solid, part: &Part) -> Result<Manifold, Box<Fault>> {
-        let first = self.0.len() as u64;
-        let names = solid.mesh.surfaces.iter();
-        self.0.extend(names.map(|name| {
-            let is_lid = name == solid::LID;
-            (!is_lid).then(|| format!("{}.{name}", part.name))
-        }));
-        let coordinates = solid.mesh.vertices.iter();
-        let triangles = &solid.mesh.triangles;
-        let made = Manifold::from_mesh_gl64(&MeshGL64 {
-            num_prop: 3,
-            vert_properties: coordinates
-                .flat_map(|corner| [corner.x, corner.y, corner.z])
-                .collect(),
-            tri_verts: triangles
-                .iter()
-                .flat_map(|it| it.corners.map(u64::from))
-                .collect(),
-            face_id: triangles
-                .iter()
-                .map(|it| first + u64::from(it.surface))
-                .collect(),
-            ..MeshGL64::default()
-        });
-        match made.status() {
-            Error::NoError => Ok(made),
-            _ => Err(Box::new(solid::without_volume(
-                part,
-                "does not close: some of its triangles meet in more than pairs",
-            ))),
-        }
-    }
-
-    /// The triangles of a body that are not lids; fronts look into it where it is hollow.
-    fn mesh(&self, body: &Manifold, is_hollow: bool) -> Mesh {
-        let found = body.get_mesh_gl64(-1);
-        let stride = found.num_prop as usize;
-        let corners = found.vert_properties.chunks_exact(stride);
-        let mut mesh = Mesh {
-            vertices: corners.map(|it| Point3::new(it[0], it[1], it[2])).collect(),
-            ..Mesh::default()
-        };
-        for (corners, &label) in found.tri_verts.chunks_exact(3).zip(&found.face_id) {
-            let Some(Some(name)) = self.0.get(label as usize) else {
+/// The triangles of what is left of some bodies but for lids, with full names, body by body; fronts look into it where it is hollow.
+fn named<'a>(left: &Manifold, bodies: impl Iterator<Item = &'a Body<'a>>, is_hollow: bool) -> Mesh {
+    let left = left.get_mesh_gl64(-1);
+    let corners = left.vert_properties.chunks_exact(left.num_prop as usize);
+    let mut mesh = Mesh {
+        vertices: corners.map(|it| Point3::new(it[0], it[1], it[2])).collect(),
+        ..Mesh::default()
+    };
+    // Runs of triangles, each from one body.
+    let runs = || left.run_index.windows(2).zip(&left.run_original_id);
+    for body in bodies {
+        let own = runs().filter(|(_, id)| **id == body.id);
+        for triangle in own.flat_map(|(run, _)| run[0] / 3..run[1] / 3) {
+            let triangle = triangle as usize;
+            let name = &body.surfaces[left.face_id[triangle] as usize];
+            if name == solid::LID {
                 continue;
-            };
+            }
+            let corners = &left.tri_verts[3 * triangle..3 * triangle + 3];
             let [a, b, c] = [corners[0], corners[1], corners[2]].map(|corner| corner as u32);
-            let surface = mesh.surface_index(name);
+            let surface = mesh.surface_index(&format!("{}.{name}", body.part.name));
             mesh.triangles.push(Triangle {
                 corners: if is_hollow { [a, c, b] } else { [a, b, c] },
                 surface,
             });
         }
-        mesh
     }
+    mesh
 }
 
 /// A body and what is cut out of it.
@@ -193,17 +203,16 @@ impl Opened<'_> {
 impl Failure {
     fn fault(&self, key: String, part: &Part, tool: &Part) -> Fault {
         let (part, tool) = (&part.name, &tool.name);
+        let misses = |how: &str| {
+            (
+                FaultCode::CutMisses,
+                format!("`{tool}` {how} `{part}`, and cuts nothing out of it"),
+                format!("`{tool}` through the surface of `{part}`: see its `place` and its length"),
+            )
+        };
         let (code, message, expected) = match self {
-            Self::Apart => (
-                FaultCode::CutMisses,
-                format!("`{tool}` does not reach `{part}`, and cuts nothing out of it"),
-                format!("`{tool}` through the surface of `{part}`: see its `place` and its length"),
-            ),
-            Self::Within => (
-                FaultCode::CutMisses,
-                format!("`{tool}` lies in the free space of `{part}`, and cuts nothing out of it"),
-                format!("`{tool}` through the surface of `{part}`: see its `place` and its length"),
-            ),
+            Self::Apart => misses("does not reach"),
+            Self::Within => misses("lies in the free space of"),
             Self::Nothing => (
                 FaultCode::CutLeavesNothing,
                 format!("`{tool}` holds all of `{part}`, and leaves nothing of it"),

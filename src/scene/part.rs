@@ -1,24 +1,18 @@
 //! One part of the scene, ready for rays and distances.
 
-use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use nalgebra::{Point3, Vector3};
 
-use super::Walls;
-use super::mesh::{Mesh, Shell, Shells};
-use super::mesh_file;
+use super::geometry::Geometry;
+use super::mesh::{Shell, Shells};
 use super::parry_rays::ParryMesh;
 use super::prism::Prism;
-use super::profile::Profile;
 use super::ray::{Crossing, HitId, Ray};
 use super::rays::{Hits, Rays};
-use super::tessellate;
 use super::triangle_mesh::{self, TriangleMesh};
 use super::winding::Winding;
-use crate::printable;
-use crate::problem::fault::Fault;
-use crate::problem::part::{Ends, Part, Place, RoundSide, Shape};
+use crate::problem::part::{Part, Place, Shape};
 
 /// A part whose surfaces have their indices in the scene.
 #[derive(Clone)]
@@ -27,7 +21,7 @@ pub(super) struct BuiltPart {
     pub facets: TriangleMesh,
     /// Which side of its surfaces is free.
     pub free: FreeSide,
-    /// Its shells, where it is a mesh from a file.
+    /// Its shells, where it is a mesh from a file, or a body of facets.
     shells: Option<Shells>,
     /// The triangles of shells that wrap round a volume; made when first asked for.
     solid: OnceLock<Option<Winding>>,
@@ -65,167 +59,20 @@ pub(super) enum FreeSide {
     Either,
 }
 
-/// A mesh file as it was read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MeshSource {
-    /// Where it was read from.
-    pub path: PathBuf,
-    /// SHA-256 of its bytes, in hexadecimal digits.
-    pub sha256: String,
-}
-
-/// The geometry of a part before its surfaces are numbered.
-pub(super) struct Geometry {
-    /// Its triangles in their place.
-    pub mesh: Mesh,
-    /// What the reader of a mesh file noticed.
-    pub warnings: Vec<String>,
-    /// The files that it was read from.
-    pub files: Vec<MeshSource>,
-    pub free: FreeSide,
-    pub shells: Option<Shells>,
-    pub prism: Option<(Profile, f64, Ends)>,
-    /// Whether parry casts the rays.
-    pub by_parry: bool,
-    /// Whether its surfaces have the names of their parts before their own.
-    pub has_full_names: bool,
-}
-
-/// A mesh from a file, where the file has it.
-pub(super) struct LoadedMesh {
-    pub mesh: Mesh,
-    pub shells: Shells,
-    pub warnings: Vec<String>,
-    pub file: MeshSource,
-}
-
-impl LoadedMesh {
-    /// The mesh of a part that is one.
-    ///
-    /// # Errors
-    /// What is wrong with the file, or with a region of it.
-    pub fn of(part: &Part) -> Result<Self, Box<Fault>> {
-        let Shape::Mesh {
-            file,
-            metres_per_unit,
-            regions,
-        } = &part.shape
-        else {
-            unreachable!("asked of meshes alone");
-        };
-        let loaded = mesh_file::load(file, *metres_per_unit, regions).map_err(|fault| {
-            let key = match fault.defect.region() {
-                Some(region) => format!("scene.{}.regions.{region}", part.name),
-                None => format!("scene.{}.mesh", part.name),
-            };
-            Fault::at_key(fault.defect.rule(), key, fault.to_string())
-        })?;
-        let named = |warning| {
-            let text = format!("part `{}`: {warning}", part.name);
-            printable::line(&text).into_owned()
-        };
-        Ok(Self {
-            mesh: loaded.mesh,
-            shells: loaded.shells,
-            warnings: loaded.warnings.iter().map(named).collect(),
-            file: MeshSource {
-                path: file.path.clone(),
-                sha256: loaded.sha256,
-            },
-        })
-    }
-}
-
-/// Facets of revolved and of cut parts turn by this angle: shots meet them, as these walls have no exact form.
-pub(super) const REVOLVED_CHORD_ANGLE: f64 = std::f64::consts::PI / 360.0;
-
-/// Chords that stand in for arcs where distances are measured turn by at most this angle.
-const CHORD_ANGLE: f64 = std::f64::consts::PI / 180.0;
-
-impl Geometry {
-    /// The geometry of a part in its place.
-    pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
-        let mut warnings = Vec::new();
-        let mut files = Vec::new();
-        let mut shells = None;
-        let free = match &part.shape {
-            Shape::Bore { free, .. } => match free {
-                None => FreeSide::Round,
-                Some(RoundSide::Inside) => FreeSide::Front,
-                Some(RoundSide::Outside) => FreeSide::Back,
-            },
-            _ => FreeSide::Front,
-        };
-        let (mesh, prism) = match &part.shape {
-            Shape::Keyway(keyway) => prismatic(
-                Profile::keyway(keyway),
-                keyway.length,
-                Ends::default(),
-                walls,
-            ),
-            Shape::Bore {
-                diameter,
-                length,
-                ends,
-                ..
-            } => prismatic(Profile::circle(*diameter), *length, *ends, walls),
-            Shape::Extrude {
-                profile,
-                length,
-                ends,
-            } => prismatic(Profile::outline(profile), *length, *ends, walls),
-            Shape::Revolve { profile } => {
-                let chord_angle = match walls {
-                    Walls::Exact => REVOLVED_CHORD_ANGLE,
-                    Walls::TriangleMesh { chord_angle } | Walls::Parry { chord_angle } => {
-                        chord_angle
-                    }
-                };
-                let mesh = tessellate::revolved(&Profile::outline(profile), chord_angle);
-                // A body of its own tells what is inside it.
-                shells = mesh.is_closed().then(|| Shells::of(&mesh));
-                (mesh, None)
-            }
-            Shape::Box { min, max } => (tessellate::block(*min, *max), None),
-            Shape::Mesh { .. } => {
-                let loaded = LoadedMesh::of(part)?;
-                warnings = loaded.warnings;
-                shells = Some(loaded.shells);
-                files.push(loaded.file);
-                (loaded.mesh, None)
-            }
-        };
-        let is_open = |shells: &Shells| shells.list.iter().all(|shell| !shell.is_solid);
-        let free = if shells.as_ref().is_some_and(is_open) {
-            FreeSide::Either
-        } else {
-            free
-        };
-        Ok(Self {
-            mesh: tessellate::placed(mesh, &part.place),
-            free,
-            shells,
-            warnings,
-            files,
-            prism,
-            by_parry: matches!(walls, Walls::Parry { .. }),
-            has_full_names: false,
-        })
-    }
-
-    /// Makes it ready for rays.
-    pub fn build(self, part: &Part, surface_base: u32, slack: f64) -> BuiltPart {
-        let facets = TriangleMesh::new(self.mesh, surface_base, slack);
+impl BuiltPart {
+    /// Makes a geometry ready for rays; `surface_base` is what is added to the surfaces of its triangles.
+    pub fn new(geometry: Geometry, part: &Part, surface_base: u32, slack: f64) -> Self {
+        let facets = TriangleMesh::new(geometry.mesh, surface_base, slack);
         // A part without a triangle is refused before.
-        let parry = self
+        let parry = geometry
             .by_parry
             .then(|| ParryMesh::new(&facets).ok())
             .flatten();
-        BuiltPart {
+        Self {
             facets,
             parry,
-            free: self.free,
-            shells: self.shells,
+            free: geometry.free,
+            shells: geometry.shells,
             solid: OnceLock::new(),
             anchor: None,
             on_nozzle: part.on_nozzle,
@@ -240,29 +87,12 @@ impl Geometry {
                 }),
                 _ => None,
             },
-            prism: self.prism.map(|(profile, length, ends)| {
+            prism: geometry.prism.map(|(profile, length, ends)| {
                 Prism::new(&profile, length, ends, &part.place, surface_base, slack)
             }),
         }
     }
-}
 
-type Built = (Mesh, Option<(Profile, f64, Ends)>);
-
-fn prismatic(profile: Profile, length: f64, ends: Ends, walls: Walls) -> Built {
-    match walls {
-        Walls::Exact => {
-            let mesh = tessellate::prism(&profile, length, ends, CHORD_ANGLE);
-            (mesh, Some((profile, length, ends)))
-        }
-        Walls::TriangleMesh { chord_angle } | Walls::Parry { chord_angle } => {
-            let mesh = tessellate::prism(&profile, length, ends, chord_angle);
-            (mesh, None)
-        }
-    }
-}
-
-impl BuiltPart {
     /// Whether a point is inside its material, where its shape tells: a block, or the solid bodies of a
     /// mesh. A cavity is what a target inside makes of them.
     pub fn holds(&self, point: &Point3<f64>) -> bool {

@@ -6,6 +6,7 @@
 //! pieces together.
 
 mod cut;
+mod rounding;
 
 use super::answer::Answer;
 use super::{Solution, Status, Wanted, best_of, solve};

@@ -1,4 +1,4 @@
-//! By how much facets turn rebounds from the smooth surface that they stand for.
+//! By how much facets turn rebounds from the smooth surface that they approximate.
 
 use std::f64::consts::PI;
 
@@ -36,10 +36,9 @@ pub(super) fn note(scenario: &Scenario) -> Option<Note> {
 
 /// Whether shots meet triangles where a part is round.
 fn has_facets(part: &Part, scenario: &Scenario) -> bool {
-    let mut others = scenario.problem.parts.iter();
     matches!(part.shape, Shape::Mesh { .. } | Shape::Revolve { .. })
         || !part.cut.is_empty()
-        || others.any(|other| other.cut.contains(&part.name))
+        || part.is_cut_out(&scenario.problem.parts)
 }
 
 /// The triangles of a part in their place; corners at the same point are one.

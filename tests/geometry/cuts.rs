@@ -1,7 +1,6 @@
 //! Parts that others are cut out of.
 
 use std::f64::consts::FRAC_PI_2;
-use std::path::Path;
 
 use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Samples, Stream};
@@ -9,21 +8,7 @@ use peenpose::objective::{Tally, Terms};
 use peenpose::problem::setting::Settings;
 use peenpose::study::Study;
 
-/// Peening with shot of 0.6 mm; the parts and the target are still missing.
-const REST: &str = "\
-shot: { radius: 0.3 mm, density: 7000 kg/m3 }
-jet: { exit_diameter: 1 mm, divergence: 3 deg, speed_spread: 5 % }
-contacts: { dry: { mu_s: 0.3, mu_d: 0.27, restitution: 0.5 } }
-settings: { incidence: [50 deg, 85 deg], azimuth: 0 deg, standoff: 4 mm, speed: 30 m/s }
-goals:
-  normal_impulse: { target: 30 uN.s, tolerance: 15 %, share: 50 % }
-  rebound: { allow: 3 uN.s, share: 50 % }
-";
-
-fn study(scene: &str, target: &str) -> Study {
-    let text = format!("format: 1\nlengths_in: mm\nscene:\n{scene}target: {target}\n{REST}");
-    Study::from_text(&text, Path::new("cut.yaml")).unwrap_or_else(|rejection| panic!("{rejection}"))
-}
+use crate::small_shot::study;
 
 /// J of settings, term by term.
 fn terms(study: &Study, settings: &Settings) -> Terms {

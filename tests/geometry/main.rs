@@ -16,3 +16,4 @@ mod open_mesh;
 mod parry_rays;
 mod revolved;
 mod scene_faults;
+mod small_shot;

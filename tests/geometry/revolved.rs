@@ -1,41 +1,26 @@
 //! Parts turned about an axis.
 
-use std::path::Path;
-
 use peenpose::feasibility::infeasibility;
 use peenpose::jet::{Samples, Stream};
 use peenpose::objective::Tally;
 use peenpose::problem::setting::Settings;
 use peenpose::study::Study;
 
-/// A hole of 12 mm, as a part goes into the scene.
-const TEXT: &str = "\
-format: 1
-lengths_in: mm
-scene:
-  hole: PART
-target: { surface: hole.wall, within: { min: [-3, 5, 10], max: [3, 7, 20] }, along: [0, 0, 1] }
-shot: { radius: 0.3 mm, density: 7000 kg/m3 }
-jet: { exit_diameter: 1 mm, divergence: 3 deg, speed_spread: 5 % }
-contacts: { dry: { mu_s: 0.3, mu_d: 0.27, restitution: 0.5 } }
-settings: { incidence: [50 deg, 85 deg], azimuth: 0 deg, standoff: 4 mm, speed: 30 m/s }
-goals:
-  normal_impulse: { target: 30 uN.s, tolerance: 15 %, share: 50 % }
-  rebound: { allow: 3 uN.s, share: 50 % }
-";
+use crate::small_shot::study;
 
-fn study(part: &str) -> Study {
-    let text = TEXT.replace("PART", part);
-    Study::from_text(&text, Path::new("hole.yaml"))
-        .unwrap_or_else(|rejection| panic!("{rejection}"))
+/// A hole of 12 mm, as a part goes into the scene.
+fn hole(part: &str) -> Study {
+    let target =
+        "{ surface: hole.wall, within: { min: [-3, 5, 10], max: [3, 7, 20] }, along: [0, 0, 1] }";
+    study(&format!("  hole: {part}\n"), target)
 }
 
 /// A straight line turned about the axis is a bore: the same objective with exact walls and with facets, whose corners lie on it.
 #[test]
 fn a_line_turned_about_the_axis_is_a_bore() {
-    let bore = study("{ bore: { diameter: 12 mm, length: 48 mm } }");
+    let bore = hole("{ bore: { diameter: 12 mm, length: 48 mm } }");
     let turned =
-        study("{ revolve: { profile: [ { from: [6, 0], line_to: [6, 48], surface: wall } ] } }");
+        hole("{ revolve: { profile: [ { from: [6, 0], line_to: [6, 48], surface: wall } ] } }");
     let shots = Samples::new(bore.problem(), Stream::Search, 1 << 17);
     for degrees in [55.0_f64, 70.0] {
         let mut settings = bore.problem().ranges.middle();
@@ -57,7 +42,7 @@ fn a_line_turned_about_the_axis_is_a_bore() {
 #[test]
 fn a_closed_outline_is_a_body() {
     // A ring round the z axis, from 6 to 20 mm: outwards at its top, inwards along its bore.
-    let ring = study(
+    let ring = hole(
         "{ revolve: { profile: [ { from: [6, 0], line_to: [6, 48], surface: wall }, { line_to: [20, 48], surface: top }, \
          { line_to: [20, 0], surface: outside }, { line_to: [6, 0], surface: bottom } ] } }",
     );

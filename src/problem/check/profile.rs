@@ -12,11 +12,8 @@ use crate::problem::field::Field;
 use crate::problem::file::Pair;
 use crate::problem::file::scene::SegmentEntry;
 use crate::problem::name::{NAME_EXPECTED, is_name};
-use crate::problem::part::{Ends, Segment};
+use crate::problem::part::{Ends, SAME_POINT, Segment};
 use crossing::cross;
-
-/// Two ends nearer than this are one, m.
-const SAME_POINT: f64 = 1e-9;
 
 /// Checks each segment, and that the outlines are closed where an end is.
 ///
@@ -213,7 +210,7 @@ fn no_outline_crosses_itself(scope: &Scope<'_>, profile: &[Segment]) -> bool {
     let mut plain = true;
     let mut start = 0;
     for (index, curve) in curves.iter().enumerate() {
-        if index > 0 && !goes_on(&profile[index - 1], &profile[index]) {
+        if index > 0 && !profile[index - 1].leads_to(&profile[index]) {
             start = index;
         }
         let mut earlier = curves[start..index].iter().zip(start..);
@@ -232,18 +229,13 @@ fn no_outline_crosses_itself(scope: &Scope<'_>, profile: &[Segment]) -> bool {
     plain
 }
 
-/// Whether the second segment begins where the first one ends.
-fn goes_on(first: &Segment, second: &Segment) -> bool {
-    (second.from - first.to).norm() <= SAME_POINT
-}
-
 /// Whether every outline ends where it began.
 fn outlines_close(scope: &Scope<'_>, profile: &[Segment]) -> bool {
     let mut closed = true;
     let mut start = profile.first().map(|segment| segment.from);
     for (index, segment) in profile.iter().enumerate() {
         let next = profile.get(index + 1);
-        if next.is_some_and(|next| goes_on(segment, next)) {
+        if next.is_some_and(|next| segment.leads_to(next)) {
             continue;
         }
         if start.is_some_and(|start| (start - segment.to).norm() > SAME_POINT) {

@@ -2,8 +2,8 @@
 
 use nalgebra::Point2;
 
+use super::super::geometry::LoadedMesh;
 use super::super::mesh::Mesh;
-use super::super::part::{LoadedMesh, REVOLVED_CHORD_ANGLE};
 use super::super::profile::Profile;
 use super::super::{MeshSource, Walls, tessellate};
 use crate::problem::fault::Fault;
@@ -37,10 +37,7 @@ impl Solid {
     /// # Errors
     /// A part that encloses no volume, and a mesh that cannot be read.
     pub fn of(part: &Part, walls: Walls) -> Result<Self, Box<Fault>> {
-        let chord_angle = match walls {
-            Walls::Exact => REVOLVED_CHORD_ANGLE,
-            Walls::TriangleMesh { chord_angle } | Walls::Parry { chord_angle } => chord_angle,
-        };
+        let chord_angle = walls.facet_angle();
         let along_z = |profile: &Profile, length: f64, ends: Ends| {
             let names = [(ends.near_closed, "near"), (ends.far_closed, "far")];
             let caps = names.map(|(is_closed, name)| Some(if is_closed { name } else { LID }));
@@ -82,15 +79,19 @@ impl Solid {
                 tessellate::revolved(&Profile::outline(&closed), chord_angle)
             }
             Shape::Box { min, max } => tessellate::block(*min, *max),
-            Shape::Mesh { .. } => {
+            Shape::Mesh {
+                file: source,
+                metres_per_unit,
+                regions,
+            } => {
                 let LoadedMesh {
                     mesh,
                     shells,
                     warnings: noticed,
-                    file: source,
-                } = LoadedMesh::of(part)?;
+                    file: read,
+                } = LoadedMesh::of(&part.name, source, *metres_per_unit, regions)?;
                 warnings = noticed;
-                file = Some(source);
+                file = Some(read);
                 if shells.list.iter().any(|shell| !shell.is_solid) {
                     return Err(refused("is a mesh with holes"));
                 }
@@ -121,17 +122,13 @@ impl Solid {
 fn is_one_loop(profile: &[Segment]) -> bool {
     is_one_line(profile) && {
         let ends = profile.first().zip(profile.last());
-        ends.is_some_and(|(first, last)| are_same(first.from, last.to))
+        ends.is_some_and(|(first, last)| last.leads_to(first))
     }
 }
 
 fn is_one_line(profile: &[Segment]) -> bool {
     let mut pairs = profile.windows(2);
-    pairs.all(|pair| are_same(pair[0].to, pair[1].from))
-}
-
-fn are_same(a: Point2<f64>, b: Point2<f64>) -> bool {
-    (a - b).norm() <= 1e-9 * a.coords.norm().max(b.coords.norm())
+    pairs.all(|pair| pair[0].leads_to(&pair[1]))
 }
 
 /// An outline about an axis with discs across its two ends.
@@ -145,7 +142,7 @@ fn with_lids(profile: &[Segment]) -> Option<Vec<Segment>> {
     };
     let on_axis = |at: Point2<f64>| Point2::new(0.0, at.y);
     let discs = [disc(on_axis(first), first), disc(last, on_axis(last))];
-    let [before, after] = discs.map(|it| (!are_same(it.from, it.to)).then_some(it));
+    let [before, after] = discs.map(|it| (!it.leads_to(&it)).then_some(it));
     let all = before
         .into_iter()
         .chain(profile.iter().cloned())

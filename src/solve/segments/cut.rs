@@ -3,11 +3,12 @@
 use rayon::prelude::*;
 
 use super::Segment;
+use super::rounding::{fits, rounded};
 use crate::control::Control;
 use crate::evaluate::evaluate_adaptively;
 use crate::feasibility::infeasibility;
 use crate::jet::{ValidationSample, purpose};
-use crate::problem::setting::{Range, Setting, Settings};
+use crate::problem::setting::{Range, Settings};
 use crate::problem::stroke::{Hold, Stroke};
 use crate::scenario::{Scenario, Station};
 use crate::solve::answer::Answer;
@@ -107,45 +108,6 @@ impl<'a> Cut<'a> {
         part
     }
 
-    /// Settings rounded to what is worth programming, up or down, the nearest ones first.
-    fn roundings(&self, settings: &Settings) -> Vec<Settings> {
-        let is_held = |setting: &Setting| match &self.stroke.hold {
-            Hold::All => true,
-            Hold::Some { settings, .. } => settings.contains(setting),
-        };
-        // Each with how far it is from the settings, in steps.
-        let mut all = vec![(0.0, *settings)];
-        for &(setting, step) in &self.stroke.steps {
-            let range = self.scenario.problem.ranges.range(setting);
-            let Some(range) = range.filter(|_| !is_held(&setting)) else {
-                continue;
-            };
-            let exact = setting.of(settings) / step;
-            let both = |(far, rounded): (f64, Settings)| {
-                [exact.floor(), exact.ceil()].map(|steps| {
-                    let value = (steps * step).clamp(range.min, range.max);
-                    (far + (steps - exact).abs(), setting.with(&rounded, value))
-                })
-            };
-            all = all.into_iter().flat_map(both).collect();
-        }
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        all.into_iter().map(|(_, rounded)| rounded).collect()
-    }
-
-    /// The nearest rounded settings that fit wherever these do: the clearance may be used up to the last bit.
-    fn rounded(&self, settings: &Settings, stations: &[Station]) -> Settings {
-        let fits = |settings: &Settings, station: &Station| {
-            infeasibility(&station.scenario, settings).is_none()
-        };
-        let open: Vec<&Station> = stations.iter().filter(|it| fits(settings, it)).collect();
-        let all = self.roundings(settings);
-        let fitting = all
-            .iter()
-            .find(|it| open.iter().all(|station| fits(it, station)));
-        *fitting.or(all.first()).unwrap_or(settings)
-    }
-
     /// Where settings pass.
     pub fn candidate(&self, settings: &Settings, status: Status) -> Candidate {
         let mut places: Vec<f64> = self.ends.clone();
@@ -156,7 +118,12 @@ impl<'a> Cut<'a> {
             .par_iter()
             .map(|&place| self.asked.station(place))
             .collect();
-        let settings = self.rounded(settings, &stations);
+        let settings = rounded(
+            settings,
+            self.stroke,
+            &self.scenario.problem.ranges,
+            &stations,
+        );
         let violations = violations_at(&stations, &self.asked, &settings);
         let in_cell = |cell: usize| {
             let pairs = places.iter().zip(&violations);
@@ -204,39 +171,34 @@ impl<'a> Cut<'a> {
         matches!(self.stroke.hold, Hold::Some { contact: true, .. })
     }
 
+    /// The contacts of which one has to pass at all cells: each alone where it is held all along, else any.
+    fn choices(&self) -> Vec<Option<usize>> {
+        let contacts = self.scenario.problem.ranges.contact.iter();
+        match self.holds_contact() {
+            true => contacts.copied().map(Some).collect(),
+            false => vec![None],
+        }
+    }
+
+    /// The cells at which no candidate passes, of a contact if one is told.
+    fn open_cells(&self, candidates: &[Candidate], contact: Option<usize>) -> Vec<usize> {
+        let counts = |it: &Candidate| contact.is_none_or(|contact| it.settings.contact == contact);
+        let is_passed = |cell| candidates.iter().any(|it| counts(it) && it.passes(cell));
+        (0..self.cells()).filter(|&cell| !is_passed(cell)).collect()
+    }
+
     /// Searches the cells at which no candidate passes; where the contact is held all along, none of the contact that passes at most
     /// of them: what another one passes is of no use to it.
     pub fn fill(&mut self, candidates: &mut Vec<Candidate>) {
         let mut searched: Vec<(usize, Option<usize>)> = Vec::new();
         while !self.control.is_stopped() {
-            let contacts: Vec<Option<usize>> = match self.holds_contact() {
-                true => self
-                    .scenario
-                    .problem
-                    .ranges
-                    .contact
-                    .iter()
-                    .copied()
-                    .map(Some)
-                    .collect(),
-                false => vec![None],
+            let choices = self.choices().into_iter();
+            let open = choices.map(|contact| (contact, self.open_cells(candidates, contact)));
+            let Some((contact, open)) = open.min_by_key(|(_, open)| open.len()) else {
+                break;
             };
-            let open = |contact: &Option<usize>| -> Vec<usize> {
-                let counts =
-                    |it: &&Candidate| contact.is_none_or(|it_is| it.settings.contact == it_is);
-                let passed =
-                    |cell: usize| candidates.iter().filter(counts).any(|it| it.passes(cell));
-                (0..self.cells()).filter(|&cell| !passed(cell)).collect()
-            };
-            let least = contacts
-                .iter()
-                .map(|it| (*it, open(it)))
-                .min_by_key(|(_, open)| open.len());
-            let Some((contact, open)) = least else { break };
-            let Some(&cell) = open
-                .iter()
-                .find(|&&cell| !searched.contains(&(cell, contact)))
-            else {
+            let is_new = |cell: &usize| !searched.contains(&(*cell, contact));
+            let Some(cell) = open.into_iter().find(is_new) else {
                 break;
             };
             searched.push((cell, contact));
@@ -357,8 +319,8 @@ const FEW_SHOTS: usize = 1024;
 
 /// The largest violation of some settings at each station.
 fn violations_at(stations: &[Station], asked: &Scenario, settings: &Settings) -> Vec<f64> {
-    let fits = |station: &Station| infeasibility(&station.scenario, settings).is_none();
-    let fitting: Vec<bool> = stations.par_iter().map(fits).collect();
+    let fitting = stations.par_iter().map(|it| fits(it, settings));
+    let fitting: Vec<bool> = fitting.collect();
     let pairs = stations.iter().zip(&fitting);
     let open: Vec<&Station> = pairs
         .filter_map(|(station, fits)| fits.then_some(station))
