@@ -17,6 +17,8 @@ mod split;
 mod tolerances;
 mod walk;
 
+use std::array::from_fn;
+
 use wide::f32x8;
 
 use super::lanes::{larger, smaller};
@@ -85,7 +87,8 @@ impl Node {
     /// a closer look, where that costs less than to visit what it may rule out.
     #[inline(always)]
     fn entered<B: QueryShape>(&self, looks: Looks, ray: &FlatRay<B>, limit: f32) -> Entered {
-        let sides = ray.sides.map(|axes| axes.map(|side| &self.sides[side]));
+        let sides: [[&[f32; WIDTH]; 3]; 2] =
+            from_fn(|end| from_fn(|axis| &self.sides[ray.sides[end][axis]]));
         let distance = |end: usize, axis: usize, lane: usize| {
             let origin = ray.origins[if B::HAS_SIZE { end } else { 0 }][axis];
             (sides[end][axis][lane] - origin) * ray.inverse[end][axis]

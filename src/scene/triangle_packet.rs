@@ -1,5 +1,7 @@
 //! Four triangles side by side, met with a ray at once.
 
+use std::array::from_fn;
+
 use nalgebra::{Point3, Vector3};
 use wide::f64x4;
 
@@ -60,20 +62,21 @@ impl TrianglePacket {
     /// The corner points of one of them.
     #[inline(always)]
     pub fn corners(&self, lane: usize) -> [Point3<f64>; 3] {
-        [0, 1, 2].map(|corner| self.corner(lane, corner))
+        from_fn(|corner| self.corner(lane, corner))
     }
 
     /// A corner point of one of them.
     #[inline(always)]
     pub fn corner(&self, lane: usize, corner: usize) -> Point3<f64> {
-        let [x, y, z] = self.corners.each_ref().map(|corners| corners[corner][lane]);
-        Point3::new(x, y, z)
+        Point3::from(from_fn::<f64, 3, _>(|axis| {
+            self.corners[axis][corner][lane]
+        }))
     }
 
     /// The unit normal on the front of one of them.
     #[inline(always)]
     pub fn normal(&self, lane: usize) -> Vector3<f64> {
-        self.normals.each_ref().map(|row| row[lane]).into()
+        from_fn::<f64, 3, _>(|axis| self.normals[axis][lane]).into()
     }
 
     /// How a ray's line passes each triangle, and a bit for each that it
@@ -82,8 +85,9 @@ impl TrianglePacket {
     /// The same arithmetic as [`Weights`] of a single triangle, to the last bit.
     #[inline(always)]
     pub fn weights(&self, shear: &Shear, doubt: f64) -> (WideWeights, u32) {
-        let [xs, ys, zs] = shear.axes.map(|axis| &self.corners[axis]);
-        let origin = shear.axes.map(|axis| shear.origin[axis]);
+        let [x, y, z] = shear.axes;
+        let [xs, ys, zs] = [&self.corners[x], &self.corners[y], &self.corners[z]];
+        let origin = [shear.origin[x], shear.origin[y], shear.origin[z]];
         let mut all = WideWeights([[0.0; LANES]; 5]);
         let (mut inside, mut bound) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
@@ -123,12 +127,9 @@ impl TrianglePacket {
     pub fn started_on(&self, ray: &Ray, front: bool, slack: f64, grazing: f64) -> (u32, u32) {
         let (mut heights, mut behind) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
-            let normal = self.normals.each_ref().map(|row| row[lane]);
-            let first = self.corners.each_ref().map(|corners| corners[0][lane]);
-            let [x, y, z] = [0, 1, 2].map(|axis| (ray.origin[axis] - first[axis]) * normal[axis]);
-            let height = x + y + z;
-            let [x, y, z] = [0, 1, 2].map(|axis| ray.direction[axis] * normal[axis]);
-            let approach = x + y + z;
+            let normal = self.normal(lane);
+            let height = (ray.origin - self.corner(lane, 0)).dot(&normal);
+            let approach = ray.direction.dot(&normal);
             let leaves = (approach.abs() > grazing) & ((approach < 0.0) != front);
             let ahead = if approach > 0.0 { height } else { -height };
             heights[lane] = height.abs();
@@ -178,7 +179,7 @@ pub(super) struct WideWeights([[f64; LANES]; 5]);
 impl WideWeights {
     #[inline(always)]
     pub fn of(&self, lane: usize) -> Weights {
-        let [u, v, w, determinant, depth] = self.0.each_ref().map(|row| row[lane]);
+        let [u, v, w, determinant, depth] = from_fn(|row| self.0[row][lane]);
         Weights {
             u,
             v,

@@ -121,7 +121,7 @@ impl Evaluated {
 }
 
 /// More rays than any pose takes, and few enough for those of any number of poses to be added.
-const MOST_RAYS: usize = u32::MAX as usize;
+const MOST_RAYS: usize = 1 << 31;
 
 /// Evaluates settings on common random numbers.
 pub struct Evaluator<'a> {

@@ -277,7 +277,7 @@ fn the_nozzle_of_a_stroke_travels() {
     let folder = tempfile::tempdir().unwrap();
     let record = crate::strokes::illustrated("keyway-stroke.yaml");
     let mut browser = Browser::start(&[]);
-    browser.open(&written(folder.path(), &record));
+    browser.open(&written(folder.path(), record));
     browser.wait_for("document.documentElement.classList.contains('has-view')");
     let place = "document.querySelector('[data-motion=place]').value";
     let shown = "document.querySelector('[data-motion=shown]').textContent";

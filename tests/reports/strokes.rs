@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use peenpose::control::Control;
 use peenpose::record::{Record, StrokeRecord, WaypointRecord};
@@ -9,23 +10,34 @@ use peenpose::report::export::{Format, export};
 use peenpose::report::program;
 use peenpose::study::{Extras, Study};
 
-fn stroke(name: &str) -> StrokeRecord {
-    solved(name, Extras::default()).stroke.unwrap()
-}
-
-fn solved(name: &str, extras: Extras) -> Record {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
-    let study = Study::open(&folder.join(name)).unwrap_or_else(|rejection| panic!("{rejection}"));
-    study.solve(extras, &Control::default()).unwrap()
-}
+/// The answers to two problems with their pictures, solved once for all tests.
+static ILLUSTRATED: [LazyLock<Record>; 2] = [
+    LazyLock::new(|| solved("keyway-stroke.yaml")),
+    LazyLock::new(|| solved("bore-turning.yaml")),
+];
 
 /// A stroke with its pictures.
-pub fn illustrated(name: &str) -> Record {
+pub fn illustrated(name: &str) -> &'static Record {
+    let [keyway, bore] = &ILLUSTRATED;
+    match name {
+        "keyway-stroke.yaml" => keyway,
+        "bore-turning.yaml" => bore,
+        _ => panic!("{name} is not among them"),
+    }
+}
+
+fn stroke(name: &str) -> &'static StrokeRecord {
+    illustrated(name).stroke.as_ref().expect("it is a stroke")
+}
+
+fn solved(name: &str) -> Record {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
+    let study = Study::open(&folder.join(name)).unwrap_or_else(|rejection| panic!("{rejection}"));
     let extras = Extras {
         evidence: true,
         ..Extras::default()
     };
-    solved(name, extras)
+    study.solve(extras, &Control::default()).unwrap()
 }
 
 /// mm, and the ends of unit vectors.
@@ -44,7 +56,7 @@ fn programs_are_read_back_as_the_stroke_is() {
         let stroke = stroke(name);
         assert_eq!(stroke.passes, Some(1));
         for exposure in [1, 4] {
-            let files = program::files(&stroke, exposure).unwrap();
+            let files = program::files(stroke, exposure).unwrap();
             let text = |ending: &str| {
                 let file = files.iter().find(|(name, _)| name.ends_with(ending));
                 String::from_utf8(file.unwrap().1.clone()).unwrap()
@@ -95,7 +107,7 @@ fn programs_are_read_back_as_the_stroke_is() {
 #[test]
 fn the_tip_is_as_fast_as_the_spot_on_a_straight_stroke() {
     let stroke = stroke("keyway-stroke.yaml");
-    let files = program::files(&stroke, 1).unwrap();
+    let files = program::files(stroke, 1).unwrap();
     let (_, csv) = files.iter().find(|(name, _)| name == "stroke.csv").unwrap();
     for row in std::str::from_utf8(csv).unwrap().lines().skip(2) {
         let feeds: Vec<f64> = row
@@ -113,7 +125,7 @@ fn the_nozzle_travels_in_gltf() {
     for name in ["keyway-stroke.yaml", "bore-turning.yaml"] {
         let record = illustrated(name);
         let stroke = record.stroke.as_ref().unwrap();
-        let bytes = export(&record, Format::Glb).unwrap().unwrap();
+        let bytes = export(record, Format::Glb).unwrap().unwrap();
         let file = gltf::Gltf::from_slice(&bytes).expect("a valid file");
         let blob = file.blob.as_ref().unwrap();
         let animation = file.animations().next().unwrap();

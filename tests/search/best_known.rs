@@ -55,8 +55,8 @@ const FAILURES: usize = 1;
 const SHOTS_OF_EXCESSES: usize = 1 << 18;
 
 #[test]
-#[ignore = "takes a minute"]
-fn searches_find_the_best_settings_known() {
+#[ignore = "takes some minutes"]
+fn searches_by_the_hundred_find_the_best_settings_known() {
     let table = Known::read().unwrap();
     let is_quick =
         |variant: &Variant| variant.shots == Shots::Spheres && variant.file != "keyway-blind.yaml";

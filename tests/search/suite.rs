@@ -67,14 +67,14 @@ fn searches_find_regions_apart_thin_bands_and_what_passes() {
         "groove-wall-deep",
         "gear-root-unit-weights",
     ];
-    let (all, good, untrue) = searched(&names, 101..103);
-    assert_eq!(all, 10);
-    assert!(good >= 9 && untrue <= 1, "{good} of {all}, {untrue} untrue");
+    let (all, good, untrue) = searched(&names, 101..102);
+    assert_eq!(all, names.len());
+    assert!(good >= 4 && untrue == 0, "{good} of {all}, {untrue} untrue");
 }
 
 #[test]
 #[ignore = "takes some minutes"]
-fn searches_of_the_whole_suite_are_good_or_say_that_they_may_not_be() {
+fn searches_by_the_hundred_are_good_or_say_that_they_may_not_be() {
     let problems = problems();
     let names: Vec<&str> = problems.iter().map(|(name, _)| name.as_str()).collect();
     let quick: Vec<&str> = names

@@ -1,5 +1,7 @@
 //! Rays in the coordinates of the boxes.
 
+use std::array::from_fn;
+
 use nalgebra::{Point3, Vector3};
 
 use super::query_shape::QueryShape;
@@ -85,9 +87,8 @@ impl Frame {
             skipped = entry(&origin, &inverse, self.reach() + grown);
             origin += ray.direction * skipped;
         }
-        let axes = [0, 1, 2];
         let moved = |by: f64| {
-            axes.map(|axis| {
+            from_fn(|axis| {
                 let forwards = if inverse[axis] < 0.0 { -by } else { by };
                 let moved = if B::HAS_SIZE {
                     origin[axis] + forwards
@@ -98,14 +99,17 @@ impl Frame {
             })
         };
         // The sign of the inverse, which tells -0 from 0.
-        let backwards = axes.map(|axis| usize::from(inverse[axis] < 0.0));
+        let backwards: [usize; 3] = from_fn(|axis| usize::from(inverse[axis] < 0.0));
+        let inverse_times = |factor: f64| from_fn(|axis| (inverse[axis] * factor) as f32);
         FlatRay {
             origins: [moved(grown), moved(-grown)],
-            inverse: [1.0 - TOLERANCES.side, 1.0 + TOLERANCES.side]
-                .map(|factor| axes.map(|axis| (inverse[axis] * factor) as f32)),
+            inverse: [
+                inverse_times(1.0 - TOLERANCES.side),
+                inverse_times(1.0 + TOLERANCES.side),
+            ],
             sides: [
-                axes.map(|axis| axis + 3 * backwards[axis]),
-                axes.map(|axis| axis + 3 - 3 * backwards[axis]),
+                from_fn(|axis| axis + 3 * backwards[axis]),
+                from_fn(|axis| axis + 3 - 3 * backwards[axis]),
             ],
             body: B::new(&origin, &ray.direction, grown, skipped),
             skipped,

@@ -5,6 +5,8 @@
 //! are narrower than the sphere. In double precision, so that what it touches first is among the
 //! nearest of them.
 
+use std::array::from_fn;
+
 use nalgebra::Vector3;
 use wide::f32x8;
 
@@ -60,7 +62,7 @@ impl Sphere {
     fn come_to_bars(&self, node: &Node, bars: &Bars, entries: &mut [f64; WIDTH]) {
         for (lane, entry) in entries.iter_mut().enumerate() {
             let apart = |slabs| self.apart(node, slabs, lane, *entry);
-            let [one, other] = bars.sides.each_ref().map(apart);
+            let [one, other] = [apart(&bars.sides[0]), apart(&bars.sides[1])];
             let beside = if one.distance < other.distance {
                 other
             } else {
@@ -130,7 +132,7 @@ impl QueryShape for Sphere {
         entries: &mut [f32; WIDTH],
         exits: &[f32; WIDTH],
     ) -> u32 {
-        let mut exact = entries.map(f64::from);
+        let mut exact: [f64; WIDTH] = from_fn(|lane| f64::from(entries[lane]));
         if let Some(slabs) = looks.slabs {
             self.come_to_slabs(node, slabs, &mut exact);
         }
@@ -140,7 +142,7 @@ impl QueryShape for Sphere {
             }
         }
         self.come_to_boxes(node, &mut exact);
-        *entries = exact.map(|entry| (entry * TOLERANCES.shorter) as f32);
+        *entries = from_fn(|lane| (exact[lane] * TOLERANCES.shorter) as f32);
         f32x8::new(*entries)
             .simd_le(f32x8::new(*exits))
             .to_bitmask()

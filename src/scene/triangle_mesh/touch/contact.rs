@@ -209,8 +209,8 @@ impl<'a> Sphere<'a> {
         let distance = gap / sinking;
         let centre = self.ray.origin + self.ray.direction * distance;
         let margin = self.margin(sinking);
-        let inside = [0, 1, 2].map(|edge| (centre - plate.corners[edge]).dot(&plate.inward[edge]));
-        let [a, b, c] = inside;
+        let inside = |edge: usize| (centre - plate.corners[edge]).dot(&plate.inward[edge]);
+        let [a, b, c] = [inside(0), inside(1), inside(2)];
         let least = a.min(b).min(c);
         let touches = least >= -margin
             && (least >= 0.0
