@@ -1,8 +1,8 @@
-//! Which of the two that a shop rarely knows, restitution and friction, moves the result most.
+//! Which of those that a shop rarely knows moves the result most: restitution, friction, or where the walls are.
 //!
-//! Where a problem gives them a tolerance, each shot of an answer draws its own. Here one of them at
-//! a time is held at the end of its range for all shots, while the other one keeps its nominal
-//! value; all ends are evaluated on the same shots.
+//! Where a problem gives restitution or friction a tolerance, each shot of an answer draws its own. Here one of
+//! them at a time is held at the end of its range for all shots, while the others keep their nominal
+//! values; all ends are evaluated on the same shots. Walls from CAD are as far off as their mesh file says.
 
 use rayon::prelude::*;
 
@@ -21,14 +21,16 @@ pub enum Quantity {
     Restitution,
     /// Both friction coefficients at once.
     Friction,
+    /// How far the walls are on the near side of the triangles that stand for them, m.
+    Walls,
 }
 
 /// What the nominal contact does, and what the ends of each range do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknowns {
-    /// With both at their nominal values.
+    /// With all at their nominal values.
     pub nominal: Outcome,
-    /// One for each that has a tolerance.
+    /// One for each that is not known exactly.
     pub ranges: Vec<UnknownRange>,
 }
 
@@ -37,7 +39,7 @@ pub struct Unknowns {
 pub struct UnknownRange {
     /// Which one.
     pub quantity: Quantity,
-    /// Restitution or static friction at the target at the ends and what that does, low end first.
+    /// Restitution or static friction at the target, or where walls are, at the ends and what that does, low end first.
     pub ends: [(f64, Outcome); 2],
 }
 
@@ -59,19 +61,21 @@ pub struct Outcome {
 const SHOTS: usize = 4096;
 
 impl Unknowns {
-    /// Evaluates both ends of what has a tolerance; `None` where nothing has one.
+    /// Evaluates both ends of what is not known exactly; `None` where everything is.
     pub fn of(scenario: &Scenario, settings: &Settings) -> Option<Self> {
         let tolerance = &scenario.problem.tolerance;
         let given = [
             (Quantity::Restitution, tolerance.restitution),
             (Quantity::Friction, tolerance.friction),
+            (Quantity::Walls, scenario.scene.deflection()),
         ];
         if given.iter().all(|(_, half_width)| *half_width == 0.0) {
             return None;
         }
         let shots = common_shots(scenario);
         let effect = |quantity: Quantity, change: f64| {
-            Outcome::of(scenario, settings, &with(&shots, quantity, change))
+            let settings = quantity.changed_settings(settings, change);
+            Outcome::of(scenario, &settings, &with(&shots, quantity, change))
         };
         let ranges = given
             .into_iter()
@@ -92,12 +96,24 @@ impl Unknowns {
 }
 
 impl Quantity {
-    /// Its value at the target after a change: absolute for restitution, relative for friction.
+    /// Its value at the target after a change: relative for friction, absolute for the others.
     fn at_target(self, scenario: &Scenario, settings: &Settings, change: f64) -> f64 {
         let contact = scenario.contact_on(scenario.target.surface, settings);
         match self {
             Self::Restitution => contact.restitution.shifted(change).reference(),
             Self::Friction => contact.static_friction * (1.0 + change),
+            Self::Walls => change,
+        }
+    }
+
+    /// Settings that are to walls in their place what these are to walls that are nearer.
+    fn changed_settings(self, settings: &Settings, change: f64) -> Settings {
+        match self {
+            Self::Restitution | Self::Friction => *settings,
+            Self::Walls => Settings {
+                aim_above: settings.aim_above - change,
+                ..*settings
+            },
         }
     }
 
@@ -112,6 +128,7 @@ impl Quantity {
                 friction: 1.0 + change,
                 ..*sample
             },
+            Self::Walls => *sample,
         }
     }
 }

@@ -25,8 +25,11 @@ def _percent(accuracy: float | str | None) -> str | None:
     return accuracy if accuracy is None or isinstance(accuracy, str) else f"{Decimal(repr(accuracy)) * 100} %"
 
 
-def _settings(settings: Settings | Mapping[str, float | str]) -> dict[str, float | str]:
-    return settings.to_dict() if isinstance(settings, Settings) else dict(settings)
+def _settings(settings: Settings | Mapping[str, float | str]) -> tuple[dict[str, float | str], bool]:
+    # Those of an answer keep their friction only where the problem leaves it open.
+    if isinstance(settings, Settings):
+        return settings.to_dict(), True
+    return dict(settings), False
 
 
 def solve(
@@ -67,8 +70,9 @@ def evaluate(
     evidence: bool = True,
 ) -> Result:
     """What given settings do. Numbers are in deg, m and m/s; texts have a unit (`{"speed": "9.4 m/s"}`)."""
+    given, answered = _settings(settings)
     record = problem_of(problem).study.evaluate(
-        _settings(settings), shots=shots, seed=seed, threads=threads, evidence=evidence
+        given, answered=answered, shots=shots, seed=seed, threads=threads, evidence=evidence
     )
     return Result(record)
 
@@ -87,8 +91,17 @@ def map(
     threads: int | None = None,
 ) -> Map:
     """A term of J over two settings round `settings`; the ranges are those of the file unless given, in deg, m and m/s."""
+    given, answered = _settings(settings)
     text = problem_of(problem).study.map(
-        _settings(settings), x, y, x_range=x_range, y_range=y_range, steps=steps, shots=shots, threads=threads
+        given,
+        x,
+        y,
+        answered=answered,
+        x_range=x_range,
+        y_range=y_range,
+        steps=steps,
+        shots=shots,
+        threads=threads,
     )
     return Map.from_json(text, term)
 

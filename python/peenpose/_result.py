@@ -48,7 +48,7 @@ class Settings:
 
     def to_dict(self) -> dict[str, float | str]:
         """As `evaluate` takes them."""
-        return {key: value for key, value in self.__dict__.items() if key != "mu_s"}
+        return dict(self.__dict__)
 
 
 @dataclass(frozen=True)

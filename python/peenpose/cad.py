@@ -103,6 +103,7 @@ def convert(step: PathLike, out: PathLike, *, deflection: float | str = "0.01 mm
     lines = [
         f"# {step.name}, made by peenpose-cad",
         f"# lengths in mm; triangles within {gap:g} mm of the surface and {angle:g} deg of each other",
+        f"# deflection {gap:g}",
     ]
     faces: list[Face] = []
     first = 1

@@ -6,6 +6,7 @@ use peenpose::control::Control;
 use peenpose::map::Axis;
 use peenpose::problem::change::{Change, Template};
 use peenpose::problem::fault::{Fault, Span};
+use peenpose::problem::given::{Incomplete, PartialSettings};
 use peenpose::problem::setting::{Range, Setting, Settings};
 use peenpose::problem::warning::Warning;
 use peenpose::problem::{self, given};
@@ -131,17 +132,19 @@ impl Study {
         Ok(Record { record })
     }
 
-    #[pyo3(signature = (settings, *, shots=16384, seed=None, threads=None, evidence=true))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    #[pyo3(signature = (settings, *, answered=false, shots=16384, seed=None, threads=None, evidence=true))]
     fn evaluate(
         &self,
         py: Python<'_>,
         settings: &Bound<'_, PyDict>,
+        answered: bool,
         shots: usize,
         seed: Option<u64>,
         threads: Option<usize>,
         evidence: bool,
     ) -> PyResult<Record> {
-        let settings = self.settings(settings, &[])?;
+        let settings = self.settings(settings, &[], answered)?;
         let study = match seed {
             Some(seed) => self.study.clone().with_seed(seed),
             None => self.study.clone(),
@@ -157,7 +160,7 @@ impl Study {
     }
 
     /// A map as JSON.
-    #[pyo3(signature = (settings, x, y, *, x_range=None, y_range=None, steps=41, shots=1024, threads=None))]
+    #[pyo3(signature = (settings, x, y, *, answered=false, x_range=None, y_range=None, steps=41, shots=1024, threads=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn map(
         &self,
@@ -165,6 +168,7 @@ impl Study {
         settings: &Bound<'_, PyDict>,
         x: &str,
         y: &str,
+        answered: bool,
         x_range: Option<[f64; 2]>,
         y_range: Option<[f64; 2]>,
         steps: usize,
@@ -193,7 +197,7 @@ impl Study {
         if x == y {
             return Err(PyValueError::new_err("both axes are the same setting"));
         }
-        let settings = self.settings(settings, &[axes[0].setting, axes[1].setting])?;
+        let settings = self.settings(settings, &[axes[0].setting, axes[1].setting], answered)?;
         let map = watched(py, threads, None, |control| {
             self.study.map(&settings, axes, shots.max(1), control)
         })?;
@@ -202,68 +206,64 @@ impl Study {
     }
 }
 
+/// A number in deg, m or m/s, or a text with a unit; SI.
+fn given_value(setting: Setting, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let name = setting.name();
+    if let Ok(text) = value.extract::<&str>() {
+        return given::setting(setting, text)
+            .map_err(|fault| PyValueError::new_err(format!("{name}: {fault}")));
+    }
+    let number: f64 = value.extract().map_err(|_| {
+        PyTypeError::new_err(format!("{name}: expected a number or a text with a unit"))
+    })?;
+    Ok(setting.from_record(number))
+}
+
 fn setting_named(name: &str) -> PyResult<Setting> {
     given::setting_named(name).map_err(PyValueError::new_err)
 }
 
 impl Study {
     /// Settings by their names: numbers in deg, m and m/s, or texts with a unit; those that the file holds need not be
-    /// given, nor those in `varied`.
-    pub fn settings(&self, given: &Bound<'_, PyDict>, varied: &[Setting]) -> PyResult<Settings> {
+    /// given, nor those in `varied`. Where they are those of an answer, friction is that of a contact that holds its own.
+    pub fn settings(
+        &self,
+        given: &Bound<'_, PyDict>,
+        varied: &[Setting],
+        answered: bool,
+    ) -> PyResult<Settings> {
         let problem = self.study.problem();
-        let mut settings = problem.ranges.middle();
-        let mut missing: Vec<&str> = Vec::new();
-        for setting in Setting::ALL {
-            let value = given.get_item(setting.name())?;
-            let range = problem.ranges.range(setting);
-            match value {
-                Some(value) => {
-                    let value = if let Ok(text) = value.extract::<&str>() {
-                        given::setting(setting, text).map_err(|fault| {
-                            PyValueError::new_err(format!("{}: {fault}", setting.name()))
-                        })?
-                    } else {
-                        let number: f64 = value.extract().map_err(|_| {
-                            PyTypeError::new_err(format!(
-                                "{}: expected a number or a text with a unit",
-                                setting.name()
-                            ))
-                        })?;
-                        setting.from_record(number)
-                    };
-                    settings = setting.with(&settings, value);
-                }
-                None if setting == Setting::StaticFriction || varied.contains(&setting) => {}
-                None => match range.filter(|range| range.is_held()) {
-                    Some(range) => settings = setting.with(&settings, range.min),
-                    None => missing.push(setting.name()),
-                },
-            }
-        }
-        for name in given.keys() {
+        let mut known = PartialSettings::held(problem);
+        for (name, value) in given.iter() {
             let name: String = name.extract()?;
-            if name != "contact" {
-                setting_named(&name)?;
+            if name == "contact" {
+                known
+                    .set_contact(&value.extract::<String>()?)
+                    .map_err(PyValueError::new_err)?;
+                continue;
+            }
+            let setting = setting_named(&name)?;
+            let value = given_value(setting, &value)?;
+            match setting {
+                Setting::StaticFriction if answered => _ = known.fill(setting, value),
+                _ => known.set(setting, value),
             }
         }
-        match (given.get_item("contact")?, &problem.ranges.contact[..]) {
-            (Some(name), _) => settings.contact = self.contact_named(&name.extract::<String>()?)?,
-            (None, [only]) => settings.contact = *only,
-            (None, _) => missing.push("contact"),
+        let middle = problem.ranges.middle();
+        for setting in varied {
+            known.fill(*setting, setting.of(&middle));
         }
-        if !missing.is_empty() {
-            return Err(PyValueError::new_err(format!(
-                "the file leaves {} open; say what they are",
-                missing.join(", ")
-            )));
-        }
-        let friction = problem.contacts[settings.contact].static_friction;
-        if given.get_item(Setting::StaticFriction.name())?.is_none() {
-            settings.static_friction = friction.min;
-        }
-        given::check(&settings)
-            .map(|()| settings)
-            .map_err(PyValueError::new_err)
+        known.complete().map_err(|incomplete| {
+            PyValueError::new_err(match incomplete {
+                Incomplete::Missing(names) => {
+                    format!("the file leaves {} open; say what they are", names.join(", "))
+                }
+                Incomplete::FrictionIsHeld(contact) => {
+                    format!("mu_s: the friction of contact `{contact}` is fixed in the file, not a range")
+                }
+                Incomplete::Wrong(fault) => fault,
+            })
+        })
     }
 
     /// The index of a contact.

@@ -15,7 +15,7 @@ import pytest
 
 import peenpose as p
 
-CASES = 60
+CASES = 24
 SHARDS = 6
 
 

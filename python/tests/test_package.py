@@ -99,6 +99,28 @@ def test_a_given_setting_is_evaluated(problems: Path, program: Path) -> None:
             p.evaluate(file, wrong)
 
 
+def test_friction_that_was_chosen_is_kept(problems: Path) -> None:
+    held = p.Problem.load(problems / "plate.yaml")
+    left_open = held.with_("contacts", {"mu_030": {"mu_s": [0.05, 0.2], "mu_d_ratio": 0.9, "restitution": 0.25}})
+    found = p.solve(left_open, accuracy=0.1, evidence=False).best.settings
+    assert 0.05 <= found.mu_s <= 0.2
+    again = p.evaluate(left_open, found, evidence=False).best.settings
+    assert again == found
+    # A problem that holds the friction has its own, and is asked for no other.
+    assert p.evaluate(held, found, evidence=False).best.settings.mu_s == 0.3
+    with pytest.raises(ValueError, match="fixed in the file"):
+        p.evaluate(held, found.to_dict())
+    with pytest.raises(ValueError, match="mu_s open"):
+        p.evaluate(left_open, {})
+
+
+def test_the_package_is_a_program_too(program: Path) -> None:
+    for arguments, status in [(["--version"], 0), (["check", "none.yaml"], 2)]:
+        run = subprocess.run([sys.executable, "-m", "peenpose", *arguments], capture_output=True, text=True)
+        direct = subprocess.run([program, *arguments], capture_output=True, text=True)
+        assert (run.returncode, run.stdout, run.stderr) == (status, direct.stdout, direct.stderr)
+
+
 def test_faults_have_places(problems: Path) -> None:
     sound = p.Problem.load(problems / "keyway.yaml")
     assert sound.check() == [] and "Keyway floor" in sound.title

@@ -1,5 +1,9 @@
 //! Values that are given beside a problem file: what the file may say, they may, with the same messages.
 
+mod partial_settings;
+
+pub use partial_settings::{Incomplete, PartialSettings};
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::fault::nearest_name;
@@ -101,6 +105,9 @@ pub fn accuracy(text: &str) -> Result<f64, String> {
 /// # Errors
 /// The first fault, with the name of its setting.
 pub fn check(settings: &Settings) -> Result<(), String> {
+    if settings.incidence == 0.0 && settings.aim_above <= 0.0 {
+        return Err("the incidence must be above 0 deg where aim_above is not above 0 mm".into());
+    }
     for setting in Setting::ALL {
         let limit = match setting {
             Setting::Incidence if settings.aim_above <= 0.0 => Limit::INCIDENCE,

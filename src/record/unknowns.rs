@@ -1,4 +1,4 @@
-//! What restitution and friction do at the ends of their ranges, in a record.
+//! What those do that are not known exactly, at the ends of their ranges, in a record.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,22 +10,22 @@ use crate::unknowns::{Outcome, Quantity, UnknownRange, Unknowns};
 /// See [`Unknowns`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnknownsRecord {
-    /// With both at their nominal values.
+    /// With all at their nominal values.
     pub nominal: OutcomeRecord,
-    /// One for each that has a tolerance.
+    /// One for each that is not known exactly.
     pub ranges: Vec<UnknownRangeRecord>,
 }
 
 /// See [`UnknownRange`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UnknownRangeRecord {
-    /// `restitution` or `friction`.
+    /// `restitution`, `friction` or `walls`.
     pub quantity: QuantityRecord,
-    /// Restitution, or static friction, at the target.
+    /// Restitution, or static friction, at the target; how far walls are on the near side of the triangles, m.
     pub low: f64,
     /// What that does.
     pub at_low: OutcomeRecord,
-    /// Restitution, or static friction, at the target.
+    /// The same at the other end.
     pub high: f64,
     /// What that does.
     pub at_high: OutcomeRecord,
@@ -39,6 +39,8 @@ pub enum QuantityRecord {
     Restitution,
     /// Both friction coefficients at once.
     Friction,
+    /// How far the walls are on the near side of the triangles that stand for them, m.
+    Walls,
 }
 
 /// See [`Outcome`].
@@ -85,6 +87,7 @@ impl UnknownRangeRecord {
             quantity: match range.quantity {
                 Quantity::Restitution => QuantityRecord::Restitution,
                 Quantity::Friction => QuantityRecord::Friction,
+                Quantity::Walls => QuantityRecord::Walls,
             },
             low: *low,
             at_low: OutcomeRecord::new(scenario, at_low),

@@ -11,12 +11,14 @@ use crate::problem::fault::Fault;
 use crate::problem::part::{Ends, MeshFile, Part, Region, RoundSide, Shape};
 
 /// A mesh file as it was read.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MeshSource {
     /// Where it was read from.
     pub path: PathBuf,
     /// SHA-256 of its bytes, in hexadecimal digits.
     pub sha256: String,
+    /// How far its triangles may be from the surface that they stand for, m, where the file says so.
+    pub deflection: Option<f64>,
 }
 
 /// The geometry of a part before its surfaces are numbered.
@@ -73,6 +75,7 @@ impl LoadedMesh {
             file: MeshSource {
                 path: file.path.clone(),
                 sha256: loaded.sha256,
+                deflection: loaded.deflection,
             },
         })
     }

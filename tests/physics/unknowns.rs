@@ -1,6 +1,8 @@
 //! Restitution and friction at the ends of their ranges, against single impacts by hand.
 
+use std::f64::consts::PI;
 use std::path::Path;
+use std::sync::Arc;
 
 use peenpose::evaluate::evaluate;
 use peenpose::jet::Replicates;
@@ -11,7 +13,8 @@ use peenpose::report::sheet;
 use peenpose::scenario::Scenario;
 use peenpose::scene::Walls;
 use peenpose::solve::Answer;
-use peenpose::unknowns::{Quantity, Unknowns};
+use peenpose::study::Study;
+use peenpose::unknowns::{Outcome, Quantity, Unknowns};
 use peenpose::verdict::Subject;
 
 /// A parallel jet on a plate: every shot does the same.
@@ -75,7 +78,7 @@ fn rebound_angle(incidence: f64, restitution: f64, friction: f64) -> f64 {
     (restitution * normal).atan2(tangential).to_degrees()
 }
 
-fn degrees(effect: &peenpose::unknowns::Outcome) -> f64 {
+fn degrees(effect: &Outcome) -> f64 {
     effect.rebound_angle.unwrap().to_degrees()
 }
 
@@ -84,6 +87,72 @@ fn assert_close(found: f64, expected: f64) {
         (found - expected).abs() < 1e-9 * expected.abs(),
         "{found} is not {expected}"
     );
+}
+
+/// Half of a plate's top is the target: walls nearer or farther by what their file says move the footprint of a
+/// slanted jet along it, and the share of its disc that hits the other half is known.
+#[test]
+fn walls_are_as_far_off_as_their_file_says() {
+    let corners = "v -50 -50 0\nv 50 -50 0\nv 50 50 0\nv -50 50 0\nv 0 0 -10\n";
+    let sides = "g sides\nf 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n";
+    let mesh = |comment: &str| format!("{comment}\n{corners}g top\nf 1 2 3\nf 1 3 4\n{sides}");
+    let text = PLATE
+        .replace(
+            "box: { min: [-50, -50, -10], max: [50, 50, 0] }",
+            "mesh: plate.obj",
+        )
+        .replace(
+            "part.z_max,",
+            "part.top, within: { min: [-50, -50, -1], max: [0, 50, 1] },",
+        )
+        .replace(
+            "tolerance: 10 % } }",
+            "tolerance: 10 % }, miss: { share: 60 % } }",
+        )
+        .replace("tolerance: { restitution: 0.2, friction: 60 % }", "");
+    let unknowns = |comment: &str| {
+        let contents = mesh(comment).into_bytes();
+        let meshes = [("plate.obj", Arc::from(contents))];
+        let study = Study::from_memory(&text, Path::new("plate.yaml"), &meshes).unwrap();
+        let settings = study.problem().ranges.middle();
+        Unknowns::of(study.scenario(), &settings)
+    };
+    for comment in [
+        "",
+        "# deflection",
+        "# deflection 0",
+        "# deflection unknown",
+        "#deflection 1",
+    ] {
+        assert_eq!(unknowns(comment), None, "{comment}");
+    }
+    let unknowns = unknowns("# deflection 0.05").unwrap();
+    let [walls] = &unknowns.ranges[..] else {
+        panic!("{unknowns:?}");
+    };
+    assert_eq!(walls.quantity, Quantity::Walls);
+    let share = |effect: &Outcome| {
+        let mut shares = effect.shares.iter();
+        shares
+            .find(|(subject, _)| *subject == Subject::Miss)
+            .unwrap()
+            .1
+    };
+    // A shot touches the plate before its centre comes to the line; the part of the disc beyond a chord.
+    let beyond = |nearer: f64| {
+        let chord = (0.5 + nearer) * 45_f64.to_radians().sin() / 0.5;
+        (chord.acos() - chord * (1.0 - chord * chord).sqrt()) / PI
+    };
+    let [(farther, at_farther), (nearer, at_nearer)] = &walls.ends;
+    assert_eq!((*farther, *nearer), (-5e-5, 5e-5));
+    for (effect, nearer) in [
+        (at_farther, -0.05),
+        (&unknowns.nominal, 0.0),
+        (at_nearer, 0.05),
+    ] {
+        let (found, expected) = (share(effect), beyond(nearer));
+        assert!((found - expected).abs() < 0.002, "{found} {expected}");
+    }
 }
 
 #[test]

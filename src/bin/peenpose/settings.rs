@@ -4,7 +4,7 @@ use std::path::Path;
 
 use peenpose::printable;
 use peenpose::problem::change::Change;
-use peenpose::problem::given::{contact_named, unknown};
+use peenpose::problem::given::{Incomplete, PartialSettings, contact_named, unknown};
 use peenpose::problem::setting::{Setting, Settings};
 use peenpose::problem::{Problem, Source, given, schema};
 use peenpose::record::{Record, mesh_sha256};
@@ -20,7 +20,7 @@ pub fn settings(
     from: Option<&Earlier>,
     problem: &Problem,
 ) -> Result<Settings, String> {
-    Known::of(set, from, problem)?.complete(problem)
+    complete(&known(set, from, problem)?)
 }
 
 /// The same where two settings vary: these need not be known. Also tells whether they are.
@@ -30,16 +30,10 @@ pub fn choice_round(
     from: Option<&Earlier>,
     problem: &Problem,
 ) -> Result<(Settings, bool), String> {
-    let mut known = Known::of(set, from, problem)?;
+    let mut known = known(set, from, problem)?;
     let middle = problem.ranges.middle();
-    let mut all_known = true;
-    for (value, setting) in known.values.iter_mut().zip(SETTINGS) {
-        if varied.contains(&setting) && value.is_none() {
-            *value = Some(setting.of(&middle));
-            all_known = false;
-        }
-    }
-    Ok((known.complete(problem)?, all_known))
+    let [one, other] = varied.map(|setting| known.fill(setting, setting.of(&middle)));
+    Ok((complete(&known)?, one && other))
 }
 
 /// Changes of the problem file that `--set` asks for.
@@ -62,7 +56,7 @@ pub fn split(set: &[String]) -> Result<(Vec<String>, Vec<Change>), String> {
 }
 
 fn names() -> impl Iterator<Item = &'static str> {
-    SETTINGS.iter().map(|setting| setting.name())
+    Setting::ALL.iter().map(|setting| setting.name())
 }
 
 /// The result that `--from` names.
@@ -128,112 +122,50 @@ fn differences(record: &Record, scenario: &Scenario, source: &Source) -> Vec<Str
     changed
 }
 
-/// The settings that are known so far.
-struct Known {
-    values: [Option<f64>; SETTINGS.len()],
-    contact: Option<usize>,
-    /// Whether `--set` says what the friction is.
-    friction_asked: bool,
-}
-
-const SETTINGS: [Setting; Setting::ALL.len()] = Setting::ALL;
-
-impl Known {
-    /// What the file holds, a result says, and `--set` says, the later ones on top.
-    fn of(set: &[String], from: Option<&Earlier>, problem: &Problem) -> Result<Self, String> {
-        let mut known = Self::held(problem);
-        if let Some(earlier) = from {
-            known.take(&earlier.settings(problem)?);
-        }
-        for text in set {
-            known.set(text, problem)?;
-        }
-        Ok(known)
+/// What the file holds, a result says, and `--set` says, the later ones on top.
+fn known<'a>(
+    set: &[String],
+    from: Option<&Earlier>,
+    problem: &'a Problem,
+) -> Result<PartialSettings<'a>, String> {
+    let mut known = PartialSettings::held(problem);
+    if let Some(earlier) = from {
+        known.take(&earlier.settings(problem)?);
     }
-
-    /// What the file holds at one value.
-    fn held(problem: &Problem) -> Self {
-        let held = |setting| {
-            let range = problem.ranges.range(setting)?;
-            range.is_held().then_some(range.min)
-        };
-        let contact = match problem.ranges.contact[..] {
-            [only] => Some(only),
-            _ => None,
-        };
-        Self {
-            values: SETTINGS.map(held),
-            contact,
-            friction_asked: false,
-        }
-    }
-
-    fn take(&mut self, settings: &Settings) {
-        self.values = SETTINGS.map(|setting| Some(setting.of(settings)));
-        self.contact = Some(settings.contact);
-    }
-
-    /// Takes `name=value` from the command line.
-    fn set(&mut self, text: &str, problem: &Problem) -> Result<(), String> {
+    for text in set {
         let (name, value) = text.split_once('=').ok_or_else(|| {
             format!("--set {text}: expected NAME=VALUE, such as `incidence=60deg`")
         })?;
         let (name, value) = (name.trim(), value.trim());
         if name == "contact" {
-            self.contact = Some(contact_named(value, problem)?);
-            return Ok(());
+            known.set_contact(value)?;
+            continue;
         }
-        let Some(index) = SETTINGS.iter().position(|setting| setting.name() == name) else {
+        let Some(setting) = Setting::ALL.into_iter().find(|it| it.name() == name) else {
             let names: Vec<&str> = names().chain(["contact"]).collect();
             return Err(format!(
                 "--set {text}: {}",
                 unknown("setting", name, &names)
             ));
         };
-        let parsed = given::setting(SETTINGS[index], value)
-            .map_err(|fault| format!("--set {text}: {fault}"))?;
-        self.values[index] = Some(parsed);
-        self.friction_asked |= SETTINGS[index] == Setting::StaticFriction;
-        Ok(())
+        let value =
+            given::setting(setting, value).map_err(|fault| format!("--set {text}: {fault}"))?;
+        known.set(setting, value);
     }
+    Ok(known)
+}
 
-    fn complete(&self, problem: &Problem) -> Result<Settings, String> {
-        let mut missing: Vec<&str> = Vec::new();
-        let mut settings = Settings::ZERO;
-        for (setting, value) in SETTINGS.into_iter().zip(self.values) {
-            settings = setting.with(&settings, value.unwrap_or_default());
-            if value.is_none() && setting != Setting::StaticFriction {
-                missing.push(setting.name());
-            }
-        }
-        match self.contact {
-            Some(contact) => settings.contact = contact,
-            None => missing.push("contact"),
-        }
-        let contact = &problem.contacts[settings.contact];
-        let friction = contact.static_friction;
-        if self.friction_asked && self.contact.is_some() && friction.is_held() {
-            return Err(format!(
-                "--set mu_s: the friction of contact `{}` is fixed in the file, not a range",
-                contact.name
-            ));
-        }
-        let [.., asked] = self.values;
-        settings.static_friction = asked.unwrap_or(friction.min);
-        if asked.is_none() && !friction.is_held() {
-            missing.push("mu_s");
-        }
-        if self.values[0] == Some(0.0) && settings.aim_above <= 0.0 {
-            let message = "the incidence must be above 0 deg where aim_above is not above 0 mm";
-            return Err(message.into());
-        }
-        if missing.is_empty() {
-            return given::check(&settings).map(|()| settings);
-        }
-        Err(format!(
+/// All settings, or what to do about those that are not known.
+fn complete(known: &PartialSettings) -> Result<Settings, String> {
+    known.complete().map_err(|incomplete| match incomplete {
+        Incomplete::Missing(names) => format!(
             "the file leaves {} open; say what to evaluate with --set {}=... or --from result.json",
-            missing.join(", "),
-            missing[0]
-        ))
-    }
+            names.join(", "),
+            names[0]
+        ),
+        Incomplete::FrictionIsHeld(contact) => format!(
+            "--set mu_s: the friction of contact `{contact}` is fixed in the file, not a range"
+        ),
+        Incomplete::Wrong(fault) => fault,
+    })
 }

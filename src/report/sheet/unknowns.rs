@@ -1,4 +1,4 @@
-//! Restitution and friction at the ends of their ranges: which of them moves the result most.
+//! What is not known exactly at the ends of its range: which of it moves the result most.
 
 use crate::record::{
     ContactRecord, OutcomeRecord, QuantityRecord, Record, UnknownRangeRecord, UnknownsRecord,
@@ -33,15 +33,13 @@ pub fn block(record: &Record) -> Option<Block> {
             nearest_to_failing(effect, verdicts),
         ]);
     };
-    row("both as given".into(), &unknowns.nominal);
+    row("as given".into(), &unknowns.nominal);
     for range in &unknowns.ranges {
         for (value, effect) in [(range.low, &range.at_low), (range.high, &range.at_high)] {
-            let at = match range.quantity {
-                QuantityRecord::Restitution => where_measured(&record.best.contact_values),
-                QuantityRecord::Friction => String::new(),
-            };
-            let label = format!("{} {}{at}", name(range.quantity), plain(value));
-            row(label, effect);
+            row(
+                label(range.quantity, value, &record.best.contact_values),
+                effect,
+            );
         }
     }
     let mut block = Block::default();
@@ -49,10 +47,27 @@ pub fn block(record: &Record) -> Option<Block> {
     if let Some(sentence) = sentence(unknowns) {
         block.paragraph(&sentence);
     }
-    block.paragraph(
-        "Every shot of a row has the same restitution and friction; in OBJECTIVE each draws its own.",
-    );
+    let mut quantities = unknowns.ranges.iter().map(|range| range.quantity);
+    if quantities.any(|it| it != QuantityRecord::Walls) {
+        block.paragraph(
+            "Every shot of a row has the same restitution and friction; in OBJECTIVE each draws its own.",
+        );
+    }
     Some(block)
+}
+
+/// What is unknown, at one end of its range.
+fn label(quantity: QuantityRecord, value: f64, contact: &ContactRecord) -> String {
+    match quantity {
+        QuantityRecord::Restitution => {
+            format!("restitution {}{}", plain(value), where_measured(contact))
+        }
+        QuantityRecord::Friction => format!("mu_s {}", plain(value)),
+        QuantityRecord::Walls => {
+            let side = if value < 0.0 { "farther" } else { "nearer" };
+            format!("walls {} mm {side}", plain(value.abs() * 1e3))
+        }
+    }
 }
 
 /// At which speed a restitution that falls with speed was measured: a tolerance shifts it there.
@@ -92,13 +107,6 @@ fn nearest_to_failing(effect: &OutcomeRecord, verdicts: &[VerdictRecord]) -> Str
     )
 }
 
-const fn name(quantity: QuantityRecord) -> &'static str {
-    match quantity {
-        QuantityRecord::Restitution => "restitution",
-        QuantityRecord::Friction => "mu_s",
-    }
-}
-
 /// By how much J differs over the range.
 fn movement(range: &UnknownRangeRecord, nominal: &OutcomeRecord) -> f64 {
     let all = [&range.at_low, nominal, &range.at_high].map(|effect| effect.objective);
@@ -132,15 +140,20 @@ fn sentence(unknowns: &UnknownsRecord) -> Option<String> {
     let text = match others {
         [] => format!("Over its range {word} moves J {}.", does(first)),
         _ if movement(first, nominal) <= MOVES * nominal.objective => format!(
-            "Neither restitution nor friction moves J by more than {} % of it.",
+            "None of them moves J by more than {} % of it.",
             plain(MOVES * 100.0)
         ),
-        [other, ..] => format!(
-            "Over its range {word} moves J most, {}; {} moves J {}.",
-            does(first),
-            self::word(other.quantity),
-            does(other)
-        ),
+        _ => {
+            let others = others.iter().map(|other| {
+                let word = self::word(other.quantity);
+                format!("; {word} moves J {}", does(other))
+            });
+            let others: String = others.collect();
+            format!(
+                "Over its range {word} moves J most, {}{others}.",
+                does(first)
+            )
+        }
     };
     Some(text)
 }
@@ -149,5 +162,6 @@ const fn word(quantity: QuantityRecord) -> &'static str {
     match quantity {
         QuantityRecord::Restitution => "restitution",
         QuantityRecord::Friction => "friction",
+        QuantityRecord::Walls => "the place of the walls",
     }
 }

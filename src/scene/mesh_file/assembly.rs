@@ -25,6 +25,7 @@ pub(super) struct Assembly {
     most_triangles: usize,
     mendings: Vec<Mending>,
     open_fault: Option<MeshFault>,
+    deflection: Option<f64>,
 }
 
 /// What a file gave.
@@ -35,6 +36,8 @@ pub(super) struct Assembled {
     pub mendings: Vec<Mending>,
     /// What is wrong with the file, unless the mesh is closed.
     pub open_fault: Option<MeshFault>,
+    /// How far its triangles may be from the surface that they stand for, m, where the file says so.
+    pub deflection: Option<f64>,
 }
 
 impl Assembly {
@@ -48,6 +51,7 @@ impl Assembly {
             most_triangles: MOST_TRIANGLES,
             mendings: Vec::new(),
             open_fault: None,
+            deflection: None,
         }
     }
 
@@ -90,6 +94,11 @@ impl Assembly {
     /// Notes that the file is cut short if the mesh turns out to be open.
     pub fn must_close(&mut self, fault: MeshFault) {
         self.open_fault = Some(fault);
+    }
+
+    /// Notes how far triangles may be from the surface that they stand for, in the file's unit.
+    pub fn deflects_by(&mut self, length: f64) {
+        self.deflection = Some(length * self.metres_per_unit);
     }
 
     /// How many triangles there are so far.
@@ -153,6 +162,7 @@ impl Assembly {
             mesh: self.mesh,
             mendings: self.mendings,
             open_fault: self.open_fault,
+            deflection: self.deflection,
         })
     }
 }

@@ -96,6 +96,8 @@ pub(super) struct Loaded {
     pub mesh: Mesh,
     pub warnings: Vec<MeshWarning>,
     pub shells: Shells,
+    /// How far its triangles may be from the surface that they stand for, m, where the file says so.
+    pub deflection: Option<f64>,
     /// SHA-256 of the very bytes that the mesh was made of, in hexadecimal digits.
     pub sha256: String,
 }
@@ -113,6 +115,7 @@ pub(super) fn load(
             mut mesh,
             mendings,
             open_fault,
+            deflection,
         } = assembled;
         let mut warnings: Vec<_> = mendings.into_iter().map(MeshWarning::Mended).collect();
         let (odd, shells) = cleaning::clean(&mut mesh, metres_per_unit).map_err(whole)?;
@@ -127,6 +130,7 @@ pub(super) fn load(
             mesh,
             warnings,
             shells,
+            deflection,
             sha256,
         })
     };

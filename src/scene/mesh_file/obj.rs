@@ -1,5 +1,6 @@
 //! Wavefront OBJ: `v` and `f`, and `g`, `o` or `usemtl` for names; textures, normals, lines and
-//! free-form surfaces are passed over.
+//! free-form surfaces are passed over. The comment `# deflection 0.01` says how far triangles may be from the
+//! surface that they were made from, in the file's unit.
 
 use std::io::BufRead;
 
@@ -36,6 +37,15 @@ fn is_of_numbers(line: &[u8]) -> bool {
     KEYWORDS.contains(&keyword)
 }
 
+/// What a comment says of how far triangles may be from the surface that they were made from.
+fn deflection(comment: &[u8]) -> Option<f64> {
+    let mut words = words(comment);
+    let is_told = words.next()? == b"deflection";
+    let number = std::str::from_utf8(words.next()?).ok()?;
+    let length: f64 = number.parse().ok()?;
+    (is_told && length > 0.0 && length.is_finite()).then_some(length)
+}
+
 struct Reader<'a> {
     assembly: &'a mut Assembly,
     /// Number in the mesh of each `v` so far.
@@ -67,6 +77,12 @@ impl Reader<'_> {
                     _ => self.labels.material = name,
                 }
                 self.surface = None;
+                Ok(())
+            }
+            b"#" => {
+                if let Some(deflection) = deflection(rest) {
+                    self.assembly.deflects_by(deflection);
+                }
                 Ok(())
             }
             [] | [b'#', ..] => Ok(()),

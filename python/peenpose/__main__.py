@@ -1,0 +1,28 @@
+"""`python -m peenpose`: the program of this package."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+
+def _program() -> Path | None:
+    schemes = [sysconfig.get_default_scheme(), sysconfig.get_preferred_scheme("user")]
+    name = "peenpose.exe" if sys.platform == "win32" else "peenpose"
+    paths = (Path(sysconfig.get_path("scripts", scheme)) / name for scheme in schemes)
+    return next((path for path in paths if path.is_file()), None)
+
+
+def main() -> int:
+    """Runs the program with the arguments of this process."""
+    program = _program()
+    if program is None:
+        print("peenpose: the program is not where this Python keeps scripts: install the package again", file=sys.stderr)
+        return 2
+    return subprocess.run([program, *sys.argv[1:]]).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
