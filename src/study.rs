@@ -230,8 +230,9 @@ impl Study {
         let asked = self.scenario.as_asked();
         let draw = Draw::new(&asked.problem, purpose::ANSWERS, shots);
         let evaluation = evaluate::evaluate_streamed(&asked, settings, &draw);
-        let (fired, rays) = (evaluation.shots, evaluation.rays);
+        let fired = evaluation.shots;
         let answers = [Answer::evaluated(&asked, settings, Some(evaluation))];
+        let rays = answers[0].rays();
         let notes = validity::notes(&asked, settings, answers[0].evaluation.as_ref());
         let unknowns = Unknowns::of(&asked, settings);
         let run = RunInfo {

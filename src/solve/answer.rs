@@ -103,8 +103,16 @@ impl Answer {
         evaluation: Evaluation,
         effort: &Effort,
     ) -> Self {
-        effort.add(1, evaluation.rays);
-        Self::evaluated(scenario, settings, Some(evaluation))
+        let answer = Self::evaluated(scenario, settings, Some(evaluation));
+        effort.add(1, answer.rays());
+        answer
+    }
+
+    /// Rays traced for what is said of it.
+    pub fn rays(&self) -> usize {
+        let evaluated = self.evaluation.as_ref().map_or(0, |it| it.rays);
+        let stations = self.stations.iter();
+        evaluated + stations.map(|station| station.rays).sum::<usize>()
     }
 
     /// Settings with the verdicts on their evaluation, if there is one, and on their pose.

@@ -64,7 +64,7 @@ pub fn solve_stroke(scenario: &Scenario, control: &Control) -> (Solution, Vec<Se
     let mut pieces = cut.cover(&candidates);
     cut.merge(&mut candidates, &mut pieces);
     let segments = cut.segments(&candidates, &pieces);
-    whole.rays += cut.rays;
+    whole.rays += cut.rays + segments.iter().map(|it| it.answer.rays()).sum::<usize>();
     whole.poses += cut.poses;
     // Where the nozzle fits nowhere there is none.
     if let Some(combined) = combined(&segments) {
@@ -101,6 +101,7 @@ fn combined(segments: &[Segment]) -> Option<Answer> {
         let stations = segment.answer.stations.iter();
         stations.map(|station| StationVerdicts {
             place: place_in(segment.span, station.place),
+            rays: station.rays,
             verdicts: station
                 .verdicts
                 .iter()

@@ -17,6 +17,8 @@ pub struct StationVerdicts {
     pub place: f64,
     /// One for each goal and each secondary surface.
     pub verdicts: Vec<Verdict>,
+    /// Rays traced to tell them.
+    pub rays: usize,
 }
 
 /// Shots at a station at most.
@@ -64,6 +66,7 @@ struct Open<'a> {
     station: &'a Station,
     counts: ViolationCounts,
     verdicts: Vec<Verdict>,
+    rays: usize,
 }
 
 impl StationVerdicts {
@@ -107,6 +110,7 @@ impl<'a> Open<'a> {
             station,
             counts: ViolationCounts::none(&station.scenario),
             verdicts: Vec::new(),
+            rays: 0,
         }
     }
 
@@ -120,6 +124,7 @@ impl<'a> Open<'a> {
             let impulses = LargestImpulses::of(scenario, settings, &set.jet.shots);
             let counts = impulses.counts(scenario, settings.speed);
             self.counts = self.counts.plus(&counts);
+            self.rays += impulses.rays();
         }
         self.verdicts = Verdict::on(scenario, &self.counts);
     }
@@ -133,6 +138,7 @@ impl<'a> Open<'a> {
         StationVerdicts {
             place,
             verdicts: verdicts.collect(),
+            rays: self.rays,
         }
     }
 }

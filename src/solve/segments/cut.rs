@@ -49,7 +49,7 @@ pub struct Cut<'a> {
     ends: Vec<f64>,
     /// What is held all along has these values.
     held: Settings,
-    /// Work done by searches of parts.
+    /// Work done by searches of parts, and to tell where settings pass.
     pub rays: usize,
     /// See `rays`.
     pub poses: usize,
@@ -109,7 +109,7 @@ impl<'a> Cut<'a> {
     }
 
     /// Where settings pass.
-    pub fn candidate(&self, settings: &Settings, status: Status) -> Candidate {
+    pub fn candidate(&mut self, settings: &Settings, status: Status) -> Candidate {
         let mut places: Vec<f64> = self.ends.clone();
         places.extend(self.scenario.stations.iter().map(|it| it.place));
         places.sort_by(f64::total_cmp);
@@ -124,7 +124,8 @@ impl<'a> Cut<'a> {
             &self.scenario.problem.ranges,
             &stations,
         );
-        let violations = violations_at(&stations, &self.asked, &settings);
+        let (violations, rays) = violations_at(&stations, &self.asked, &settings);
+        self.rays += rays;
         let in_cell = |cell: usize| {
             let pairs = places.iter().zip(&violations);
             // The run-out belongs to the first and to the last cell.
@@ -317,20 +318,22 @@ fn failing(candidates: &[Candidate], pieces: &[Piece]) -> usize {
 /// Most shots at a pose of the search of a part.
 const FEW_SHOTS: usize = 1024;
 
-/// The largest violation of some settings at each station.
-fn violations_at(stations: &[Station], asked: &Scenario, settings: &Settings) -> Vec<f64> {
+/// The largest violation of some settings at each station, and the rays that told it.
+fn violations_at(stations: &[Station], asked: &Scenario, settings: &Settings) -> (Vec<f64>, usize) {
     let fitting = stations.par_iter().map(|it| fits(it, settings));
     let fitting: Vec<bool> = fitting.collect();
     let pairs = stations.iter().zip(&fitting);
     let open: Vec<&Station> = pairs
         .filter_map(|(station, fits)| fits.then_some(station))
         .collect();
-    let mut verdicts = StationVerdicts::at(&open, &asked.problem, settings).into_iter();
+    let verdicts = StationVerdicts::at(&open, &asked.problem, settings);
+    let rays = verdicts.iter().map(|station| station.rays).sum();
+    let mut verdicts = verdicts.into_iter();
     let violation = |fits: &bool| {
         let at_station = fits.then(|| verdicts.next()).flatten();
         at_station.map_or(f64::MAX, |station| {
             Verdict::largest_violation(&station.verdicts)
         })
     };
-    fitting.iter().map(violation).collect()
+    (fitting.iter().map(violation).collect(), rays)
 }
