@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the wheel, with the program inside, into python/dist. Needs Rust and `pip install maturin`.
+# Builds the wheel, with the program inside, into python/dist. Needs Rust and `pip install maturin wheel`.
 # `build.sh dev` takes the profile of the tests, which is built faster.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -7,7 +7,16 @@ cd "$(dirname "$0")"
 profile=${1:-release}
 target=${CARGO_TARGET_DIR:-$PWD/../target}
 case $profile in dev) folder=debug ;; *) folder=$profile ;; esac
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 cargo build --profile "$profile" --locked --target-dir "$target" -p peenpose -p peenpose-python
-mkdir -p peenpose.data/scripts
-strip -o peenpose.data/scripts/peenpose "$target/$folder/peenpose"
-CARGO_TARGET_DIR=$target maturin build --profile "$profile" --locked --strip --out dist
+CARGO_TARGET_DIR=$target maturin build --profile "$profile" --locked --strip --out "$work"
+
+# What maturin builds is the package alone, as a wheel from the source distribution is.
+python3 -m wheel unpack --dest "$work" "$work"/*.whl
+unpacked=$(echo "$work"/peenpose-*/)
+name=$(basename "$unpacked")
+mkdir -p "$unpacked/$name.data/scripts"
+strip -o "$unpacked/$name.data/scripts/peenpose" "$target/$folder/peenpose"
+mkdir -p dist
+python3 -m wheel pack --dest-dir dist "$unpacked"

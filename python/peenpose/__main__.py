@@ -19,7 +19,11 @@ def main() -> int:
     """Runs the program with the arguments of this process."""
     program = _program()
     if program is None:
-        print("peenpose: the program is not where this Python keeps scripts: install the package again", file=sys.stderr)
+        print(
+            "peenpose: this package was built without the program: take a wheel that python/build.sh makes,"
+            " or `cargo install peenpose`",
+            file=sys.stderr,
+        )
         return 2
     return subprocess.run([program, *sys.argv[1:]]).returncode
 
