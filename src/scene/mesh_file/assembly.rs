@@ -96,9 +96,10 @@ impl Assembly {
         self.open_fault = Some(fault);
     }
 
-    /// Notes how far triangles may be from the surface that they stand for, in the file's unit.
+    /// Notes how far some triangles may be from the surface that they stand for, in the file's unit.
     pub fn deflects_by(&mut self, length: f64) {
-        self.deflection = Some(length * self.metres_per_unit);
+        let others = self.deflection.unwrap_or(0.0);
+        self.deflection = Some(others.max(length * self.metres_per_unit));
     }
 
     /// How many triangles there are so far.
