@@ -7,6 +7,7 @@ cd "$(dirname "$0")"
 profile=${1:-release}
 target=${CARGO_TARGET_DIR:-$PWD/../target}
 case $profile in dev) folder=debug ;; *) folder=$profile ;; esac
+python3 -m wheel version >/dev/null
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cargo build --profile "$profile" --locked --target-dir "$target" -p peenpose -p peenpose-python

@@ -21,7 +21,7 @@ pub enum Quantity {
     Restitution,
     /// Both friction coefficients at once.
     Friction,
-    /// How far the walls are on the near side of the triangles that stand for them, m.
+    /// How far the walls are on the near side of the triangles that approximate them, m.
     Walls,
 }
 

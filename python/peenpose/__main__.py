@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import sysconfig
@@ -16,7 +17,7 @@ def _program() -> Path | None:
 
 
 def main() -> int:
-    """Runs the program with the arguments of this process."""
+    """Runs the program with the arguments of this process, in its place where the system can."""
     program = _program()
     if program is None:
         print(
@@ -25,6 +26,9 @@ def main() -> int:
             file=sys.stderr,
         )
         return 2
+    if os.name == "posix":
+        # In place of this process, so that signals reach it: Ctrl-C ends it with the best answer so far.
+        os.execv(program, [str(program), *sys.argv[1:]])
     return subprocess.run([program, *sys.argv[1:]]).returncode
 
 

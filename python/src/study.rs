@@ -254,14 +254,9 @@ impl Study {
             known.fill(*setting, setting.of(&middle));
         }
         known.complete().map_err(|incomplete| {
-            PyValueError::new_err(match incomplete {
-                Incomplete::Missing(names) => {
-                    format!("the file leaves {} open; say what they are", names.join(", "))
-                }
-                Incomplete::FrictionIsHeld(contact) => {
-                    format!("mu_s: the friction of contact `{contact}` is fixed in the file, not a range")
-                }
-                Incomplete::Wrong(fault) => fault,
+            PyValueError::new_err(match &incomplete {
+                Incomplete::Missing(_) => format!("{incomplete}; say what they are"),
+                Incomplete::FrictionIsHeld(_) | Incomplete::Wrong(_) => incomplete.to_string(),
             })
         })
     }

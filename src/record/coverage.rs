@@ -48,9 +48,13 @@ fn once() -> f64 {
     1.0
 }
 
-#[allow(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde asks for a reference; one is larger than the number where addresses have 64 bits"
+// Where addresses have 64 bits a reference is no smaller than the number.
+#[cfg_attr(
+    target_pointer_width = "64",
+    expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde asks for a reference"
+    )
 )]
 fn is_once(times: &f64) -> bool {
     *times == 1.0

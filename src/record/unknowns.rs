@@ -39,7 +39,7 @@ pub enum QuantityRecord {
     Restitution,
     /// Both friction coefficients at once.
     Friction,
-    /// How far the walls are on the near side of the triangles that stand for them, m.
+    /// How far the walls are on the near side of the triangles that approximate them, m.
     Walls,
 }
 

@@ -17,7 +17,7 @@ pub struct MeshSource {
     pub path: PathBuf,
     /// SHA-256 of its bytes, in hexadecimal digits.
     pub sha256: String,
-    /// How far its triangles may be from the surface that they stand for, m, where the file says so.
+    /// How far its triangles may be from the surface that they approximate, m, where the file says so.
     pub deflection: Option<f64>,
 }
 

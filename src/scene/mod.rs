@@ -117,7 +117,7 @@ impl Scene {
         &self.files
     }
 
-    /// How far walls may be from the surfaces that their mesh files stand for, m; 0 where no file says so.
+    /// How far walls may be from the surfaces that their meshes approximate, m; 0 where no file says so.
     pub fn deflection(&self) -> f64 {
         let told = self.files.iter().filter_map(|file| file.deflection);
         told.fold(0.0, f64::max)

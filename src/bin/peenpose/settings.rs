@@ -55,10 +55,6 @@ pub fn split(set: &[String]) -> Result<(Vec<String>, Vec<Change>), String> {
     Ok((settings.into_iter().cloned().collect(), changes(&keys)?))
 }
 
-fn names() -> impl Iterator<Item = &'static str> {
-    Setting::ALL.iter().map(|setting| setting.name())
-}
-
 /// The result that `--from` names.
 pub struct Earlier<'a> {
     path: &'a Path,
@@ -142,7 +138,8 @@ fn known<'a>(
             continue;
         }
         let Some(setting) = Setting::ALL.into_iter().find(|it| it.name() == name) else {
-            let names: Vec<&str> = names().chain(["contact"]).collect();
+            let names = Setting::ALL.iter().map(|it| it.name());
+            let names: Vec<&str> = names.chain(["contact"]).collect();
             return Err(format!(
                 "--set {text}: {}",
                 unknown("setting", name, &names)
@@ -157,15 +154,12 @@ fn known<'a>(
 
 /// All settings, or what to do about those that are not known.
 fn complete(known: &PartialSettings) -> Result<Settings, String> {
-    known.complete().map_err(|incomplete| match incomplete {
+    known.complete().map_err(|incomplete| match &incomplete {
         Incomplete::Missing(names) => format!(
-            "the file leaves {} open; say what to evaluate with --set {}=... or --from result.json",
-            names.join(", "),
+            "{incomplete}; say what to evaluate with --set {}=... or --from result.json",
             names[0]
         ),
-        Incomplete::FrictionIsHeld(contact) => format!(
-            "--set mu_s: the friction of contact `{contact}` is fixed in the file, not a range"
-        ),
-        Incomplete::Wrong(fault) => fault,
+        Incomplete::FrictionIsHeld(_) => format!("--set {incomplete}"),
+        Incomplete::Wrong(_) => incomplete.to_string(),
     })
 }

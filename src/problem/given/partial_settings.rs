@@ -1,5 +1,7 @@
 //! Settings that become known one after the other: held in the file, those of an answer, given by name.
 
+use std::fmt;
+
 use super::{check, contact_named};
 use crate::problem::Problem;
 use crate::problem::setting::{Setting, Settings};
@@ -25,6 +27,21 @@ pub enum Incomplete {
     FrictionIsHeld(String),
     /// They are known and wrong.
     Wrong(String),
+}
+
+impl fmt::Display for Incomplete {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Missing(names) => {
+                write!(formatter, "the file leaves {} open", names.join(", "))
+            }
+            Self::FrictionIsHeld(contact) => write!(
+                formatter,
+                "mu_s: the friction of contact `{contact}` is fixed in the file, not a range"
+            ),
+            Self::Wrong(fault) => formatter.write_str(fault),
+        }
+    }
 }
 
 impl<'a> PartialSettings<'a> {
@@ -125,25 +142,19 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::problem::change::Change;
     use crate::study::Study;
-
-    const PLATE: &str = "
-format: 1
-lengths_in: mm
-scene: { part: { box: { min: [-50, -50, -10], max: [50, 50, 0] } } }
-target: { surface: part.z_max, aim: [0, 0, 0], along: [1, 0, 0] }
-shot: { radius: 0.5 mm, density: 7000 kg/m3 }
-jet: { exit_diameter: 1 mm, divergence: 1 deg }
-contacts:
-  dry: { mu_s: 0.25, mu_d: 0.2, restitution: 0.5 }
-  greased: { mu_s: [0.1, 0.3], mu_d_ratio: 0.9, restitution: 0.5 }
-settings: { incidence: [30 deg, 60 deg], azimuth: 0 deg, standoff: 10 mm, speed: 10 m/s }
-goals: { normal_impulse: { target: 40 uN.s, tolerance: 10 % } }
-";
 
     #[test]
     fn what_is_missing_is_named_and_friction_is_that_of_the_contact() {
-        let study = Study::from_text(PLATE, Path::new("plate.yaml")).unwrap();
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/plate.yaml");
+        let contacts = "{ dry: { mu_s: 0.25, mu_d: 0.2, restitution: 0.5 }, \
+            greased: { mu_s: [0.1, 0.3], mu_d_ratio: 0.9, restitution: 0.5 } }";
+        let changes = [
+            Change::new("contacts", contacts).unwrap(),
+            Change::new("settings.incidence", "[30 deg, 60 deg]").unwrap(),
+        ];
+        let study = Study::open_changed(&file, &changes).unwrap();
         let mut partial = PartialSettings::held(study.problem());
         let missing = |names: &[&'static str]| Err(Incomplete::Missing(names.to_vec()));
         assert_eq!(partial.complete(), missing(&["incidence", "contact"]));

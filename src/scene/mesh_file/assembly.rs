@@ -36,7 +36,7 @@ pub(super) struct Assembled {
     pub mendings: Vec<Mending>,
     /// What is wrong with the file, unless the mesh is closed.
     pub open_fault: Option<MeshFault>,
-    /// How far its triangles may be from the surface that they stand for, m, where the file says so.
+    /// How far its triangles may be from the surface that they approximate, m, where the file says so.
     pub deflection: Option<f64>,
 }
 
@@ -96,7 +96,7 @@ impl Assembly {
         self.open_fault = Some(fault);
     }
 
-    /// Notes how far some triangles may be from the surface that they stand for, in the file's unit.
+    /// Notes how far some triangles may be from the surface that they approximate, in the file's unit.
     pub fn deflects_by(&mut self, length: f64) {
         let others = self.deflection.unwrap_or(0.0);
         self.deflection = Some(others.max(length * self.metres_per_unit));

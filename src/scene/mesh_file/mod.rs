@@ -96,7 +96,7 @@ pub(super) struct Loaded {
     pub mesh: Mesh,
     pub warnings: Vec<MeshWarning>,
     pub shells: Shells,
-    /// How far its triangles may be from the surface that they stand for, m, where the file says so.
+    /// How far its triangles may be from the surface that they approximate, m, where the file says so.
     pub deflection: Option<f64>,
     /// SHA-256 of the very bytes that the mesh was made of, in hexadecimal digits.
     pub sha256: String,
