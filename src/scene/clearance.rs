@@ -1,5 +1,7 @@
 //! Distances from points and rods to the facets of a part, over parry's tree.
 
+use std::cell::RefCell;
+
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{BvhLeafCost, BvhNode};
@@ -7,7 +9,7 @@ use parry3d_f64::query::PointQuery;
 use parry3d_f64::query::details::closest_points_segment_segment_with_locations_nD;
 use parry3d_f64::shape::{Segment, Triangle};
 
-use super::triangle_mesh::TriangleMesh;
+use super::triangle_mesh::{Meshlet, TriangleMesh};
 
 /// The point of a mesh nearest to a given one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +31,16 @@ impl BvhLeafCost for Neighbour {
     }
 }
 
+impl Neighbour {
+    /// Nothing that is nearer than a limit.
+    fn none(limit: f64) -> Self {
+        Self {
+            distance: limit,
+            triangle: u32::MAX,
+        }
+    }
+}
+
 fn nearest_of(candidates: impl Iterator<Item = (f64, u32)>) -> Option<Neighbour> {
     candidates
         .min_by(|a, b| a.0.total_cmp(&b.0))
@@ -43,12 +55,22 @@ impl TriangleMesh {
         counts: impl Fn(u32) -> bool,
     ) -> Option<NearestPoint> {
         let centre: Vector = to.coords.into();
+        let point = Convex {
+            low: centre,
+            high: centre,
+            line: Segment::new(centre, centre),
+            height: |toward: Vector| centre.dot(toward),
+        };
         let (_, found) = self.distance_tree().find_best(
             f64::INFINITY,
             |node, _| gap(node, centre, centre),
-            |leaf, _| {
-                let counted = self.leaf(leaf).filter(|&index| counts(index));
-                nearest_of(counted.map(|index| {
+            |leaf, best| {
+                let meshlet = self.meshlet(leaf);
+                if self.least_distance(meshlet, &point) >= best {
+                    return None;
+                }
+                let triangles = meshlet.triangles().iter().copied();
+                nearest_of(triangles.filter(|&index| counts(index)).map(|index| {
                     let projection = self.triangle(index).project_local_point(centre, true);
                     ((projection.point - centre).length(), index)
                 }))
@@ -72,33 +94,75 @@ impl TriangleMesh {
         to: &Point3<f64>,
         limit: f64,
     ) -> Option<(f64, u32)> {
-        let segment = Segment::new(from.coords.into(), to.coords.into());
-        let (low, high) = (segment.a.min(segment.b), segment.a.max(segment.b));
-        let height = |toward: Vector| segment.a.dot(toward).max(segment.b.dot(toward));
-        self.nearest_triangle(limit, low, high, |index, limit| {
-            let triangle = self.triangle(index);
-            if is_beyond(&triangle, limit, &segment, height) {
-                return f64::INFINITY;
-            }
-            segment_triangle(&segment, &triangle)
+        let line = Segment::new(from.coords.into(), to.coords.into());
+        let convex = Convex {
+            low: line.a.min(line.b),
+            high: line.a.max(line.b),
+            height: |toward: Vector| line.a.dot(toward).max(line.b.dot(toward)),
+            line,
+        };
+        self.nearest_triangle(limit, &convex, |triangle, _| {
+            segment_triangle(&line, triangle)
         })
     }
 
-    /// The least distance of something in a box from a triangle, by `distance`, which may stop at the
-    /// limit that it is given; `None` when everything is farther than `limit`.
-    pub(super) fn nearest_triangle(
+    /// The least distance of something convex from a triangle, by `distance`, which may stop at the limit that it is
+    /// given, and the index of that one; `None` when everything is farther than `limit`.
+    pub(super) fn nearest_triangle<H: Fn(Vector) -> f64>(
         &self,
         limit: f64,
-        low: Vector,
-        high: Vector,
-        distance: impl Fn(u32, f64) -> f64,
+        convex: &Convex<H>,
+        distance: impl Fn(&Triangle, f64) -> f64,
     ) -> Option<(f64, u32)> {
-        let (_, found) = self.distance_tree().find_best(
+        let nearer = |nearest: Neighbour, index: u32| {
+            let triangle = self.triangle(index);
+            if convex.is_beyond(&triangle, nearest.distance) {
+                return nearest;
+            }
+            let distance = distance(&triangle, nearest.distance);
+            if distance < nearest.distance {
+                let triangle = index;
+                Neighbour { distance, triangle }
+            } else {
+                nearest
+            }
+        };
+        // Of many meshlets that are about as far one triangle each shows well how far the nearest one is at most.
+        let reached = RefCell::new(Vec::new());
+        let first_look = |leaf, limit| {
+            let bound = self.least_distance(self.meshlet(leaf), convex);
+            if bound >= limit {
+                return None;
+            }
+            reached.borrow_mut().push((bound, leaf));
+            Some(nearer(Neighbour::none(limit), self.meshlet(leaf).middle()))
+        };
+        let tree = self.distance_tree();
+        let seen = tree.find_best(
             limit,
-            |node, _| gap(node, low, high),
-            |leaf, best| nearest_of(self.leaf(leaf).map(|index| (distance(index, best), index))),
-        )?;
-        Some((found.distance, found.triangle))
+            |node, _| gap(node, convex.low, convex.high),
+            first_look,
+        );
+        let seen = seen.map_or(Neighbour::none(limit), |(_, nearest)| nearest);
+        let mut reached = reached.into_inner();
+        reached.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let found = reached.into_iter().fold(seen, |nearest, (bound, leaf)| {
+            if bound >= nearest.distance {
+                return nearest;
+            }
+            let triangles = self.meshlet(leaf).triangles().iter().copied();
+            triangles.fold(nearest, nearer)
+        });
+        (found.distance < limit).then_some((found.distance, found.triangle))
+    }
+
+    /// How far (m) a meshlet is at least from something convex: a plane across the way between both tells.
+    fn least_distance<H: Fn(Vector) -> f64>(&self, meshlet: &Meshlet, convex: &Convex<H>) -> f64 {
+        let way = convex.way_to(&self.triangle(meshlet.middle()));
+        let Some(toward) = way.try_normalize() else {
+            return 0.0;
+        };
+        meshlet.nearest_along(toward) - (convex.height)(toward)
     }
 
     pub(super) fn triangle(&self, index: u32) -> Triangle {
@@ -113,27 +177,39 @@ fn gap(node: &BvhNode, low: Vector, high: Vector) -> f64 {
     apart.max(Vector::ZERO).length()
 }
 
-/// Whether a plane across the way from a line to a triangle proves that the triangle is at least `limit` away from something convex round that line: one look at how far that reaches along a direction, `height`, where a
-/// distance takes many.
-pub(super) fn is_beyond(
-    triangle: &Triangle,
-    limit: f64,
-    line: &Segment,
-    height: impl Fn(Vector) -> f64,
-) -> bool {
-    // Nearly the nearest points of both.
-    let middle = (triangle.a + triangle.b + triangle.c) / 3.0;
-    let from = line.project_local_point(middle, true).point;
-    let to = triangle.project_local_point(from, true).point;
-    let from = line.project_local_point(to, true).point;
-    let apart = (to - from).length();
-    if apart <= limit {
-        return false;
+/// Something convex, as a walk to the nearest triangle sees it.
+pub(super) struct Convex<H> {
+    /// Corners of its box, m.
+    pub low: Vector,
+    pub high: Vector,
+    /// A line in the middle of it.
+    pub line: Segment,
+    /// How far it reaches in a direction.
+    pub height: H,
+}
+
+impl<H: Fn(Vector) -> f64> Convex<H> {
+    /// Whether a plane across the way from its line to a triangle proves that this is at least `limit` away: one look
+    /// at how far it reaches along a direction, where a distance takes many.
+    fn is_beyond(&self, triangle: &Triangle, limit: f64) -> bool {
+        let way = self.way_to(triangle);
+        let apart = way.length();
+        if apart <= limit {
+            return false;
+        }
+        let toward = way / apart;
+        let corners = [triangle.a, triangle.b, triangle.c];
+        let nearest = corners.map(|corner| corner.dot(toward));
+        nearest.into_iter().fold(f64::INFINITY, f64::min) - (self.height)(toward) >= limit
     }
-    let toward = (to - from) / apart;
-    let corners = [triangle.a, triangle.b, triangle.c];
-    let nearest = corners.map(|corner| corner.dot(toward));
-    nearest.into_iter().fold(f64::INFINITY, f64::min) - height(toward) >= limit
+
+    /// Nearly the shortest way from its line to a triangle.
+    fn way_to(&self, triangle: &Triangle) -> Vector {
+        let middle = (triangle.a + triangle.b + triangle.c) / 3.0;
+        let from = self.line.project_local_point(middle, true).point;
+        let to = triangle.project_local_point(from, true).point;
+        to - self.line.project_local_point(to, true).point
+    }
 }
 
 fn segment_triangle(segment: &Segment, triangle: &Triangle) -> f64 {

@@ -12,7 +12,7 @@ use parry3d_f64::shape::{Segment, SupportMap};
 use wide::f64x4;
 
 use super::Scene;
-use super::clearance::is_beyond;
+use super::clearance::Convex;
 use super::triangle_mesh::TriangleMesh;
 
 /// What of the nozzle must not touch a wall, round the exit.
@@ -183,14 +183,14 @@ impl TriangleMesh {
             Vector::from_array(reach(-1.0)),
             Vector::from_array(reach(1.0)),
         );
-        let height = |toward: Vector| swept.local_support_point(toward).dot(toward);
-        let line = swept.middle();
-        self.nearest_triangle(limit, low, high, |index, limit| {
-            let triangle = self.triangle(index);
-            if is_beyond(&triangle, limit, &line, height) {
-                return f64::INFINITY;
-            }
-            distance(swept, &triangle, limit)
+        let convex = Convex {
+            low,
+            high,
+            line: swept.middle(),
+            height: |toward: Vector| swept.local_support_point(toward).dot(toward),
+        };
+        self.nearest_triangle(limit, &convex, |triangle, limit| {
+            distance(swept, triangle, limit)
         })
     }
 }

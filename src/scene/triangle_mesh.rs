@@ -6,6 +6,7 @@
 
 mod crossing;
 mod many;
+mod meshlet;
 mod plane;
 mod slide;
 mod touch;
@@ -13,7 +14,6 @@ mod touch;
 use std::sync::OnceLock;
 
 use nalgebra::{Point3, Vector3};
-use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use rayon::prelude::*;
 
@@ -24,6 +24,7 @@ use super::triangle_packet::TrianglePacket;
 use touch::Touchable;
 
 pub(super) use many::{cross, touch};
+pub(super) use meshlet::Meshlet;
 
 /// A mesh that is ready for rays.
 #[derive(Clone)]
@@ -33,10 +34,9 @@ pub struct TriangleMesh {
     bundles: Vec<TrianglePacket>,
     /// What spheres need besides, made when the first one comes.
     touchable: OnceLock<Touchable>,
-    /// For other walks than rays.
+    /// For other walks than rays; its leaves are the meshlets.
     distance_tree: Bvh,
-    /// Whether its leaves are the bundles rather than single triangles.
-    bundled: bool,
+    meshlets: Vec<Meshlet>,
     corners: Vec<[u32; 3]>,
     surfaces: Vec<u32>,
     vertices: Vec<Point3<f64>>,
@@ -52,28 +52,12 @@ impl TriangleMesh {
     /// distance within which two points count as one, m.
     pub fn new(mesh: Mesh, surface_base: u32, slack: f64) -> Self {
         let corners = |index: u32| mesh.corners(&mesh.triangles[index as usize]);
-        let bounds = |triangles: &[u32]| {
-            let corners = triangles.iter().flat_map(|&index| corners(index));
-            let bounds = Aabb::from_points(corners.map(|corner| corner.coords.into()));
-            bounds.loosened(slack)
-        };
-        let count = mesh.triangles.len();
-        let bundled = count > LARGE_MESH;
-        let over_triangles = || {
-            let boxes = (0..count as u32).map(|index| bounds(&[index]));
-            Bvh::from_iter(BvhBuildStrategy::Ploc, boxes.enumerate())
-        };
-        let ((tree, leaves), over_triangles) = rayon::join(
-            || Bvh8::new(count, corners, slack),
-            || (!bundled).then(over_triangles),
-        );
-        let distance_tree = over_triangles.unwrap_or_else(|| {
-            let boxes = leaves.iter().map(|leaf| bounds(leaf));
-            Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate())
-        });
+        let (tree, leaves) = Bvh8::new(mesh.triangles.len(), corners, slack);
+        let meshlets = Meshlet::grouped(leaves.iter().map(|leaf| &leaf[..]), corners, slack);
+        let boxes = meshlets.iter().map(Meshlet::bounds);
         Self {
-            distance_tree,
-            bundled,
+            distance_tree: Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate()),
+            meshlets,
             touchable: OnceLock::new(),
             bundles: leaves
                 .par_iter()
@@ -103,13 +87,9 @@ impl TriangleMesh {
         &self.distance_tree
     }
 
-    /// The triangles in a leaf of parry's tree.
-    pub(super) fn leaf(&self, leaf: u32) -> impl Iterator<Item = u32> + '_ {
-        let bundle = self
-            .bundled
-            .then(|| self.bundles[leaf as usize].triangles());
-        let single = (!self.bundled).then_some(leaf);
-        bundle.into_iter().flatten().copied().chain(single)
+    /// A leaf of parry's tree.
+    pub(super) fn meshlet(&self, leaf: u32) -> &Meshlet {
+        &self.meshlets[leaf as usize]
     }
 
     /// The corner points of a triangle.
@@ -139,10 +119,6 @@ fn doubtful_weight(mesh: &Mesh, slack: f64) -> f64 {
     let longest = mesh.bounds().map_or(0.0, |(low, high)| (high - low).norm());
     2.0 * longest * LIFT * slack
 }
-
-/// In meshes with more triangles distances share the bundles: parry's better tree over single
-/// triangles takes time with the square of those that lie alike, as the facets of a prism do.
-const LARGE_MESH: usize = 20_000;
 
 #[cfg(test)]
 pub(super) mod tests;

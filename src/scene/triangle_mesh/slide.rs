@@ -42,7 +42,9 @@ impl TriangleMesh {
         }
         let around = Aabb::from_points([at.coords.into()]).loosened(margin);
         let leaves = self.distance_tree.intersect_aabb(&around);
-        known.along = leaves.flat_map(|leaf| self.leaf(leaf)).find(ends_here);
+        known.along = leaves
+            .flat_map(|leaf| self.meshlet(leaf).triangles().iter().copied())
+            .find(ends_here);
         known.along.is_some()
     }
 }

@@ -8,11 +8,11 @@ use crate::scene::prism::Prism;
 /// Shots that are looked at together: none of them near an end is common.
 const GROUP: usize = 16;
 
-/// Where shots that leave by an end pass it, and how far aside they may still touch something.
-struct Exits {
+/// Where shots pass the plane of an open end, and how far aside they may still touch its rim.
+struct Passages {
     x: [f64; GROUP],
     y: [f64; GROUP],
-    /// m; infinite for shots that come from outside.
+    /// m; infinite for shots that never pass it.
     reach: [f64; GROUP],
 }
 
@@ -20,44 +20,56 @@ impl Prism {
     /// The shots that come so near to an end that they may touch a cap or a rim.
     #[inline(always)]
     pub(super) fn near_ends(&self, flights: &Flights, best: &Best) -> [bool; LANES] {
-        let mut near = [false; LANES];
-        let has_caps = !self.caps.is_empty();
+        let ends = [0.0, self.extent.length];
+        let is_closed = ends.map(|z| self.caps.iter().any(|cap| cap.z == z));
+        let mut near = [[false; LANES]; 2];
         let farthest = f64::from(f32::MAX).sqrt();
-        for (i, near) in near.iter_mut().enumerate().take(padded(flights.count)) {
+        for i in 0..padded(flights.count) {
             let from = flights.origin[2][i];
             let rank = best.rank[i];
             let ahead = if rank < farthest { rank } else { farthest };
             let to = from + flights.direction[2][i] * ahead;
             let (low, high) = if from < to { (from, to) } else { (to, from) };
-            let radius = if has_caps { flights.radius[i] } else { 0.0 };
-            let margin = self.extent.slack + radius;
-            *near = (low <= margin) | (high >= self.extent.length - margin);
+            let margin = |is_closed: bool| {
+                let radius = if is_closed { flights.radius[i] } else { 0.0 };
+                self.extent.slack + radius
+            };
+            near[0][i] = low <= margin(is_closed[0]);
+            near[1][i] = high >= self.extent.length - margin(is_closed[1]);
         }
-        if !has_caps {
+        for (end, near) in near
+            .iter_mut()
+            .enumerate()
+            .filter(|(end, _)| !is_closed[*end])
+        {
             let groups = near.chunks_exact_mut(GROUP).enumerate();
             for (group, near) in groups.filter(|(_, near)| near.contains(&true)) {
-                self.drop_clear_exits(flights, group * GROUP, near);
+                self.drop_clear_passages(flights, group * GROUP, ends[end], near);
             }
         }
-        near
+        let [mut any, far] = near;
+        for (any, far) in any.iter_mut().zip(far) {
+            *any |= far;
+        }
+        any
     }
 
-    /// Most shots leave far from any rim; `first` is the first of the group.
+    /// Most shots pass an open end far from its rim; `first` is the first of the group.
     #[inline(always)]
-    fn drop_clear_exits(&self, flights: &Flights, first: usize, near: &mut [bool]) {
-        let exits = self.exits(flights, first);
+    fn drop_clear_passages(&self, flights: &Flights, first: usize, end: f64, near: &mut [bool]) {
+        let passages = self.passages(flights, first, end);
         let mut least = [f64::INFINITY; GROUP];
         for wall in &self.walls {
             match wall {
                 Primitive::Plane(plane) => {
                     for (i, least) in least.iter_mut().enumerate() {
-                        let square = plane.squared_distance([exits.x[i], exits.y[i]]);
+                        let square = plane.squared_distance([passages.x[i], passages.y[i]]);
                         *least = if square < *least { square } else { *least };
                     }
                 }
                 Primitive::Cylinder(cylinder) => {
                     for (i, least) in least.iter_mut().enumerate() {
-                        let apart = cylinder.distance_to_whole([exits.x[i], exits.y[i]]);
+                        let apart = cylinder.distance_to_whole([passages.x[i], passages.y[i]]);
                         let square = apart * apart;
                         *least = if square < *least { square } else { *least };
                     }
@@ -65,15 +77,15 @@ impl Prism {
             }
         }
         for (i, near) in near.iter_mut().enumerate() {
-            let is_clear = least[i] > exits.reach[i] * exits.reach[i];
+            let is_clear = least[i] > passages.reach[i] * passages.reach[i];
             *near &= !is_clear;
         }
     }
 
     #[inline(always)]
-    fn exits(&self, flights: &Flights, first: usize) -> Exits {
+    fn passages(&self, flights: &Flights, first: usize, end: f64) -> Passages {
         let zeros = [0.0; GROUP];
-        let mut exits = Exits {
+        let mut passages = Passages {
             x: zeros,
             y: zeros,
             reach: zeros,
@@ -81,17 +93,14 @@ impl Prism {
         for i in 0..GROUP {
             let [x, y, z] = components(flights.origin, first + i);
             let [u, v, w] = components(flights.direction, first + i);
-            let outwards = w > 0.0;
-            let end = if outwards { self.extent.length } else { 0.0 };
             let distance = (end - z) / w;
-            exits.x[i] = x + u * distance;
-            exits.y[i] = y + v * distance;
-            // What lies in the end's plane at a distance D from where the shot passes it is nowhere nearer
-            // than D |w| to its path.
-            let is_inside = (z >= 0.0) & (z <= self.extent.length) & (w != 0.0);
+            passages.x[i] = x + u * distance;
+            passages.y[i] = y + v * distance;
+            // What lies in the end's plane at a distance D from where the line of flight passes it is nowhere nearer
+            // than D |w| to that line.
             let reach = (flights.radius[first + i] + self.extent.slack) / w.abs();
-            exits.reach[i] = if is_inside { reach } else { f64::INFINITY };
+            passages.reach[i] = if w != 0.0 { reach } else { f64::INFINITY };
         }
-        exits
+        passages
     }
 }
