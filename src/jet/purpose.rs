@@ -21,5 +21,7 @@ pub const CHART_REFERENCE: u32 = 7;
 pub const CHART_COMPARISON: u32 = 8;
 /// Shots of a search that is to confirm another one.
 pub const CONFIRMATION: u32 = 9;
+/// Stages of a search that bound how far the settings found before are from the best ones.
+pub const OPTIMALITY_GAP: u32 = 10;
 /// The scatter of samples in charts; the last, as it may take more streams than the others.
-pub const CHART_SCATTER: u32 = 10;
+pub const CHART_SCATTER: u32 = 11;

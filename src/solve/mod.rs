@@ -64,7 +64,7 @@ use sampler::Sampler;
 use search::Search;
 use space::Space;
 use stage::Stage;
-use stopping_rule::not_converged;
+use stopping_rule::{is_near_best, not_converged};
 use tie::ranked;
 
 /// What a search found.
@@ -156,6 +156,7 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
         if open.is_empty()
             && shots < control.validation_shots
             && searches[leader].dimensions() >= MANY
+            && !is_near_best(&searches[leader], problem)
             && !sampler.is_precise(searches, shots, &effort)
         {
             open.push(leader);
@@ -163,10 +164,13 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
         open
     };
     let mut open = still_open(&sampler, &searches, &answers, shots);
-    while !open.is_empty() && shots * RISE <= control.most_shots && !control.is_stopped() {
+    for number in 0.. {
+        if open.is_empty() || shots * RISE > control.most_shots || control.is_stopped() {
+            break;
+        }
         shots *= RISE;
         sampler.adapt(&searches, &effort, control);
-        let samples = sampler.draw(shots);
+        let samples = sampler.draw_anew(number, shots);
         let evaluator = sampler.evaluator(&searched, &samples, &effort, control);
         refine_in_turn(&mut searches, &open, &evaluator, &Stage::beyond(shots));
         tell(control, &effort, &searches);

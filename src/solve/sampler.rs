@@ -84,6 +84,12 @@ impl<'a> Sampler<'a> {
         self.draw_from(Replicates::stream(purpose::CONFIRMATION, group), shots)
     }
 
+    /// Shots that are independent of those on which settings were found, to bound how far these are from the best
+    /// ones; `number` tells such samples apart.
+    pub fn draw_anew(&self, number: u32, shots: usize) -> Samples {
+        self.draw_from(Replicates::stream(purpose::OPTIMALITY_GAP, number), shots)
+    }
+
     fn draw_from(&self, stream: Stream, shots: usize) -> Samples {
         let problem = &self.scenario.problem;
         match &self.penalty {

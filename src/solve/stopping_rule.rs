@@ -29,7 +29,8 @@ pub(super) fn is_in_reach(search: &Search, least: f64) -> bool {
 /// its error, is above J of another one.
 ///
 /// Where the standard error is too large for that gap to say much, the search goes on as well, up to the number of
-/// validation shots. Where every goal is reached J is rounding, of which no accuracy can be asked.
+/// validation shots, or until the [optimality gap](Search::optimality_gap) of a stage on shots of its own is as small.
+/// Where every goal is reached J is rounding, of which no accuracy can be asked.
 pub(super) fn not_converged(
     searches: &[Search],
     answers: &[Answer],
@@ -54,13 +55,20 @@ pub(super) fn not_converged(
         } else {
             TOLERABLE_ON_MANY * wanted + error
         };
-        Some(could_win && (is_noisy || found - claimed > tolerable))
+        let is_doubtful = is_noisy || found - claimed > tolerable;
+        Some(could_win && is_doubtful && !is_near_best(search, problem))
     };
     let pairs = searches.iter().zip(answers).enumerate();
     pairs
         .filter(|(_, (search, answer))| is_open(search, answer).unwrap_or(false))
         .map(|(index, _)| index)
         .collect()
+}
+
+/// Whether the optimality gap says that the settings which the last stage has found are good enough.
+pub(super) fn is_near_best(search: &Search, problem: &Problem) -> bool {
+    let least = search.best().fitness.rank();
+    search.optimality_gap() <= TOLERABLE_BEFORE * wanted(least, problem)
 }
 
 /// Whether J of a contact that could win is too noisy.
@@ -106,6 +114,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// least value there shows less of a gap than its settings are worse: with half of the accuracy 2 of
 /// 100 seeds were up to 2 % off in the long hub set within its tolerance.
 const TOLERABLE: f64 = 0.35;
+/// The same for the gap of the settings that a stage began with: those that it has found on four times the shots are
+/// at least twice as near to the best ones.
+const TOLERABLE_BEFORE: f64 = 2.0 * TOLERABLE;
 /// The same for a sample as large as the validation sample, which has such hollows
 /// less often; asking more of it makes some searches of the fir tree three times as long.
 const TOLERABLE_ON_MANY: f64 = 0.5;
