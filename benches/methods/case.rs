@@ -6,7 +6,8 @@ use peenpose::problem::setting::{Range, Settings};
 use peenpose::scenario::Scenario;
 
 use crate::common::known::Known;
-use crate::common::variant::{Shots, Variant, contact_named};
+use crate::common::suite::{self, KnownBest};
+use crate::common::variant::{Shots, Variant, allow_every_share, contact_named};
 use crate::objective::{Limits, Objective, Speed, Step, shots};
 use crate::{annealing, gradient, line, model, population, sampling, shipped, simplex, swarm};
 
@@ -90,8 +91,33 @@ pub fn cases(known: &[Known], only: &str) -> Result<Vec<Case>, Box<dyn Error>> {
     ranges.azimuth = Range::held(line.known.azimuth);
     ranges.standoff = Range::held(line.known.standoff);
     let mut cases = vec![short, long, line, shipped];
+    let known = KnownBest::all()?;
+    for name in HARD {
+        cases.push(of_suite(name, &known)?);
+    }
     cases.retain(|case| case.name.contains(only));
     Ok(cases)
+}
+
+/// Problems of the suite on which searches went wrong: regions apart, a needle, a lance in a bore that it nearly fills.
+const HARD: [&str; 3] = ["bridge", "groove-wall", "lance-in-small-bore"];
+
+fn of_suite(name: &'static str, known: &[KnownBest]) -> Result<Case, Box<dyn Error>> {
+    let path = suite::problems().into_iter().find(|it| it.0 == name);
+    let (_, path) = path.ok_or("no such problem in the suite")?;
+    let best = known.iter().find(|it| it.problem == name);
+    let known = best.ok_or("no best settings are known")?.settings;
+    let (mut scenario, _) = Scenario::load(&path)?;
+    allow_every_share(&mut scenario);
+    let ranges = &mut scenario.problem.ranges;
+    ranges.contact = vec![known.contact];
+    let friction = &mut scenario.problem.contacts[known.contact].static_friction;
+    *friction = Range::held(known.static_friction);
+    Ok(Case {
+        name,
+        scenario,
+        known,
+    })
 }
 
 fn case(

@@ -55,10 +55,11 @@ impl Cube {
 }
 
 /// The settings that are searched where the best speed follows from the paths.
-pub const ALL_BUT_SPEED: [Setting; 5] = [
+pub const ALL_BUT_SPEED: [Setting; 6] = [
     Setting::Incidence,
     Setting::Azimuth,
     Setting::Standoff,
     Setting::AimAlong,
     Setting::AimAcross,
+    Setting::AimAbove,
 ];

@@ -4,5 +4,6 @@
 pub mod cube;
 pub mod known;
 pub mod statistics;
+pub mod suite;
 pub mod validation;
 pub mod variant;

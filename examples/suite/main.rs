@@ -10,14 +10,13 @@
 
 #[path = "../common/mod.rs"]
 mod common;
-mod known;
 mod row;
 
 use std::error::Error;
 use std::path::PathBuf;
 
 use clap::Parser;
-use known::KnownBest;
+use common::suite::{self, KnownBest};
 use row::{HEADER, Row, Run};
 
 /// How often answers are the best that is known, pass, and say so truly.
@@ -53,11 +52,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut known = KnownBest::all()?;
     let mut table = format!("{HEADER}\n");
     println!("{HEADER}");
-    for (name, path) in known::problems() {
+    for (name, path) in suite::problems() {
         if !name.contains(&arguments.only) {
             continue;
         }
-        let mut scenario = known::scenario(&path)?;
+        let mut scenario = suite::scenario(&path)?;
         if let Some(percent) = arguments.accuracy {
             scenario.problem.accuracy = percent / 100.0;
         }

@@ -9,8 +9,8 @@ use peenpose::scenario::Scenario;
 use peenpose::solve::{Status, solve};
 
 use crate::common::statistics::{Mean, median};
+use crate::common::suite::KnownBest;
 use crate::common::validation;
-use crate::known::KnownBest;
 
 /// Names of the columns.
 pub const HEADER: &str = "problem,seeds,best_J,best_passes,within_1_percent,pass,as_good,converged,converged_true,\

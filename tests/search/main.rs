@@ -4,7 +4,7 @@
 mod common;
 #[path = "../../examples/common/mod.rs"]
 mod examples;
-#[path = "../../examples/suite/known.rs"]
+#[path = "../../examples/common/suite.rs"]
 #[allow(dead_code, reason = "the table is written by the example alone")]
 mod suite_known;
 
