@@ -1,7 +1,7 @@
 //! Methods of optimisation on the same shots: how often and how soon each comes within 1 % of the
 //! least J, with the speed searched and with the speed taken out.
 //!
-//! `cargo bench --bench methods` prints the tables and writes `target/methods.csv`, which holds every
+//! `cargo bench -p peenpose-methods` prints the tables and writes `target/methods.csv`, which holds every
 //! run at several numbers of evaluations, with the true excess over the best settings known; of each
 //! problem it writes the same beside that file as `peenpose chart --beside` reads it.
 
@@ -38,7 +38,7 @@ use objective::Speed;
 #[derive(Parser)]
 struct Arguments {
     /// Where all runs go.
-    #[arg(default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/target/methods.csv"))]
+    #[arg(default_value_os_t = common::root().join("target/methods.csv"))]
     table: PathBuf,
     /// Seeds of shots and of methods.
     #[arg(long, default_value_t = 20)]

@@ -1,7 +1,6 @@
 //! The best settings known of each problem, as `best_known` found them.
 
 use std::error::Error;
-use std::path::Path;
 
 use peenpose::problem::Problem;
 use peenpose::problem::setting::{Setting, Settings};
@@ -84,7 +83,7 @@ impl Known {
 
     /// Reads the table.
     pub fn read() -> Result<Vec<Self>, Box<dyn Error>> {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/best_known.csv");
+        let path = super::root().join("tests/data/best_known.csv");
         let text = std::fs::read_to_string(&path)
             .map_err(|error| format!("{}: {error}", path.display()))?;
         text.lines().skip(1).map(Self::parse).collect()

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use peenpose::problem::setting::{Setting, Settings};
 use peenpose::scenario::Scenario;
 
+use super::root;
+
 /// Shipped problems that are part of the suite.
 const SHIPPED: [&str; 6] = [
     "keyway",
@@ -29,10 +31,6 @@ pub struct KnownBest {
     pub violation: f64,
     /// What found them.
     pub origin: String,
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
 /// Names and files of all problems.

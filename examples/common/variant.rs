@@ -2,7 +2,7 @@
 //! as they are and with shots that fly as points.
 
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use peenpose::problem::Problem;
 use peenpose::problem::model::Model;
@@ -45,9 +45,7 @@ pub fn variants() -> impl Iterator<Item = Variant> {
 
 /// Where a shipped problem is.
 pub fn path(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("problems")
-        .join(file)
+    super::root().join("problems").join(file)
 }
 
 impl Variant {

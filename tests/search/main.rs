@@ -4,9 +4,6 @@
 mod common;
 #[path = "../../examples/common/mod.rs"]
 mod examples;
-#[path = "../../examples/common/suite.rs"]
-#[allow(dead_code, reason = "the table is written by the example alone")]
-mod suite_known;
 
 mod best_known;
 mod deflector;

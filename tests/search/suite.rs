@@ -5,8 +5,8 @@ use peenpose::control::Control;
 use peenpose::solve::{Answer, Status, solve};
 
 use crate::examples::statistics::Mean;
+use crate::examples::suite::{KnownBest, problems, scenario};
 use crate::examples::validation;
-use crate::suite_known::{KnownBest, problems, scenario};
 
 /// J may be above the best known by this share, and violations where nothing passes.
 const GOOD: f64 = 0.01;
