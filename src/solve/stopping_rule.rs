@@ -65,10 +65,11 @@ pub(super) fn not_converged(
         .collect()
 }
 
-/// Whether the optimality gap says that the settings which the last stage has found are good enough.
+/// Whether the optimality gap says that the settings which the last stage began with were good enough: those that it
+/// has found on four times the shots are better.
 pub(super) fn is_near_best(search: &Search, problem: &Problem) -> bool {
     let least = search.best().fitness.rank();
-    search.optimality_gap() <= TOLERABLE_BEFORE * wanted(least, problem)
+    search.optimality_gap() <= TOLERABLE * wanted(least, problem)
 }
 
 /// Whether J of a contact that could win is too noisy.
@@ -110,13 +111,10 @@ pub(super) fn rounding_of_objective(goals: &Goals) -> f64 {
 
 /// Relative rounding of an impulse.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Share of the accuracy that the gap may reach. A search that ends in a hollow of its sample beside the
+/// Share of the accuracy that either gap may reach. A search that ends in a hollow of its sample beside the
 /// least value there shows less of a gap than its settings are worse: with half of the accuracy 2 of
 /// 100 seeds were up to 2 % off in the long hub set within its tolerance.
 const TOLERABLE: f64 = 0.35;
-/// The same for the gap of the settings that a stage began with: those that it has found on four times the shots are
-/// at least twice as near to the best ones.
-const TOLERABLE_BEFORE: f64 = 2.0 * TOLERABLE;
 /// The same for a sample as large as the validation sample, which has such hollows
 /// less often; asking more of it makes some searches of the fir tree three times as long.
 const TOLERABLE_ON_MANY: f64 = 0.5;
