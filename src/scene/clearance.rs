@@ -283,4 +283,59 @@ mod tests {
             }
         }
     }
+
+    /// Of rods and points all over a bore with a keyway, on their way through walls, too.
+    #[test]
+    fn the_nearest_of_all_triangles_is_found() {
+        let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
+        let study = crate::study::Study::open(&file).expect("it is sound");
+        let facets = &study.scenario().scene.parts[0].facets;
+        let (low, high) =
+            (0..facets.count() as u32).fold((Vector::MAX, Vector::MIN), |(low, high), index| {
+                let triangle = facets.triangle(index);
+                let corners = [triangle.a, triangle.b, triangle.c];
+                corners
+                    .into_iter()
+                    .fold((low, high), |(low, high), it| (low.min(it), high.max(it)))
+            });
+        let mut crossing = 0;
+        for number in 0..300 {
+            let at = |first: u32| {
+                let spread = [0, 1, 2].map(|axis| {
+                    f64::from(sobol_burley::sample(number, first + axis, 3)) * 1.4 - 0.2
+                });
+                let point = low + (high - low) * Vector::from_array(spread);
+                Point3::from(Vector3::from(point))
+            };
+            let (from, to) = (at(0), at(3));
+            let segment = Segment::new(from.coords.into(), to.coords.into());
+            let all = 0..facets.count() as u32;
+            let distances = all.map(|index| segment_triangle(&segment, &facets.triangle(index)));
+            let least = distances.fold(f64::INFINITY, f64::min);
+            let is_least = |distance: f64| (distance - least).abs() <= 1e-15;
+            let found = facets.distance_to_segment(&from, &to, f64::INFINITY);
+            let (distance, triangle) = found.expect("there is one");
+            let there = segment_triangle(&segment, &facets.triangle(triangle));
+            assert!(is_least(distance) && is_least(there), "{from} {to}");
+            // A limit leaves out what is no nearer, and nothing else.
+            assert_eq!(facets.distance_to_segment(&from, &to, 0.9 * least), None);
+            let within = facets.distance_to_segment(&from, &to, 1.1 * least);
+            assert_eq!(within.is_some_and(|it| is_least(it.0)), least > 0.0);
+            crossing += u32::from(least == 0.0);
+
+            let point = facets.nearest_point(&from, |_| true).expect("there is one");
+            let centre: Vector = from.coords.into();
+            let all = 0..facets.count() as u32;
+            let distances = all.map(|index| {
+                let nearest = facets
+                    .triangle(index)
+                    .project_local_point(centre, true)
+                    .point;
+                (nearest - centre).length()
+            });
+            let least = distances.fold(f64::INFINITY, f64::min);
+            assert!((point.distance - least).abs() <= 1e-15, "{from}");
+        }
+        assert!((50..250).contains(&crossing), "{crossing}");
+    }
 }

@@ -57,7 +57,7 @@ impl Prism {
         (self.walls.len() + self.caps.len()) as u32
     }
 
-    fn first_rim(&self) -> u32 {
+    pub(super) fn first_rim(&self) -> u32 {
         self.first_edge() + self.edges.len() as u32
     }
 

@@ -262,3 +262,42 @@ fn a_lip_belongs_to_the_wall_whose_normal_is_nearer() {
         }
     }
 }
+
+/// From outside, steeply and gently, past either end, with an end closed or none: rims on the way are found, and what
+/// passes clear of them is let through.
+#[test]
+fn many_shots_from_outside_touch_what_each_of_them_touches() {
+    let mut rims = 0;
+    for (near_closed, far_closed) in [(false, false), (true, false), (false, true)] {
+        let pipe = pipe(near_closed, far_closed);
+        for round in 0..32 {
+            let flight = |i: usize| {
+                let number = (round * LANES + i) as u32;
+                let spread = |axis| f64::from(sobol_burley::sample(number, axis, 5));
+                let outside = if spread(0) < 0.5 { -2.0 } else { 12.0 };
+                let origin = Point3::new(14.0 * spread(1) - 7.0, 14.0 * spread(2) - 7.0, outside);
+                let into = Point3::new(
+                    12.0 * spread(3) - 6.0,
+                    12.0 * spread(4) - 6.0,
+                    12.0 * spread(5) - 1.0,
+                );
+                Ray {
+                    origin,
+                    direction: (into - origin).normalize(),
+                }
+            };
+            let flights: Vec<Ray> = (0..LANES).map(flight).collect();
+            let many = touched_by_many(&pipe, &flights);
+            for (i, flight) in flights.iter().enumerate() {
+                let one = pipe.first_touch(flight, RADIUS, None, false, f64::INFINITY);
+                let distance = one.map_or(f64::INFINITY, |(crossing, _)| crossing.distance);
+                assert_eq!(many.distance[i], distance, "{flight:?}");
+                if let Some((crossing, _)) = one {
+                    assert_eq!(many.hit_ids.at(i).piece, crossing.piece, "{flight:?}");
+                    rims += usize::from(crossing.piece >= pipe.first_rim());
+                }
+            }
+        }
+    }
+    assert!(rims > 200, "{rims}");
+}
