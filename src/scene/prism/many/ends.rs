@@ -22,9 +22,10 @@ impl Prism {
     pub(super) fn near_ends(&self, flights: &Flights, best: &Best) -> [bool; LANES] {
         let ends = [0.0, self.extent.length];
         let is_closed = ends.map(|z| self.caps.iter().any(|cap| cap.z == z));
-        let mut near = [[false; LANES]; 2];
+        let (mut near, mut far) = ([false; LANES], [false; LANES]);
         let farthest = f64::from(f32::MAX).sqrt();
-        for i in 0..padded(flights.count) {
+        let both = near.iter_mut().zip(&mut far).enumerate();
+        for (i, (near, far)) in both.take(padded(flights.count)) {
             let from = flights.origin[2][i];
             let rank = best.rank[i];
             let ahead = if rank < farthest { rank } else { farthest };
@@ -34,24 +35,22 @@ impl Prism {
                 let radius = if is_closed { flights.radius[i] } else { 0.0 };
                 self.extent.slack + radius
             };
-            near[0][i] = low <= margin(is_closed[0]);
-            near[1][i] = high >= self.extent.length - margin(is_closed[1]);
+            *near = low <= margin(is_closed[0]);
+            *far = high >= self.extent.length - margin(is_closed[1]);
         }
-        for (end, near) in near
-            .iter_mut()
-            .enumerate()
-            .filter(|(end, _)| !is_closed[*end])
-        {
+        for (end, near) in [&mut near, &mut far].into_iter().enumerate() {
+            if is_closed[end] {
+                continue;
+            }
             let groups = near.chunks_exact_mut(GROUP).enumerate();
             for (group, near) in groups.filter(|(_, near)| near.contains(&true)) {
                 self.drop_clear_passages(flights, group * GROUP, ends[end], near);
             }
         }
-        let [mut any, far] = near;
-        for (any, far) in any.iter_mut().zip(far) {
-            *any |= far;
+        for (near, far) in near.iter_mut().zip(far) {
+            *near |= far;
         }
-        any
+        near
     }
 
     /// Most shots pass an open end far from its rim; `first` is the first of the group.
