@@ -7,9 +7,11 @@
 //! The argument is the number of seeds. Both models of a seed run one after the other on one thread, the
 //! first of them in turn; ratios are those of sums over the seeds.
 
+#[path = "common/mod.rs"]
+mod common;
+
 use std::env;
 use std::error::Error;
-use std::path::Path;
 use std::time::Instant;
 
 use peenpose::control::Control;
@@ -17,23 +19,15 @@ use peenpose::problem::model::Model;
 use peenpose::scenario::Scenario;
 use peenpose::solve::{Solution, solve};
 
-const FILES: [&str; 7] = [
-    "plate",
-    "keyway",
-    "keyway-long",
-    "keyway-blind",
-    "firtree",
-    "gear-root",
-    "deflector",
-];
+use common::suite::SHIPPED;
+use common::variant::path;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let seeds: u64 = env::args().nth(1).map_or(Ok(10), |text| text.parse())?;
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     println!("problem       full s  auto/full time  auto/full rays  largest change of J");
-    for file in FILES {
-        let path = format!("{}/problems/{file}.yaml", env!("CARGO_MANIFEST_DIR"));
-        let (mut scenario, _) = Scenario::load(Path::new(&path))?;
+    for file in ["plate"].into_iter().chain(SHIPPED) {
+        let (mut scenario, _) = Scenario::load(&path(&format!("{file}.yaml")))?;
         let (mut seconds, mut rays, mut apart) = ([0.0; 2], [0; 2], 0.0_f64);
         for seed in 1..=seeds {
             scenario.problem.seed = seed;

@@ -9,7 +9,7 @@ use peenpose::scenario::Scenario;
 use super::root;
 
 /// Shipped problems that are part of the suite.
-const SHIPPED: [&str; 6] = [
+pub const SHIPPED: [&str; 6] = [
     "keyway",
     "keyway-long",
     "keyway-blind",

@@ -55,15 +55,10 @@ impl TriangleMesh {
         counts: impl Fn(u32) -> bool,
     ) -> Option<NearestPoint> {
         let centre: Vector = to.coords.into();
-        let point = Convex {
-            low: centre,
-            high: centre,
-            line: Segment::new(centre, centre),
-            height: |toward: Vector| centre.dot(toward),
-        };
+        let point = Convex::of(Segment::new(centre, centre));
         let (_, found) = self.distance_tree().find_best(
             f64::INFINITY,
-            |node, _| gap(node, centre, centre),
+            |node, _| point.gap(node),
             |leaf, best| {
                 let meshlet = self.meshlet(leaf);
                 if self.least_distance(meshlet, &point) >= best {
@@ -95,13 +90,7 @@ impl TriangleMesh {
         limit: f64,
     ) -> Option<(f64, u32)> {
         let line = Segment::new(from.coords.into(), to.coords.into());
-        let convex = Convex {
-            low: line.a.min(line.b),
-            high: line.a.max(line.b),
-            height: |toward: Vector| line.a.dot(toward).max(line.b.dot(toward)),
-            line,
-        };
-        self.nearest_triangle(limit, &convex, |triangle, _| {
+        self.nearest_triangle(limit, &Convex::of(line), |triangle, _| {
             segment_triangle(&line, triangle)
         })
     }
@@ -138,11 +127,7 @@ impl TriangleMesh {
             Some(nearer(Neighbour::none(limit), self.meshlet(leaf).middle()))
         };
         let tree = self.distance_tree();
-        let seen = tree.find_best(
-            limit,
-            |node, _| gap(node, convex.low, convex.high),
-            first_look,
-        );
+        let seen = tree.find_best(limit, |node, _| convex.gap(node), first_look);
         let seen = seen.map_or(Neighbour::none(limit), |(_, nearest)| nearest);
         let mut reached = reached.into_inner();
         reached.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -171,12 +156,6 @@ impl TriangleMesh {
     }
 }
 
-/// Distance between a tree node's box and the box from `low` to `high`.
-fn gap(node: &BvhNode, low: Vector, high: Vector) -> f64 {
-    let apart = (node.mins() - high).max(low - node.maxs());
-    apart.max(Vector::ZERO).length()
-}
-
 /// Something convex, as a walk to the nearest triangle sees it.
 pub(super) struct Convex<H> {
     /// Corners of its box, m.
@@ -188,7 +167,25 @@ pub(super) struct Convex<H> {
     pub height: H,
 }
 
+impl Convex<()> {
+    /// A line, or a point where its ends are the same.
+    fn of(line: Segment) -> Convex<impl Fn(Vector) -> f64> {
+        Convex {
+            low: line.a.min(line.b),
+            high: line.a.max(line.b),
+            height: move |toward: Vector| line.a.dot(toward).max(line.b.dot(toward)),
+            line,
+        }
+    }
+}
+
 impl<H: Fn(Vector) -> f64> Convex<H> {
+    /// Distance between its box and that of a tree node.
+    fn gap(&self, node: &BvhNode) -> f64 {
+        let apart = (node.mins() - self.high).max(self.low - node.maxs());
+        apart.max(Vector::ZERO).length()
+    }
+
     /// Whether a plane across the way from its line to a triangle proves that this is at least `limit` away: one look
     /// at how far it reaches along a direction, where a distance takes many.
     fn is_beyond(&self, triangle: &Triangle, limit: f64) -> bool {

@@ -54,7 +54,7 @@ impl TriangleMesh {
         let corners = |index: u32| mesh.corners(&mesh.triangles[index as usize]);
         let (tree, leaves) = Bvh8::new(mesh.triangles.len(), corners, slack);
         let meshlets = Meshlet::grouped(leaves.iter().map(|leaf| &leaf[..]), corners, slack);
-        let boxes = meshlets.iter().map(Meshlet::bounds);
+        let boxes = meshlets.iter().map(|meshlet| meshlet.bounds(slack));
         Self {
             distance_tree: Bvh::from_iter(BvhBuildStrategy::Binned, boxes.enumerate()),
             meshlets,

@@ -36,27 +36,26 @@ impl Search {
             !scenario.speed_scales_out(contact),
         );
         let groups = if space.dimensions() == 0 { 1 } else { GROUPS };
-        let mut search = Self {
+        let numbers = (0..groups).into_par_iter();
+        let groups = numbers.map(|number| screened(&space, scenario, evaluator, number));
+        let groups = groups.collect();
+        Self::of(space, groups)
+    }
+
+    /// A search with these groups, on which no stage was yet.
+    fn of(space: Space, groups: Vec<Vec<Candidate>>) -> Self {
+        Self {
             space,
-            groups: Vec::new(),
+            groups,
             optimality_gap: f64::INFINITY,
-        };
-        search.groups = (0..groups)
-            .into_par_iter()
-            .map(|number| screened(&search.space, scenario, evaluator, number))
-            .collect();
-        search
+        }
     }
 
     /// A search of the same contact that begins with another group.
     pub fn another_group(&self, number: u32, scenario: &Scenario, evaluator: &Evaluator) -> Self {
         let space = self.space.clone();
         let groups = vec![screened(&space, scenario, evaluator, number)];
-        Self {
-            space,
-            groups,
-            optimality_gap: f64::INFINITY,
-        }
+        Self::of(space, groups)
     }
 
     /// The best candidate so far.
@@ -124,11 +123,11 @@ impl Search {
         };
         let (before, groups): (Vec<Vec<f64>>, _) = self.groups.par_iter().map(refined).unzip();
         let before = before.into_iter().flatten().fold(f64::INFINITY, f64::min);
-        self.ends_stage(before, groups);
+        self.end_stage(before, groups);
     }
 
     /// Takes what a stage has found, on whose shots J was `before` at least.
-    fn ends_stage(&mut self, before: f64, groups: Vec<Vec<Candidate>>) {
+    fn end_stage(&mut self, before: f64, groups: Vec<Vec<Candidate>>) {
         self.groups = groups;
         self.optimality_gap = before - self.best().fitness.rank();
     }
@@ -145,14 +144,14 @@ impl Search {
         let found = self.beside(&here, leader, evaluator, stage);
         let own = || stage.descent(&self.space, evaluator, here);
         let found = found.unwrap_or_else(own);
-        self.ends_stage(before, vec![vec![found]]);
+        self.end_stage(before, vec![vec![found]]);
     }
 
     /// Goes on from the incumbent of another contact, if that is better here than this contact's own.
     pub fn follow(&mut self, leader: &Candidate, evaluator: &Evaluator, stage: &Stage) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
         if let Some(found) = self.beside(&here, leader, evaluator, stage) {
-            self.ends_stage(here.fitness.rank(), vec![vec![found]]);
+            self.end_stage(here.fitness.rank(), vec![vec![found]]);
         }
     }
 
@@ -242,11 +241,7 @@ mod tests {
                 &evaluator,
                 &space.point(&settings),
             )]];
-            Search {
-                space,
-                groups,
-                optimality_gap: f64::INFINITY,
-            }
+            Search::of(space, groups)
         };
         check(&evaluator, &search);
     }
@@ -277,11 +272,7 @@ mod tests {
         let (effort, control) = (Effort::default(), Control::default());
         let evaluator = Evaluator::new(&scenario, &shots, &effort, &control);
         let groups = vec![vec![Candidate::at(&space, &evaluator, &point)]];
-        let mut search = Search {
-            space,
-            groups,
-            optimality_gap: f64::INFINITY,
-        };
+        let mut search = Search::of(space, groups);
         // J falls by 3 % from the bound to the cliff at 33.3 deg, and is higher again beyond.
         let on_bound = rank(&search);
         search.refine(&evaluator, &STAGES_SET_EXACTLY[2]);

@@ -16,7 +16,6 @@ pub(in crate::scene) struct Meshlet {
     triangles: Vec<u32>,
     /// Corner points of them, each once, m.
     corners: Vec<Vector>,
-    bounds: Aabb,
 }
 
 impl Meshlet {
@@ -47,9 +46,9 @@ impl Meshlet {
         self.triangles[self.triangles.len() / 2]
     }
 
-    /// Its box, m.
-    pub fn bounds(&self) -> Aabb {
-        self.bounds
+    /// Its box, loosened by `slack` (m).
+    pub fn bounds(&self, slack: f64) -> Aabb {
+        Aabb::from_points(self.corners.iter().copied()).loosened(slack)
     }
 
     /// How far along a direction its nearest point is, m.
@@ -104,7 +103,6 @@ impl Group {
         Meshlet {
             triangles: self.triangles,
             corners: once,
-            bounds: self.bounds,
         }
     }
 }
