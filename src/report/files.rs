@@ -2,6 +2,8 @@
 
 use std::io;
 
+use rayon::prelude::*;
+
 use super::figure::Figure;
 use super::map::MAPS;
 use super::page::page_with;
@@ -52,8 +54,10 @@ pub fn files(record: &Record) -> io::Result<Vec<(String, Vec<u8>)>> {
     if let Some(stroke) = &record.stroke {
         files.extend(program::files(stroke, 1)?);
     }
-    for figure in figures {
-        let png = figure.png().map_err(io::Error::other)?;
+    // Pixels take longer than all else.
+    let pixels: Vec<_> = figures.par_iter().map(Figure::png).collect();
+    for (figure, png) in figures.into_iter().zip(pixels) {
+        let png = png.map_err(io::Error::other)?;
         files.push((format!("{}.png", figure.name), png));
         files.push((format!("{}.svg", figure.name), figure.svg.into_bytes()));
     }

@@ -1,6 +1,6 @@
 //! Figures as PNG, with letters of an embedded font: it looks the same on every machine.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
@@ -11,15 +11,19 @@ const FONTS: [&[u8]; 2] = [
     include_bytes!("../font/OpenSans-SemiBold.ttf"),
 ];
 
-/// Turns an SVG into a PNG of the same size, or says why not.
-pub fn png(svg: &str) -> Result<Vec<u8>, String> {
+static DATABASE: LazyLock<Arc<Database>> = LazyLock::new(|| {
     let mut fonts = Database::new();
     for font in FONTS {
         fonts.load_font_data(font.to_vec());
     }
     fonts.set_sans_serif_family("Open Sans");
+    Arc::new(fonts)
+});
+
+/// Turns an SVG into a PNG of the same size, or says why not.
+pub fn png(svg: &str) -> Result<Vec<u8>, String> {
     let options = Options {
-        fontdb: Arc::new(fonts),
+        fontdb: Arc::clone(&DATABASE),
         ..Options::default()
     };
     let tree = Tree::from_str(svg, &options).map_err(|fault| fault.to_string())?;
