@@ -3,9 +3,11 @@
 //! The mean of what is dented is less than what the mean density of hits would dent: places that are hit
 //! often do not make up for those that are hit seldom.
 
+use rayon::prelude::*;
+
 use super::dent_area;
 use super::grid::{Cell, Cells};
-use crate::elementary::{exp_m1, square};
+use crate::elementary::{exp, exp_m1, ln, square};
 
 /// How much of the target is dented.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,10 +54,10 @@ pub(super) struct Question {
     pub even_mass: Option<f64>,
 }
 
-/// Halvings of the range in which a mass lies.
-const HALVINGS: usize = 60;
-/// Doublings of a mass that is too small; of what then is not dented nobody sees the end.
-const DOUBLINGS: usize = 60;
+/// Newton's steps towards a mass; of what then is not dented nobody sees the end.
+const STEPS: usize = 100;
+/// A relative step that is too small for another one.
+const CLOSE: f64 = 1e-12;
 /// How often a mass is mended for what few hits in a cell make of it.
 const MENDINGS: usize = 3;
 /// The error of cells falls with their side or faster, so that it is about what twice the side changes; this many
@@ -168,7 +170,7 @@ impl Sums {
             })
             .sum()
         };
-        (0..self.samples).map(without).collect()
+        (0..self.samples).into_par_iter().map(without).collect()
     }
 
     /// By how much few hits in a cell put coverage off, and its standard error (the jackknife).
@@ -217,33 +219,36 @@ impl Sums {
         })
     }
 
-    /// Coverage only rises with the mass: a range that holds the share is halved.
+    /// The mass that dents a share.
+    ///
+    /// What is not dented yet is a sum of exponentials of the mass, whose logarithm is convex: Newton's steps on it
+    /// never go too far after the first one, and one is exact where all cells are alike.
     fn plain_mass(&self, wanted: f64, guess: f64) -> Option<f64> {
-        if wanted >= 1.0 - self.not_reached {
+        let left = 1.0 - self.not_reached - wanted;
+        if left <= 0.0 {
             return None;
         }
-        let (mut low, mut high) = (0.0, guess);
-        for _ in 0..DOUBLINGS {
-            if self.plain(high) >= wanted {
-                break;
-            }
-            (low, high) = (high, 2.0 * high);
-        }
-        if self.plain(high) < wanted {
-            return None;
-        }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if self.plain(middle) < wanted {
-                low = middle;
-            } else {
-                high = middle;
-            }
-            if high - low <= 1e-12 * high {
-                break;
+        let mut mass = guess;
+        for _ in 0..STEPS {
+            let [not_yet, rate] = self.left_and_rate(mass);
+            let step = not_yet / rate * ln(not_yet / left);
+            mass = (mass + step).max(0.0);
+            if step.abs() <= CLOSE * mass {
+                return Some(mass);
             }
         }
-        Some(high)
+        None
+    }
+
+    /// Share of the area that is reached and not dented yet by a mass of shot, kg, and by how much that falls with
+    /// it, 1/kg.
+    fn left_and_rate(&self, mass: f64) -> [f64; 2] {
+        let each = self.cells.iter();
+        each.fold([0.0; 2], |[left, rate], cell| {
+            let per_mass = cell.hits * self.per_hit / cell.area;
+            let here = cell.share * exp(-per_mass * mass);
+            [left + here, rate + per_mass * here]
+        })
     }
 }
 
