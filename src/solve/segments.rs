@@ -3,8 +3,9 @@
 //! Which settings pass at which cell of the stroke, a station with half the way to its neighbours, is a table; the
 //! fewest pieces that cover all cells follow from it by taking the longest piece again and again, which is exact for
 //! intervals. Settings come from searches: of the whole stroke, of cells that nothing passes yet, and of neighbouring
-//! pieces together.
+//! pieces together. What a piece need not change of the one before it stays.
 
+mod continuity;
 mod cut;
 mod rounding;
 
@@ -63,6 +64,7 @@ pub fn solve_stroke(scenario: &Scenario, control: &Control) -> (Solution, Vec<Se
     cut.fill(&mut candidates);
     let mut pieces = cut.cover(&candidates);
     cut.merge(&mut candidates, &mut pieces);
+    cut.continue_settings(&mut candidates, &mut pieces);
     let segments = cut.segments(&candidates, &pieces);
     whole.rays += cut.rays + segments.iter().map(|it| it.answer.rays()).sum::<usize>();
     whole.poses += cut.poses;

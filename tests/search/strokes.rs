@@ -4,6 +4,8 @@ use std::path::Path;
 
 use peenpose::control::Control;
 use peenpose::jet::Pose;
+use peenpose::problem::change::Change;
+use peenpose::problem::setting::Settings;
 use peenpose::problem::stroke::{Hold, Line};
 use peenpose::record::{Record, StatusRecord};
 use peenpose::solve::Answer;
@@ -20,16 +22,12 @@ fn solved(study: &Study) -> Record {
 }
 
 /// The settings of a segment, with the contact of that name.
-fn settings(
-    study: &Study,
-    record: &Record,
-    segment: usize,
-) -> peenpose::problem::setting::Settings {
+fn settings(study: &Study, record: &Record, segment: usize) -> Settings {
     let stroke = record.stroke.as_ref().expect("it is a stroke");
     let segment = &stroke.segments[segment];
     let mut contacts = study.problem().contacts.iter();
     let contact = contacts.position(|contact| contact.name == segment.contact);
-    peenpose::problem::setting::Settings {
+    Settings {
         contact: contact.expect("it is one of them"),
         ..segment.settings.settings()
     }
@@ -95,6 +93,10 @@ fn what_no_setting_passes_is_cut_into_segments_of_one_contact() {
     assert!(stroke.segments.len() > 1);
     let contact = &stroke.segments[0].contact;
     let azimuth = stroke.segments[0].settings.azimuth_deg;
+    // Within the accuracy one standoff is as good as another: it does not change on the way.
+    let standoff = stroke.segments[0].settings.standoff_m;
+    let mut stays = stroke.segments.iter();
+    assert!(stays.all(|segment| segment.settings.standoff_m == standoff));
     let mut end = 0.0;
     for (index, segment) in stroke.segments.iter().enumerate() {
         assert!((segment.from_m - end).abs() < 1e-12);
@@ -167,6 +169,45 @@ fn a_part_that_turns_brings_every_place_before_a_nozzle_that_keeps_its_attitude(
         let turned = turn * nalgebra::Point3::from(waypoint.pose.exit_m);
         assert!((turned - there.exit).norm() < 1e-9);
     }
+}
+
+/// Shots that meet the rim of the floor before the stroke harm the bore, and those from farther out meet nothing: what
+/// is passed on the way there counts.
+#[test]
+fn a_run_out_ends_where_another_surface_receives_too_much() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway-stroke.yaml");
+    let evaluated = |changes: &[[&str; 2]]| {
+        let changes: Vec<Change> = changes
+            .iter()
+            .map(|[key, value]| Change::new(key, value).unwrap())
+            .collect();
+        let study = Study::open_changed(&file, &changes).unwrap();
+        let settings = Settings {
+            incidence: 59.8_f64.to_radians(),
+            standoff: 6e-3,
+            speed: 10.04,
+            contact: 2,
+            static_friction: 0.06,
+            ..study.problem().ranges.middle()
+        };
+        let record = study.evaluate(&settings, 8192, Extras::default(), &Control::default());
+        record.unwrap()
+    };
+    let strict = ["surfaces.hub.bore.share", "1 %"];
+    let [before, after] = evaluated(&[strict]).stroke.unwrap().run_outs.unwrap();
+    assert_eq!(before.limited_by.as_deref(), Some("hub.bore"));
+    assert!((0.5e-3..1.5e-3).contains(&before.length_m), "{before:?}");
+    assert!(before.wanted_m > 6e-3 && after.limited_by.is_none());
+    assert_eq!(after.length_m, after.wanted_m);
+    // As shipped the bore may receive that.
+    let [before, _] = evaluated(&[]).stroke.unwrap().run_outs.unwrap();
+    assert_eq!(before.length_m, before.wanted_m);
+    // The same that is asked for fails on the way to where the spot has left the part.
+    let asked = evaluated(&[strict, ["stroke.run_out", "7.5 mm"]]);
+    let bore = asked.best.verdicts.iter();
+    let bore = bore.clone().find(|it| it.subject == "hub.bore").unwrap();
+    assert!(!bore.passes, "{bore:?}");
+    assert!((-5e-3..-1e-3).contains(&bore.at_m.unwrap()), "{bore:?}");
 }
 
 #[test]

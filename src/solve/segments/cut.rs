@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::Segment;
 use super::rounding::{fits, rounded};
 use crate::control::Control;
-use crate::evaluate::evaluate_adaptively;
+use crate::evaluate::{Evaluation, evaluate_adaptively};
 use crate::feasibility::infeasibility;
 use crate::jet::{ValidationSample, purpose};
 use crate::problem::setting::{Range, Settings};
@@ -18,7 +18,7 @@ use crate::verdict::{StationVerdicts, Verdict};
 /// Settings, and at which cells they pass.
 #[derive(Clone)]
 pub struct Candidate {
-    settings: Settings,
+    pub settings: Settings,
     /// The largest violation in each cell; at most 1 where all verdicts pass there.
     violations: Vec<f64>,
     pub status: Status,
@@ -30,7 +30,7 @@ impl Candidate {
     }
 
     /// How far it passes from a cell on: the first cell at which it does not.
-    fn reach(&self, from: usize) -> usize {
+    pub fn reach(&self, from: usize) -> usize {
         let mut cells = from..self.violations.len();
         cells
             .find(|&cell| !self.passes(cell))
@@ -40,15 +40,16 @@ impl Candidate {
 
 /// A stroke cut into cells.
 pub struct Cut<'a> {
-    scenario: &'a Scenario,
+    pub(super) scenario: &'a Scenario,
     /// With the effects that are asked for.
     asked: Scenario,
     stroke: &'a Stroke,
-    control: &'a Control,
+    pub(super) control: &'a Control,
     /// The ends of cells, one more than there are cells.
     ends: Vec<f64>,
     /// What is held all along has these values.
     held: Settings,
+    validation: ValidationSample,
     /// Work done by searches of parts, and to tell where settings pass.
     pub rays: usize,
     /// See `rays`.
@@ -58,9 +59,9 @@ pub struct Cut<'a> {
 /// Cells with the same settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
-    from: usize,
+    pub from: usize,
     /// The first cell behind it.
-    to: usize,
+    pub to: usize,
     pub candidate: usize,
 }
 
@@ -85,6 +86,11 @@ impl<'a> Cut<'a> {
             control,
             ends,
             held,
+            validation: ValidationSample::new(
+                &scenario.problem,
+                purpose::ANSWERS,
+                control.first_validation_shots(),
+            ),
             rays: 0,
             poses: 0,
         }
@@ -289,23 +295,32 @@ impl<'a> Cut<'a> {
 
     /// The answers of pieces.
     pub fn segments(&self, candidates: &[Candidate], pieces: &[Piece]) -> Vec<Segment> {
-        let validation = ValidationSample::new(
-            &self.scenario.problem,
-            purpose::ANSWERS,
-            self.control.first_validation_shots(),
-        );
         let segment = |piece: &Piece| {
             let part = self.part(piece.from, piece.to).as_asked();
             let settings = candidates[piece.candidate].settings;
-            let evaluation = infeasibility(&part, &settings)
-                .is_none()
-                .then(|| evaluate_adaptively(&part, &settings, &validation));
+            let evaluation = self.evaluated(&part, &settings);
             Segment {
                 span: [self.ends[piece.from], self.ends[piece.to]],
                 answer: Answer::evaluated(&part, &settings, evaluation),
             }
         };
         pieces.par_iter().map(segment).collect()
+    }
+
+    /// J of some settings over a piece; `None` where they do not fit.
+    pub fn objective(&mut self, settings: &Settings, piece: Piece) -> Option<f64> {
+        let part = self.part(piece.from, piece.to).as_asked();
+        let evaluation = self.evaluated(&part, settings)?;
+        self.rays += evaluation.rays;
+        self.poses += 1;
+        Some(evaluation.terms.total())
+    }
+
+    /// What settings do on a part of the stroke, on the same shots for all of them.
+    fn evaluated(&self, part: &Scenario, settings: &Settings) -> Option<Evaluation> {
+        infeasibility(part, settings)
+            .is_none()
+            .then(|| evaluate_adaptively(part, settings, &self.validation))
     }
 }
 
