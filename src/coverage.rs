@@ -17,7 +17,7 @@ use crate::elementary::{exp_m1, ln_1p, square};
 use crate::jet::{Draw, purpose};
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Settings;
-use crate::problem::stroke::Leg;
+use crate::problem::stroke::{Leg, WHOLE};
 use crate::scenario::Scenario;
 pub use dented::{Dented, Estimate};
 use dented::{DentedCells, Question};
@@ -102,14 +102,24 @@ pub struct Density {
     pub standard_error: f64,
 }
 
+impl Density {
+    /// The standard error over the value; 0 where nothing hits.
+    pub fn relative_error(&self) -> f64 {
+        match self.value > 0.0 {
+            true => self.standard_error / self.value,
+            false => 0.0,
+        }
+    }
+}
+
 impl Coverage {
     /// The coverage of some settings while the nozzle stands still; `None` when the problem does not ask for it.
     pub fn of(scenario: &Scenario, settings: &Settings) -> Option<Self> {
-        Self::of_stroke(scenario, &[Leg::whole(settings)], 0.0)
+        Self::of_stroke(scenario, &[Leg::whole(settings)], WHOLE)
     }
 
-    /// The same over a stroke, whose run-out goes on by so many places beyond both ends.
-    pub fn of_stroke(scenario: &Scenario, legs: &[Leg], beyond: f64) -> Option<Self> {
+    /// The same over a stroke with its run-out, from one place to another.
+    pub fn of_stroke(scenario: &Scenario, legs: &[Leg], ends: [f64; 2]) -> Option<Self> {
         let wish = scenario.problem.coverage?;
         let shots = match scenario.traverse {
             Some(_) => SHOTS_OF_STROKE,
@@ -122,7 +132,7 @@ impl Coverage {
             dent_diameter,
             shots,
             relative_mass,
-        } = FirstHits::fire(scenario, legs, beyond, &wish.dent, &draw);
+        } = FirstHits::fire(scenario, legs, ends, &wish.dent, &draw);
         let layout = scenario.traverse.as_ref().map(|traverse| {
             let unrolled = Unrolled::new(traverse, &target, &hits);
             let numbers = unrolled.numbers(CELLS_OF_STROKE);

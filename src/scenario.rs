@@ -210,12 +210,18 @@ impl Scenario {
         let last = (stroke.stations - 1) as f64;
         let places = (0..stroke.stations).map(|index| index as f64 / last - 0.5);
         let beyond = stroke.run_out.map(|run_out| traverse.places_in(run_out));
-        let far_ends = WHOLE.into_iter().zip(traverse.reaches_ends());
-        let far_ends = far_ends
-            .filter(|(_, is_reached)| *is_reached)
-            .filter_map(|(end, _)| Some(end + end.signum() * beyond?))
-            .filter(|place| place.abs() > WHOLE[1]);
-        let stations = places.chain(far_ends).map(|place| self.station(place));
+        // What is passed in the run-out is looked at as closely as the rest.
+        let beyond = beyond.filter(|&beyond| beyond > 0.0);
+        let ends = WHOLE.into_iter().zip(traverse.reaches_ends());
+        let ends = ends.filter_map(|(end, is_reached)| is_reached.then_some(end));
+        let run_out = ends.flat_map(|end| {
+            beyond.into_iter().flat_map(move |beyond| {
+                let count = (beyond * last).ceil();
+                let shares = (1..=count as usize).map(move |index| index as f64 / count);
+                shares.map(move |share| end + end.signum() * beyond * share)
+            })
+        });
+        let stations = places.chain(run_out).map(|place| self.station(place));
         let (stations, sweep) = (stations.collect(), traverse.sweep());
         self.stations = stations;
         self.sweep = sweep;

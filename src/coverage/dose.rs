@@ -30,10 +30,10 @@ const CELLS: f64 = 64.0;
 
 impl Dose {
     /// The doses of a stroke on all surfaces with a limit that are hit at all, its run-out included.
-    pub fn of_stroke(scenario: &Scenario, legs: &[Leg], beyond: f64) -> Vec<Self> {
+    pub fn of_stroke(scenario: &Scenario, legs: &[Leg], ends: [f64; 2]) -> Vec<Self> {
         let draw = Draw::new(&scenario.problem, purpose::EVIDENCE, SHOTS).without_boundary();
         let of_set = |number: u32| {
-            let shots = drawn(&draw, number, beyond);
+            let shots = drawn(&draw, number, ends);
             let mut hits = vec![Vec::new(); scenario.surfaces.len()];
             for leg in legs {
                 let own = shots_of(leg, legs, &shots);

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::elementary::{power, square};
 use crate::jet::{Draw, ShotSample};
 use crate::problem::equipment::Dent;
-use crate::problem::stroke::Leg;
+use crate::problem::stroke::{Leg, WHOLE, place_in};
 use crate::scenario::Scenario;
 use crate::trace::Tracer;
 
@@ -33,13 +33,19 @@ pub(super) struct FirstHits {
 }
 
 impl FirstHits {
-    /// Fires along a stroke whose run-out goes on by so many places beyond both ends. Shots are drawn set by set, as
-    /// all of them would take too much room.
-    pub fn fire(scenario: &Scenario, legs: &[Leg], beyond: f64, dent: &Dent, draw: &Draw) -> Self {
+    /// Fires along a stroke from one place to another. Shots are drawn set by set, as all of them would take too much
+    /// room.
+    pub fn fire(
+        scenario: &Scenario,
+        legs: &[Leg],
+        ends: [f64; 2],
+        dent: &Dent,
+        draw: &Draw,
+    ) -> Self {
         let mut scenario = scenario.clone();
         scenario.problem.paths.impacts = 1;
         let of_set = |number: u32| {
-            let shots = drawn(draw, number, beyond);
+            let shots = drawn(draw, number, ends);
             let masses: f64 = shots.iter().map(ShotSample::mass).sum();
             let of_leg = |leg: &Leg| hits_of(&scenario, leg, &shots_of(leg, legs, &shots), dent);
             let hits: Vec<FirstHit> = legs.iter().flat_map(of_leg).collect();
@@ -71,11 +77,13 @@ impl FirstHits {
     }
 }
 
-/// The shots of a set, from all along a stroke and from so many places beyond both ends.
-pub(super) fn drawn(draw: &Draw, number: u32, beyond: f64) -> Vec<ShotSample> {
+/// The shots of a set, from all along a stroke from one place to another.
+pub(super) fn drawn(draw: &Draw, number: u32, ends: [f64; 2]) -> Vec<ShotSample> {
     let mut shots = draw.set(number).jet.shots;
-    for shot in &mut shots {
-        shot.place *= 1.0 + 2.0 * beyond;
+    if ends != WHOLE {
+        for shot in &mut shots {
+            shot.place = place_in(ends, shot.place);
+        }
     }
     shots
 }

@@ -36,8 +36,8 @@ pub use model::{EffectRecord, ModelRecord};
 pub use question::{CalibrationRecord, GoalsRecord, QuestionRecord, RangeRecord, ToleranceRecord};
 pub use receipt::{ReceiptRecord, SpreadRecord, TargetRecord};
 pub use stroke::{
-    DentedMapRecord, DoseRecord, SegmentRecord, SpotRecord, StationRecord, StrokeDentedRecord,
-    StrokeRecord, TurnAxisRecord, WaypointRecord,
+    DentedMapRecord, DoseRecord, RunOutRecord, SegmentRecord, SpotRecord, StationRecord,
+    StrokeDentedRecord, StrokeRecord, TurnAxisRecord, WaypointRecord,
 };
 pub use unknowns::{
     OutcomeRecord, QuantityRecord, ShareRecord, UnknownRangeRecord, UnknownsRecord,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::answer::{PoseRecord, SettingsRecord, VerdictRecord};
+use super::answer::{PoseRecord, SettingsRecord, VerdictRecord, subject_name};
 use crate::coverage::Dose;
 use crate::problem::stroke::{Leg, Line};
 use crate::scenario::Scenario;
@@ -17,8 +17,11 @@ pub struct StrokeRecord {
     pub length_m: f64,
     /// Turns of the part from the first waypoint to the last; 0 for a line.
     pub turns: f64,
-    /// How far the aim point travels beyond both ends, m.
+    /// How far the aim point travels beyond the ends, m: the longer way of both.
     pub run_out_m: f64,
+    /// That beyond the beginning, and that beyond the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run_outs: Option<[RunOutRecord; 2]>,
     /// Between which places the same settings hold.
     pub segments: Vec<SegmentRecord>,
     /// What each station receives, where the nozzle stands still.
@@ -31,6 +34,9 @@ pub struct StrokeRecord {
     /// Speed of the spot over the part, m/s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feed_m_s: Option<f64>,
+    /// Its standard error where it follows from the wanted coverage, m/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed_standard_error_m_s: Option<f64>,
     /// Turns of the part, 1/s; absent for a line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turns_per_s: Option<f64>,
@@ -52,6 +58,18 @@ pub struct StrokeRecord {
     /// The axis round which the part turns; absent for a line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<TurnAxisRecord>,
+}
+
+/// The way of the aim point beyond an end of a stroke.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunOutRecord {
+    /// Its length, m.
+    pub length_m: f64,
+    /// The length at which the whole spot has passed the end of the target, m; or what was asked for.
+    pub wanted_m: f64,
+    /// The verdict that fails farther out, where it is shorter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limited_by: Option<String>,
 }
 
 /// A piece of a stroke with the same settings.
@@ -244,15 +262,22 @@ impl StrokeRecord {
             .feed
             .filter(|_| program.turns > 0.0)
             .map(|feed| feed * program.turns / program.way());
+        let [before, after] = program.run_outs;
         Some(Self {
             length_m: program.length,
             turns: program.turns,
-            run_out_m: program.run_out,
+            run_out_m: before.length.max(after.length),
+            run_outs: Some(program.run_outs.map(|it| RunOutRecord {
+                length_m: it.length,
+                wanted_m: it.wanted,
+                limited_by: it.limit.map(|limit| subject_name(scenario, limit)),
+            })),
             segments: program.legs.iter().map(segment).collect(),
             stations: stations.collect(),
             waypoints: waypoints.collect(),
             passes: program.passes,
             feed_m_s: program.feed,
+            feed_standard_error_m_s: program.feed_error,
             turns_per_s,
             time_s: program.time(),
             missing: program.missing.iter().map(|&key| key.to_owned()).collect(),

@@ -1,14 +1,12 @@
 //! What the machine does on a stroke: where the nozzle goes, how fast, how often, and what that covers.
 
 use crate::coverage::{Coverage, DentedBy, Dose};
-use crate::feasibility::infeasibility;
 use crate::jet::Pose;
-use crate::problem::stroke::{Feed, Leg, Stroke};
+use crate::problem::stroke::{Feed, Leg, Stroke, WHOLE};
 use crate::scenario::Scenario;
 use crate::scene::traverse::Traverse;
-use crate::verdict::{StationVerdicts, Subject, Verdict};
 
-use super::Spot;
+use super::RunOut;
 
 /// A stroke as a machine runs it.
 #[derive(Clone, Debug)]
@@ -17,8 +15,8 @@ pub struct Program {
     pub legs: Vec<Leg>,
     /// Length on the part between the ends, m.
     pub length: f64,
-    /// How far the aim point travels beyond both ends, m.
-    pub run_out: f64,
+    /// How far the aim point travels beyond the beginning and beyond the end.
+    pub run_outs: [RunOut; 2],
     /// Poses from one end of the run-out to the other.
     pub waypoints: Vec<Waypoint>,
     /// Turns of the part from the first to the last of them; 0 for a line.
@@ -27,6 +25,8 @@ pub struct Program {
     pub passes: Option<u32>,
     /// Speed of the spot over the part, m/s; `None` where it is not known.
     pub feed: Option<f64>,
+    /// Its standard error where it follows from the wanted coverage, m/s.
+    pub feed_error: Option<f64>,
     /// What feed and passes lack.
     pub missing: Vec<&'static str>,
     /// What the whole stroke covers, where that is asked for.
@@ -48,8 +48,6 @@ pub struct Waypoint {
     pub turn: f64,
 }
 
-/// Into how many parts the longest run-out is cut, so as to find one that fits.
-const RUN_OUTS: u32 = 8;
 /// Degrees of turn between two waypoints at most.
 const TURN_BETWEEN: f64 = 15.0;
 
@@ -59,14 +57,15 @@ impl Program {
         let traverse = scenario.traverse.as_ref()?;
         let stroke = scenario.problem.stroke.as_ref()?;
         let has_coverage = scenario.problem.coverage.is_some();
-        let run_out = match stroke.run_out {
-            Some(run_out) => run_out,
-            None if has_coverage => Self::run_out(scenario, traverse, legs),
-            None => 0.0,
+        let run_outs = match stroke.run_out {
+            Some(length) => [RunOut::of(length); 2],
+            None if has_coverage => RunOut::both(scenario, traverse, legs),
+            None => [RunOut::of(0.0); 2],
         };
-        let beyond = traverse.places_in(run_out);
-        let coverage = Coverage::of_stroke(scenario, legs, beyond);
-        let whole = 1.0 + 2.0 * beyond;
+        let [before, after] = run_outs.map(|it| traverse.places_in(it.length));
+        let ends = [WHOLE[0] - before, WHOLE[1] + after];
+        let coverage = Coverage::of_stroke(scenario, legs, ends);
+        let whole = ends[1] - ends[0];
         let way = traverse.length() * whole;
         let turns = traverse.turns() * whole;
         let mut missing = Vec::new();
@@ -85,53 +84,23 @@ impl Program {
         Some(Self {
             legs: legs.to_vec(),
             length: traverse.length(),
-            run_out,
-            waypoints: waypoints(scenario, traverse, legs, beyond),
+            run_outs,
+            waypoints: waypoints(scenario, traverse, legs, ends),
             turns,
             passes,
             feed,
+            feed_error: feed.zip(coverage.as_ref()).and_then(|(feed, coverage)| {
+                let is_found = matches!(stroke.feed, Feed::Auto);
+                is_found.then(|| feed * coverage.lowest.relative_error())
+            }),
             missing,
             doses: match dented {
-                Some(_) => Dose::of_stroke(scenario, legs, beyond),
+                Some(_) => Dose::of_stroke(scenario, legs, ends),
                 None => Vec::new(),
             },
             dented,
             coverage,
         })
-    }
-
-    /// As far as there is target left beyond an end and the spot reaches back from there, or less where the nozzle
-    /// does not fit or other surfaces receive too much.
-    fn run_out(scenario: &Scenario, traverse: &Traverse, legs: &[Leg]) -> f64 {
-        let ends = [(-1.0, false), (1.0, true)];
-        let settings = |sign: f64| &Leg::at(legs, sign).settings;
-        let (target, _) = scenario.target.cut_out(&scenario.scene);
-        let reach = ends.iter().map(|&(sign, at_end)| {
-            let onwards = traverse.onwards(at_end);
-            let end = traverse.frame_at(sign * 0.5).aim;
-            let corners = target.iter().flatten();
-            let left = corners.map(|corner| (corner - end).dot(&onwards));
-            let spot = Spot::of(scenario, settings(sign));
-            left.fold(0.0, f64::max) + spot.map_or(0.0, |spot| spot.reach(&-onwards))
-        });
-        let longest = reach.fold(0.0, f64::max);
-        let is_spared =
-            |verdict: &Verdict| !matches!(verdict.subject, Subject::Surface(_)) || verdict.passes();
-        let fits = |run_out: f64| {
-            ends.iter().all(|&(sign, _)| {
-                let place = sign * (0.5 + traverse.places_in(run_out));
-                let station = scenario.station(place);
-                let settings = settings(sign);
-                infeasibility(&station.scenario, settings).is_none()
-                    && StationVerdicts::at(&[&station], &scenario.problem, settings)
-                        .iter()
-                        .flat_map(|station| &station.verdicts)
-                        .all(is_spared)
-            })
-        };
-        let parts = (1..=RUN_OUTS).rev().map(f64::from);
-        let mut tried = parts.map(|part| longest * part / f64::from(RUN_OUTS));
-        tried.find(|&run_out| fits(run_out)).unwrap_or(0.0)
     }
 
     /// Time, s, where the feed is known.
@@ -173,7 +142,12 @@ fn feed(
     }
 }
 
-fn waypoints(scenario: &Scenario, traverse: &Traverse, legs: &[Leg], beyond: f64) -> Vec<Waypoint> {
+fn waypoints(
+    scenario: &Scenario,
+    traverse: &Traverse,
+    legs: &[Leg],
+    ends: [f64; 2],
+) -> Vec<Waypoint> {
     let mut places: Vec<f64> = scenario.stations.iter().map(|it| it.place).collect();
     if traverse.turns() > 0.0 {
         let count = (traverse.turns() * 360.0 / TURN_BETWEEN).ceil().max(1.0) as usize;
@@ -181,10 +155,7 @@ fn waypoints(scenario: &Scenario, traverse: &Traverse, legs: &[Leg], beyond: f64
             .map(|index| index as f64 / count as f64 - 0.5)
             .collect();
     }
-    if beyond > 0.0 {
-        places.insert(0, -0.5 - beyond);
-        places.push(0.5 + beyond);
-    }
+    places.extend(ends);
     // A change of settings happens on the spot: there are two waypoints where legs meet.
     let inner = legs.windows(2).map(|pair| pair[0].span[1]);
     let joints: Vec<f64> = inner.collect();

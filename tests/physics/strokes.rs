@@ -85,7 +85,8 @@ fn a_stroke_covers_what_a_moving_nozzle_covers() {
     let pose = [settings.incidence, settings.azimuth, settings.standoff];
     let dented = stroke.dented.unwrap();
     // What is fired is what flows while it travels.
-    let way = stroke.length_m + 2.0 * stroke.run_out_m;
+    let [before, after] = stroke.run_outs.unwrap().map(|it| it.length_m);
+    let way = before + stroke.length_m + after;
     let mass = 0.1 / 60.0 * way / stroke.feed_m_s.unwrap();
     assert!((dented.mass_kg / mass - 1.0).abs() < 1e-9);
 
@@ -98,7 +99,7 @@ fn a_stroke_covers_what_a_moving_nozzle_covers() {
     let mut counts = vec![0_u32; along * across];
     let mut random = Random(7);
     for _ in 0..SHOTS {
-        let z = 4e-3 - stroke.run_out_m + way * random.uniform();
+        let z = 4e-3 - before + way * random.uniform();
         let [x, z] = hit(&mut random, pose, z);
         let (column, row) = ((x + 2.5e-3) / sides[0], z / sides[1]);
         if (0.0..across as f64).contains(&column) && (0.0..along as f64).contains(&row) {

@@ -50,8 +50,8 @@ pub(in crate::problem) struct StrokeEntry {
     /// How often it goes over the target: `auto`, or a whole number from 1 to 10000.
     #[schemars(with = "Field<form::PassesText>", example = 2, extend("default" = "auto"))]
     pub passes: Field<Choice>,
-    /// How far the aim point travels beyond both ends: `auto`, as far as the spot reaches if coverage is asked for and
-    /// nothing forbids it, or a length from 0 mm to 1000 m.
+    /// How far the aim point travels beyond both ends: `auto`, at each end as far as the spot reaches if coverage is
+    /// asked for and nothing forbids it, or a length from 0 mm to 1000 m.
     #[schemars(with = "Field<form::RunOutText>", example = &"3 mm", extend("default" = "auto"))]
     pub run_out: Field<Choice>,
 }

@@ -146,8 +146,15 @@ fn coverage(at: &Place, coverage: &CoverageRecord) -> Outcome {
 fn stroke(at: &Place, stroke: &StrokeRecord) -> Outcome {
     at.of("length_m").at_least(stroke.length_m, 0.0)?;
     at.of("run_out_m").at_least(stroke.run_out_m, 0.0)?;
+    for (index, run_out) in stroke.run_outs.iter().flatten().enumerate() {
+        let at = at.of("run_outs").item(index);
+        at.of("length_m").at_least(run_out.length_m, 0.0)?;
+        at.of("wanted_m")
+            .at_least(run_out.wanted_m, run_out.length_m)?;
+    }
     for (key, value) in [
         ("feed_m_s", stroke.feed_m_s),
+        ("feed_standard_error_m_s", stroke.feed_standard_error_m_s),
         ("turns_per_s", stroke.turns_per_s),
         ("time_s", stroke.time_s),
     ] {

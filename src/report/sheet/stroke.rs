@@ -1,7 +1,9 @@
 //! The stroke: where the nozzle travels, how fast, what is worst where, and what it covers.
 
 use crate::elementary::hypot;
-use crate::record::{CoverageRecord, Record, SegmentRecord, StrokeDentedRecord, StrokeRecord};
+use crate::record::{
+    CoverageRecord, Record, RunOutRecord, SegmentRecord, StrokeDentedRecord, StrokeRecord,
+};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{plain, share, significant};
 
@@ -89,14 +91,37 @@ fn way(stroke: &StrokeRecord) -> String {
     if stroke.turns > 0.0 {
         text += &format!(", {} turns", significant(stroke.turns, 3));
     }
-    text += &match stroke.run_out_m {
+    text += &run_out(stroke);
+    text + &format!("; verified at {} stations", stroke.stations.len())
+}
+
+fn run_out(stroke: &StrokeRecord) -> String {
+    let millimetres = |length: f64| significant(length * 1e3, 3);
+    let beyond_both = |length: f64| match length {
         0.0 => ", no run-out".to_owned(),
-        run_out => format!(
+        length => format!(
             ", and a run-out of {} mm beyond both ends",
-            significant(run_out * 1e3, 3)
+            millimetres(length)
         ),
     };
-    text + &format!("; verified at {} stations", stroke.stations.len())
+    let Some([before, after]) = &stroke.run_outs else {
+        return beyond_both(stroke.run_out_m);
+    };
+    if before == after && before.limited_by.is_none() {
+        return beyond_both(before.length_m);
+    }
+    let one = |run_out: &RunOutRecord, end: &str| {
+        let length = millimetres(run_out.length_m);
+        match &run_out.limited_by {
+            Some(limit) => format!(
+                "{length} mm {end} it ({} mm would bring the whole spot past the target, but {limit} fails)",
+                millimetres(run_out.wanted_m)
+            ),
+            None => format!("{length} mm {end} it"),
+        }
+    };
+    let [before, after] = [one(before, "before"), one(after, "after")];
+    format!(", and a run-out of {before} and {after}")
 }
 
 fn feed(stroke: &StrokeRecord) -> String {
@@ -107,6 +132,9 @@ fn feed(stroke: &StrokeRecord) -> String {
         };
     };
     let mut text = format!("{} mm/s at the spot", significant(feed * 1e3, 3));
+    if let Some(error) = stroke.feed_standard_error_m_s {
+        text += &format!(", std. error {}", significant(error * 1e3, 2));
+    }
     if let Some(turns) = stroke.turns_per_s {
         text += &format!(" ({} rpm)", significant(turns * 60.0, 3));
     }
