@@ -146,10 +146,11 @@ impl<'a> Sections<'a> {
             return Ok(forms.join(" or "));
         }
         if let Some(name) = referred(property) {
-            return Ok(match self.definitions[name].get("pattern") {
-                Some(_) => spaced(name),
-                None => self.link(name),
-            });
+            let definition = &self.definitions[name];
+            return match definition.get("pattern") {
+                Some(_) => Ok(range(text(definition, "description")?)),
+                None => Ok(self.link(name)),
+            };
         }
         if let Some(named) = group_in(property) {
             let link = self.link(named);
@@ -164,12 +165,18 @@ impl<'a> Sections<'a> {
                 Some(2) if referred(&property["items"]).is_some() => code("[min, max]"),
                 Some(2) if key == "mu_s" => code("[min, max]"),
                 Some(2) => code("[x, y]"),
-                Some(3) => code("[x, y, z]"),
+                Some(3) => match referred(&property["items"]) {
+                    Some(name) => {
+                        let each = range(text(&self.definitions[name], "description")?);
+                        format!("{}, each an {each}", code("[x, y, z]"))
+                    }
+                    None => code("[x, y, z]"),
+                },
                 _ => "a list of names".into(),
             },
-            Some("integer") => "whole number".into(),
+            Some("integer") => format!("whole number{}", ends(property)),
             Some("string") => "text".into(),
-            Some(kind) => kind.into(),
+            Some(kind) => format!("{kind}{}", ends(property)),
             None => return Err(format!("nothing says what {key} may be")),
         })
     }
@@ -188,6 +195,28 @@ fn properties(group: &Value) -> impl Iterator<Item = (&String, &Value)> {
 
 fn text<'a>(schema: &'a Value, key: &str) -> Result<&'a str, String> {
     schema[key].as_str().ok_or(format!("no {key} in {schema}"))
+}
+
+/// What a quantity may be, by the description of its type: `A length from 0 mm to 1000 m, such as ..`.
+fn range(description: &str) -> String {
+    let (range, _) = description
+        .split_once(", such as ")
+        .unwrap_or((description, ""));
+    let (_article, range) = range.split_once(' ').unwrap_or(("", range));
+    range.into()
+}
+
+/// Between what a number must lie.
+fn ends(schema: &Value) -> String {
+    let most = [("maximum", "to"), ("exclusiveMaximum", "to below")];
+    let most = most
+        .into_iter()
+        .find_map(|(key, word)| Some((schema.get(key)?, word)));
+    match (schema.get("minimum"), most) {
+        (Some(least), Some((most, word))) => format!(" from {least} {word} {most}"),
+        (Some(least), None) => format!(" from {least}"),
+        _ => String::new(),
+    }
 }
 
 /// The definition that a schema refers to.
@@ -227,18 +256,6 @@ fn parted(description: &str) -> (String, Option<String>) {
         ),
         None => (description.into(), None),
     }
-}
-
-/// `MassFlow` as words.
-fn spaced(name: &str) -> String {
-    let mut words = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !words.is_empty() {
-            words.push(' ');
-        }
-        words.extend(letter.to_lowercase());
-    }
-    words
 }
 
 fn code(text: &str) -> String {

@@ -8,6 +8,7 @@
 pub(super) mod contact;
 pub(super) mod equipment;
 mod form;
+pub(super) mod quantity;
 pub(super) mod scene;
 pub(super) mod settings;
 pub(super) mod stroke;
@@ -28,7 +29,6 @@ use stroke::StrokeEntry;
 
 use super::field::{Field, Needed};
 use crate::problem::LengthUnit;
-use crate::units::Dimension;
 
 /// The format that is read.
 pub(super) const FORMAT: u64 = 1;
@@ -98,95 +98,6 @@ pub(super) type Triple = [Field<f64>; 3];
 
 /// Two coordinates in `lengths_in`.
 pub(super) type Pair = [Field<f64>; 2];
-
-/// A length with its unit, such as `0.5 mm`; here in m.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "length")]
-pub(super) struct Length(pub f64);
-
-/// An angle with its unit, such as `60 deg`; here in rad.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "angle")]
-pub(super) struct Angle(pub f64);
-
-/// A speed with its unit, such as `10 m/s`; here in m/s.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "speed")]
-pub(super) struct Speed(pub f64);
-
-/// An impulse with its unit, such as `40 uN.s`; here in N s.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "impulse")]
-pub(super) struct Impulse(pub f64);
-
-/// A density with its unit, such as `7000 kg/m3`; here in kg/m3.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "density")]
-pub(super) struct Density(pub f64);
-
-/// A mass flow with its unit, such as `5 kg/min`; here in kg/s.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "mass flow")]
-pub(super) struct MassFlow(pub f64);
-
-/// A pressure with its unit, such as `3 bar`; here in Pa.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "pressure")]
-pub(super) struct Pressure(pub f64);
-
-/// A hardness, such as `300 HB`; here in Pa.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "hardness")]
-pub(super) struct Hardness(pub f64);
-
-/// A percentage, such as `5 %`; here as a fraction of 1.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename = "percentage")]
-pub(super) struct Percentage(pub f64);
-
-/// The number behind a quantity.
-pub(super) trait Quantity: Copy {
-    /// In SI.
-    fn si(self) -> f64;
-}
-
-macro_rules! quantities {
-    ($($name:ident: $dimension:ident,)*) => {$(
-        impl Quantity for $name {
-            fn si(self) -> f64 {
-                self.0
-            }
-        }
-
-        impl JsonSchema for $name {
-            fn schema_name() -> Cow<'static, str> {
-                stringify!($name).into()
-            }
-
-            fn json_schema(_: &mut SchemaGenerator) -> Schema {
-                form::quantity(Dimension::$dimension)
-            }
-        }
-    )*};
-}
-
-quantities! {
-    Length: Length,
-    Angle: Angle,
-    Speed: Speed,
-    Impulse: Impulse,
-    Density: Density,
-    MassFlow: MassFlow,
-    Pressure: Pressure,
-    Hardness: Hardness,
-    Percentage: Fraction,
-}
-
-impl Quantity for f64 {
-    fn si(self) -> f64 {
-        self
-    }
-}
 
 /// Names with a value each, in the order of the file.
 #[derive(Clone, Debug)]

@@ -148,15 +148,6 @@ pub(crate) const fn limit(setting: Setting) -> Limit {
     }
 }
 
-/// What the half-width of a setting's tolerance may be.
-pub(crate) const fn half_width_limit(setting: Setting) -> Limit {
-    match setting.dimension() {
-        Some(Dimension::Angle) => Limit::ANGLE_OR_ZERO,
-        Some(Dimension::Length) => Limit::LENGTH_OR_ZERO,
-        _ => Limit::BELOW_ALL,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -34,7 +34,7 @@ pub mod stroke;
 pub mod warning;
 
 mod check;
-pub(crate) use check::limit::Limit;
+pub(crate) use limit::Limit;
 mod duplicate_keys;
 #[cfg(test)]
 pub(crate) mod example;
@@ -44,6 +44,7 @@ mod file;
 pub mod given;
 mod key_index;
 mod length_unit;
+mod limit;
 mod name;
 mod reader;
 mod reading;

@@ -1,6 +1,5 @@
 //! `jet.pressure`: which pressure gives which speed.
 
-use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::equipment::Calibration;
 use crate::problem::fault_code::FaultCode;
@@ -48,8 +47,8 @@ fn row(scope: &Scope<'_>, field: &Field<CalibrationEntry>) -> Option<(f64, f64)>
         );
     }
     let entry = field.value()?;
-    let pressure = scope.needed("pressure", &entry.pressure, Limit::PRESSURE);
-    let speed = scope.needed("speed", &entry.speed, Limit::SPEED);
+    let pressure = scope.needed("pressure", &entry.pressure);
+    let speed = scope.needed("speed", &entry.speed);
     Some((pressure?, speed?))
 }
 

@@ -1,7 +1,6 @@
 //! `contacts`: the friction choices.
 
 use super::library;
-use super::limit::Limit;
 use super::scope::Scope;
 use crate::impact::{Contact, Law, Restitution};
 use crate::problem::equipment::ContactChoice;
@@ -9,6 +8,7 @@ use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
 use crate::problem::file::contact::{ContactEntry, ContactsItem, LawEntry, RestitutionEntry};
+use crate::problem::file::quantity::{Friction, Quantity};
 use crate::problem::key_index::homes_of;
 use crate::problem::media::LibraryContact;
 use crate::problem::setting::Range;
@@ -138,15 +138,11 @@ fn choice_of(
     let restitution = scope
         .required_here("restitution", &entry.restitution, "a number such as 0.25")
         .and_then(|entry| restitution(scope, entry));
-    let tangential_restitution = scope.optional(
-        "tangential_restitution",
-        &entry.tangential_restitution,
-        Limit::SIGNED_FRACTION,
-        0.0,
-    );
+    let tangential_restitution =
+        scope.optional("tangential_restitution", &entry.tangential_restitution, 0.0);
     let static_friction = scope
-        .required_here("mu_s", &entry.mu_s, Limit::FRICTION.expected)
-        .and_then(|mu_s| scope.range("mu_s", mu_s, Limit::FRICTION));
+        .required_here("mu_s", &entry.mu_s, Friction::LIMIT.expected)
+        .and_then(|mu_s| scope.range("mu_s", mu_s));
     let dynamic = dynamic_friction(scope, entry, static_friction);
 
     let (static_friction, dynamic) = (static_friction?, dynamic?);
@@ -220,9 +216,7 @@ fn dynamic_friction(
             return None;
         }
         let ratio = entry.mu_d_ratio.value()?;
-        return scope
-            .within("mu_d_ratio", *ratio, Limit::FRACTION)
-            .map(Dynamic::Ratio);
+        return scope.sound("mu_d_ratio", *ratio).map(Dynamic::Ratio);
     }
     if searched {
         let expected = "a number from 0 to 1, as mu_s is a range";
@@ -241,8 +235,7 @@ fn dynamic_friction(
         }
         return None;
     }
-    let value = scope.required_here("mu_d", &entry.mu_d, Limit::FRICTION.expected)?;
-    let value = scope.within("mu_d", *value, Limit::FRICTION)?;
+    let value = scope.needed_here("mu_d", &entry.mu_d)?;
     if let Some(range) = static_friction
         && value > range.min
     {
@@ -266,13 +259,13 @@ fn dynamic_friction(
 fn restitution(scope: &Scope<'_>, entry: &RestitutionEntry) -> Option<Restitution> {
     match entry {
         RestitutionEntry::Constant(value) => scope
-            .within("restitution", *value, Limit::FRACTION)
+            .sound("restitution", *value)
             .map(Restitution::Constant),
         RestitutionEntry::Falling(entry) => {
             let scope = scope.of("restitution");
-            let reference = scope.needed("value", &entry.value, Limit::FRACTION);
-            let speed = scope.needed("at", &entry.at, Limit::SPEED);
-            let exponent = scope.needed("exponent", &entry.exponent, Limit::FRACTION);
+            let reference = scope.needed("value", &entry.value);
+            let speed = scope.needed("at", &entry.at);
+            let exponent = scope.needed("exponent", &entry.exponent);
             Some(Restitution::Falling {
                 reference: reference?,
                 speed: speed?,

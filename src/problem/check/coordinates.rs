@@ -4,9 +4,9 @@ use std::cell::Cell;
 
 use nalgebra::{Point2, Point3, Vector3};
 
-use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::LengthUnit;
+use crate::problem::Limit;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::scene::BoxEntry;

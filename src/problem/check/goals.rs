@@ -1,9 +1,8 @@
 //! `goals`: what must be reached and what must not happen.
 
-use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::field::Field;
-use crate::problem::file::Percentage;
+use crate::problem::file::quantity::{Share, Weight};
 use crate::problem::file::settings::{
     GoalsEntry, MissEntry, NormalImpulseEntry, ReboundEntry, TangentialImpulseEntry,
 };
@@ -42,8 +41,8 @@ pub(super) fn check(scope: &Scope<'_>, entry: &GoalsEntry) -> Option<Goals> {
 }
 
 fn normal_impulse(scope: &Scope<'_>, entry: &NormalImpulseEntry) -> Option<NormalImpulse> {
-    let target = scope.needed("target", &entry.target, Limit::IMPULSE);
-    let tolerance = scope.optional("tolerance", &entry.tolerance, Limit::DEVIATION, 0.1);
+    let target = scope.needed("target", &entry.target);
+    let tolerance = scope.optional("tolerance", &entry.tolerance, 0.1);
     let (share, weight) = share_and_weight(scope, &entry.share, 0.05, &entry.weight);
     Some(NormalImpulse {
         target: target?,
@@ -57,7 +56,7 @@ fn tangential_impulse(
     scope: &Scope<'_>,
     entry: &TangentialImpulseEntry,
 ) -> Option<TangentialImpulse> {
-    let limit = scope.needed("limit", &entry.limit, Limit::IMPULSE);
+    let limit = scope.needed("limit", &entry.limit);
     let (share, weight) = share_and_weight(scope, &entry.share, 0.05, &entry.weight);
     Some(TangentialImpulse {
         limit: limit?,
@@ -67,7 +66,7 @@ fn tangential_impulse(
 }
 
 fn rebound(scope: &Scope<'_>, entry: &ReboundEntry) -> Option<Rebound> {
-    let allow = scope.needed("allow", &entry.allow, Limit::IMPULSE);
+    let allow = scope.needed("allow", &entry.allow);
     let (share, weight) = share_and_weight(scope, &entry.share, 0.01, &entry.weight);
     Some(Rebound {
         allow: allow?,
@@ -86,12 +85,12 @@ fn miss(scope: &Scope<'_>, entry: &MissEntry) -> Option<Miss> {
 
 fn share_and_weight(
     scope: &Scope<'_>,
-    share: &Field<Percentage>,
+    share: &Field<Share>,
     usual_share: f64,
-    weight: &Field<f64>,
+    weight: &Field<Weight>,
 ) -> (Option<f64>, Option<f64>) {
     (
-        scope.optional("share", share, Limit::SHARE, usual_share),
-        scope.optional("weight", weight, Limit::WEIGHT, 1.0),
+        scope.optional("share", share, usual_share),
+        scope.optional("weight", weight, 1.0),
     )
 }

@@ -4,6 +4,7 @@ use super::scope::Scope;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::contact::{ContactEntry, ContactsItem, FallingEntry, RestitutionEntry};
+use crate::problem::file::quantity::Friction;
 use crate::problem::file::settings::OneOrRange;
 use crate::problem::media::{self, LibraryContact};
 use crate::units::shortened;
@@ -84,10 +85,10 @@ pub(super) fn merged(entry: &ContactEntry, known: &LibraryContact) -> ContactEnt
     let mut entry = entry.clone();
     let searched = matches!(entry.mu_s.value(), Some(OneOrRange::Range(_)));
     if !entry.mu_s.is_given() {
-        entry.mu_s = Field::Present(OneOrRange::One(known.static_friction.value));
+        entry.mu_s = Field::Present(OneOrRange::One(Friction(known.static_friction.value)));
     }
     if !entry.mu_d.is_given() && !entry.mu_d_ratio.is_given() && !searched {
-        entry.mu_d = Field::Present(known.dynamic_friction.value);
+        entry.mu_d = Field::Present(Friction(known.dynamic_friction.value));
     }
     if !entry.restitution.is_given() {
         entry.restitution = Field::Present(RestitutionEntry::Falling(FallingEntry::of(known)));

@@ -9,7 +9,6 @@ mod coordinates;
 mod cut;
 mod goals;
 mod library;
-pub(in crate::problem) mod limit;
 mod mesh;
 mod model;
 mod nozzle;
@@ -39,8 +38,8 @@ use super::part::{Part, Target};
 use super::stroke::Stroke;
 use crate::elementary::sin;
 use crate::printable;
+use crate::problem::Limit;
 use coordinates::Coordinates;
-use limit::Limit;
 use scope::Scope;
 
 /// What could be made of a file.
@@ -182,11 +181,11 @@ fn aimed_at_stroke(target: Target, stroke: Option<&Option<Stroke>>) -> Target {
 }
 
 fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
-    let exit_diameter = scope.needed("exit_diameter", &entry.exit_diameter, Limit::LENGTH_OR_ZERO);
-    let divergence = scope.needed("divergence", &entry.divergence, Limit::DIVERGENCE);
-    let speed_spread = scope.optional("speed_spread", &entry.speed_spread, Limit::SPREAD, 0.0);
-    let mass_flow = scope.maybe("mass_flow", &entry.mass_flow, Limit::MASS_FLOW);
-    let air_speed = scope.maybe("air_speed", &entry.air_speed, Limit::SPEED);
+    let exit_diameter = scope.needed("exit_diameter", &entry.exit_diameter);
+    let divergence = scope.needed("divergence", &entry.divergence);
+    let speed_spread = scope.optional("speed_spread", &entry.speed_spread, 0.0);
+    let mass_flow = scope.maybe("mass_flow", &entry.mass_flow);
+    let air_speed = scope.maybe("air_speed", &entry.air_speed);
     let spread = entry
         .spread
         .or(SpreadEntry::Uniform)
@@ -206,12 +205,10 @@ fn jet(scope: &Scope<'_>, entry: &JetEntry) -> Option<Jet> {
 
 fn coverage(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<CoverageWish> {
     let dent = dent(scope, entry);
-    let is_multiple = entry.wanted.value().is_some_and(|wanted| wanted.0 > 1.0);
-    let limit = match is_multiple {
-        true => Limit::TIMES,
-        false => Limit::WANTED,
+    let wanted = match &entry.wanted {
+        Field::Present(wanted) if wanted.0 > 1.0 => scope.within("wanted", wanted.0, Limit::TIMES),
+        wanted => scope.optional("wanted", wanted, FULL),
     };
-    let wanted = scope.optional("wanted", &entry.wanted, limit, FULL);
     let (wanted, times) = match wanted? {
         times if times > 1.0 => (FULL, times),
         wanted => (wanted, 1.0),
@@ -226,7 +223,7 @@ fn coverage(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<CoverageWish> {
 /// A diameter, one with the hit that left it, or the hardness from which it follows.
 fn dent(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<Dent> {
     if entry.hardness.is_given() {
-        let hardness = scope.maybe("hardness", &entry.hardness, Limit::HARDNESS)?;
+        let hardness = scope.maybe("hardness", &entry.hardness)?;
         for (key, is_given) in [
             ("dent_diameter", entry.dent_diameter.is_given()),
             ("measured_at", entry.measured_at.is_given()),
@@ -239,7 +236,7 @@ fn dent(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<Dent> {
         }
         return hardness.map(Dent::Hardness);
     }
-    let diameter = scope.needed_here("dent_diameter", &entry.dent_diameter, Limit::LENGTH);
+    let diameter = scope.needed_here("dent_diameter", &entry.dent_diameter);
     let Field::Present(at) = &entry.measured_at else {
         return match entry.measured_at {
             Field::Faulty => None,
@@ -247,8 +244,8 @@ fn dent(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<Dent> {
         };
     };
     let hit = scope.of("measured_at");
-    let speed = hit.needed("speed", &at.speed, Limit::SPEED);
-    let incidence = hit.optional("incidence", &at.incidence, Limit::INCIDENCE, FRAC_PI_2);
+    let speed = hit.needed("speed", &at.speed);
+    let incidence = hit.optional("incidence", &at.incidence, FRAC_PI_2);
     Some(Dent::Measured {
         diameter: diameter?,
         normal_speed: speed? * sin(incidence?),
@@ -256,13 +253,10 @@ fn dent(scope: &Scope<'_>, entry: &CoverageEntry) -> Option<Dent> {
 }
 
 fn paths(scope: &Scope<'_>, entry: &PathsEntry) -> Option<PathLimits> {
-    let impacts = entry.impacts.or(6).and_then(|impacts| {
-        scope.within("impacts", impacts as f64, Limit::IMPACTS)?;
-        usize::try_from(impacts).ok()
-    });
-    let least_energy = scope.optional("least_energy", &entry.least_energy, Limit::BELOW_ALL, 0.01);
+    let impacts = scope.optional("impacts", &entry.impacts, 6.0);
+    let least_energy = scope.optional("least_energy", &entry.least_energy, 0.01);
     Some(PathLimits {
-        impacts: impacts?,
+        impacts: impacts? as usize,
         least_energy: least_energy?,
         shot_size: true,
         spin: true,
@@ -270,7 +264,7 @@ fn paths(scope: &Scope<'_>, entry: &PathsEntry) -> Option<PathLimits> {
 }
 
 fn solve(scope: &Scope<'_>, entry: &SolveEntry) -> Option<(f64, u64)> {
-    let accuracy = scope.optional("accuracy", &entry.accuracy, Limit::ACCURACY, 0.01);
+    let accuracy = scope.optional("accuracy", &entry.accuracy, 0.01);
     let seed = entry.seed.or(1);
     Some((accuracy?, seed?))
 }

@@ -1,7 +1,6 @@
 //! `nozzle`: the body that carries the jet.
 
 use super::coordinates::direction;
-use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::fault::one_of;
@@ -10,7 +9,7 @@ use crate::problem::field::Field;
 use crate::problem::file::equipment::{BallEntry, BodyEntry, CapsuleEntry, NozzleEntry};
 
 pub(super) fn check(scope: &Scope<'_>, entry: &NozzleEntry) -> Option<Nozzle> {
-    let clearance = scope.optional("clearance", &entry.clearance, Limit::LENGTH_OR_ZERO, 0.0);
+    let clearance = scope.optional("clearance", &entry.clearance, 0.0);
     let pieces = entry.body.or(Vec::new()).and_then(|pieces| {
         let list = scope.of("body");
         let pieces: Vec<Option<Body>> = pieces
@@ -65,13 +64,13 @@ fn piece(scope: &Scope<'_>, field: &Field<BodyEntry>) -> Option<Body> {
 }
 
 fn ball(scope: &Scope<'_>, entry: &BallEntry) -> Option<Body> {
-    let radius = scope.needed("radius", &entry.radius, Limit::LENGTH)?;
+    let radius = scope.needed("radius", &entry.radius)?;
     Some(Body::Ball { radius })
 }
 
 fn capsule(scope: &Scope<'_>, entry: &CapsuleEntry) -> Option<Body> {
-    let length = scope.needed("length", &entry.length, Limit::LENGTH);
-    let radius = scope.needed("radius", &entry.radius, Limit::LENGTH);
+    let length = scope.needed("length", &entry.length);
+    let radius = scope.needed("radius", &entry.radius);
     let direction = match &entry.direction {
         Field::Missing => Some(None),
         Field::Faulty => None,

@@ -5,13 +5,13 @@ use std::path::Path;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::coordinates::Coordinates;
-use super::limit::Limit;
 use super::scope::Scope;
 use super::{cut, mesh, shape};
 use crate::problem::fault::{Fault, one_of};
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
 use crate::problem::file::Named;
+use crate::problem::file::quantity::{Quantity, Turn};
 use crate::problem::file::scene::{BaseEntry, MoveEntry, PartEntry, PlaceEntry};
 use crate::problem::part::{Part, Place, Shape};
 
@@ -275,10 +275,10 @@ fn place(scope: &Scope<'_>, entry: &MoveEntry, coordinates: &Coordinates<'_>) ->
                 if !angles[index].is_given() {
                     item.report(
                         item.own_fault(FaultCode::Missing, "is missing")
-                            .expecting(Limit::TURN.expected),
+                            .expecting(Turn::LIMIT.expected),
                     );
                 }
-                item.within_own(angles[index].value()?.0, Limit::TURN)
+                item.within_own(angles[index].value()?.0, Turn::LIMIT)
             };
             let (x, y, z) = (angle(0), angle(1), angle(2));
             // nalgebra turns about fixed x, then y, then z.

@@ -4,12 +4,12 @@ use crate::problem::fault::Fault;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::faults::Faults;
 use crate::problem::field::{Field, Needed};
-use crate::problem::file::Quantity;
+use crate::problem::file::quantity::Quantity;
 use crate::problem::file::settings::OneOrRange;
 use crate::problem::setting::Range;
 use crate::problem::source::{child_key, item_key};
 
-use super::limit::Limit;
+use crate::problem::Limit;
 use crate::problem::name::{NAME_EXPECTED, is_name};
 
 /// One group of keys under check.
@@ -101,53 +101,47 @@ impl<'a> Scope<'a> {
     }
 
     /// A key that must be there, within its limits.
-    pub fn needed<Q: Quantity>(&self, name: &str, field: &Needed<Q>, limit: Limit) -> Option<f64> {
-        self.needed_here(name, field, limit)
+    pub fn needed<Q: Quantity>(&self, name: &str, field: &Needed<Q>) -> Option<f64> {
+        self.needed_here(name, field)
     }
 
     /// The same for a key that must be there because of what does not stand beside it.
-    pub fn needed_here<Q: Quantity>(
-        &self,
-        name: &str,
-        field: &Field<Q>,
-        limit: Limit,
-    ) -> Option<f64> {
-        let value = self.required_here(name, field, limit.expected)?.si();
-        self.within(name, value, limit)
+    pub fn needed_here<Q: Quantity>(&self, name: &str, field: &Field<Q>) -> Option<f64> {
+        let value = self.required_here(name, field, Q::LIMIT.expected)?;
+        self.sound(name, *value)
+    }
+
+    /// The number of a value that is within its limits.
+    pub fn sound<Q: Quantity>(&self, name: &str, value: Q) -> Option<f64> {
+        self.within(name, value.si(), Q::LIMIT)
     }
 
     /// A key that has a default, within its limits.
-    pub fn optional<Q: Quantity>(
-        &self,
-        name: &str,
-        field: &Field<Q>,
-        limit: Limit,
-        default: f64,
-    ) -> Option<f64> {
+    pub fn optional<Q: Quantity>(&self, name: &str, field: &Field<Q>, default: f64) -> Option<f64> {
         match field {
             Field::Missing => Some(default),
             Field::Faulty => None,
-            Field::Present(value) => self.within(name, value.si(), limit),
+            Field::Present(value) => self.sound(name, *value),
         }
     }
 
     /// A key that may be absent; the outer `None` stands for a fault.
     #[expect(clippy::option_option, reason = "absent and faulty differ")]
-    pub fn maybe<Q: Quantity>(
-        &self,
-        name: &str,
-        field: &Field<Q>,
-        limit: Limit,
-    ) -> Option<Option<f64>> {
+    pub fn maybe<Q: Quantity>(&self, name: &str, field: &Field<Q>) -> Option<Option<f64>> {
         match field {
             Field::Missing => Some(None),
             Field::Faulty => None,
-            Field::Present(value) => self.within(name, value.si(), limit).map(Some),
+            Field::Present(value) => self.sound(name, *value).map(Some),
         }
     }
 
     /// A single value or a range that is the right way up, each end within its limits.
-    pub fn range<Q: Quantity>(
+    pub fn range<Q: Quantity>(&self, name: &str, value: &OneOrRange<Q>) -> Option<Range> {
+        self.range_within(name, value, Q::LIMIT)
+    }
+
+    /// The same within other limits than those of its kind.
+    pub fn range_within<Q: Quantity>(
         &self,
         name: &str,
         value: &OneOrRange<Q>,

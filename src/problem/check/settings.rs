@@ -3,13 +3,12 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::contacts::Contacts;
-use super::limit::Limit;
 use super::scope::Scope;
+use crate::problem::Limit;
 use crate::problem::fault::one_of;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::{Field, Needed};
-use crate::problem::file::Length;
-use crate::problem::file::Quantity;
+use crate::problem::file::quantity::{Quantity, Shift};
 use crate::problem::file::settings::{OneOrMany, OneOrRange, SettingsEntry};
 use crate::problem::setting::{Range, SettingRanges};
 
@@ -24,14 +23,14 @@ pub(super) fn check(
     } else {
         Limit::INCIDENCE
     };
-    let incidence = needed(scope, "incidence", &entry.incidence, limit).map(|range| {
+    let incidence = needed_within(scope, "incidence", &entry.incidence, limit).map(|range| {
         // 90 deg may come out of the conversion a rounding error too large.
         Range {
             min: range.min.min(FRAC_PI_2),
             max: range.max.min(FRAC_PI_2),
         }
     });
-    let azimuth = needed(scope, "azimuth", &entry.azimuth, Limit::TURN).filter(|range| {
+    let azimuth = needed(scope, "azimuth", &entry.azimuth).filter(|range| {
         let sound = range.width() <= TAU * (1.0 + 1e-12);
         if !sound {
             scope.report(
@@ -46,8 +45,8 @@ pub(super) fn check(
         }
         sound
     });
-    let standoff = needed(scope, "standoff", &entry.standoff, Limit::LENGTH);
-    let speed = needed(scope, "speed", &entry.speed, Limit::SPEED);
+    let standoff = needed(scope, "standoff", &entry.standoff);
+    let speed = needed(scope, "speed", &entry.speed);
     let aim_along = shift(scope, "aim_along", &entry.aim_along);
     let aim_across = shift(scope, "aim_across", &entry.aim_across);
     let contact = chosen(scope, &entry.contact, contacts);
@@ -67,18 +66,26 @@ fn needed<Q: Quantity>(
     scope: &Scope<'_>,
     name: &str,
     field: &Needed<OneOrRange<Q>>,
+) -> Option<Range> {
+    needed_within(scope, name, field, Q::LIMIT)
+}
+
+fn needed_within<Q: Quantity>(
+    scope: &Scope<'_>,
+    name: &str,
+    field: &Needed<OneOrRange<Q>>,
     limit: Limit,
 ) -> Option<Range> {
     let expected = format!("{}, or a range `[min, max]`", limit.expected);
     let value = scope.required(name, field, &expected)?;
-    scope.range(name, value, limit)
+    scope.range_within(name, value, limit)
 }
 
-fn shift(scope: &Scope<'_>, name: &str, field: &Field<OneOrRange<Length>>) -> Option<Range> {
+fn shift(scope: &Scope<'_>, name: &str, field: &Field<OneOrRange<Shift>>) -> Option<Range> {
     match field {
         Field::Missing => Some(Range::held(0.0)),
         Field::Faulty => None,
-        Field::Present(value) => scope.range(name, value, Limit::SHIFT),
+        Field::Present(value) => scope.range(name, value),
     }
 }
 

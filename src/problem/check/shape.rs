@@ -1,7 +1,6 @@
 //! Keyways, bores and extrusions.
 
 use super::coordinates::Coordinates;
-use super::limit::Limit;
 use super::profile;
 use super::scope::Scope;
 use crate::problem::fault_code::FaultCode;
@@ -13,16 +12,11 @@ use crate::problem::part::{Ends, Keyway, RoundSide, Shape};
 
 /// A bore with a groove.
 pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
-    let bore = scope.needed("bore", &entry.bore, Limit::LENGTH);
-    let width = scope.needed("width", &entry.width, Limit::LENGTH);
-    let depth = scope.needed("depth", &entry.depth, Limit::LENGTH);
-    let length = scope.needed("length", &entry.length, Limit::LENGTH);
-    let root = scope.optional(
-        "root_radius",
-        &entry.root_radius,
-        Limit::LENGTH_OR_ZERO,
-        0.0,
-    );
+    let bore = scope.needed("bore", &entry.bore);
+    let width = scope.needed("width", &entry.width);
+    let depth = scope.needed("depth", &entry.depth);
+    let length = scope.needed("length", &entry.length);
+    let root = scope.optional("root_radius", &entry.root_radius, 0.0);
     let (bore, width, depth, root_radius) = (bore?, width?, depth?, root?);
     if width >= bore {
         scope.report(
@@ -70,8 +64,8 @@ pub(super) fn keyway(scope: &Scope<'_>, entry: &KeywayEntry) -> Option<Shape> {
 
 /// A round hole or pin.
 pub(super) fn bore(scope: &Scope<'_>, entry: &BoreEntry) -> Option<Shape> {
-    let diameter = scope.needed("diameter", &entry.diameter, Limit::LENGTH);
-    let length = scope.needed("length", &entry.length, Limit::LENGTH);
+    let diameter = scope.needed("diameter", &entry.diameter);
+    let length = scope.needed("length", &entry.length);
     let ends = ends(&entry.ends);
     let free = match &entry.free {
         Field::Missing => None,
@@ -93,7 +87,7 @@ pub(super) fn extrude(
     entry: &ExtrudeEntry,
     coordinates: &Coordinates<'_>,
 ) -> Option<Shape> {
-    let length = scope.needed("length", &entry.length, Limit::LENGTH);
+    let length = scope.needed("length", &entry.length);
     let ends = ends(&entry.ends);
     let profile = scope
         .required("profile", &entry.profile, "a list of lines and arcs")

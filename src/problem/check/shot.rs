@@ -1,12 +1,11 @@
 //! `shot`: the spheres, by numbers or out of the library.
 
-use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::equipment::Shot;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
 use crate::problem::file::equipment::ShotEntry;
-use crate::problem::file::{Density, Length};
+use crate::problem::file::quantity::{Density, Length};
 use crate::problem::media::{self, Medium};
 use crate::units::shortened;
 
@@ -16,11 +15,11 @@ pub(super) fn check(scope: &Scope<'_>, entry: &ShotEntry) -> Option<Shot> {
         Field::Faulty => None,
         Field::Present(name) => looked_up(scope, name).map(Some),
     };
-    let size_spread = scope.optional("size_spread", &entry.size_spread, Limit::SPREAD, 0.0);
+    let size_spread = scope.optional("size_spread", &entry.size_spread, 0.0);
     let Some(medium) = medium else {
         // Nothing can be said to be missing, but what is given can be wrong.
-        scope.maybe("radius", &entry.radius, Limit::LENGTH);
-        scope.maybe("density", &entry.density, Limit::DENSITY);
+        scope.maybe("radius", &entry.radius);
+        scope.maybe("density", &entry.density);
         return None;
     };
     let mut entry = entry.clone();
@@ -32,8 +31,8 @@ pub(super) fn check(scope: &Scope<'_>, entry: &ShotEntry) -> Option<Shot> {
             entry.density = Field::Present(Density(medium.density.value));
         }
     }
-    let radius = scope.needed_here("radius", &entry.radius, Limit::LENGTH);
-    let density = scope.needed_here("density", &entry.density, Limit::DENSITY);
+    let radius = scope.needed_here("radius", &entry.radius);
+    let density = scope.needed_here("density", &entry.density);
     Some(Shot {
         radius: radius?,
         density: density?,

@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::coordinates::Coordinates;
-use super::limit::Limit;
 use super::scope::Scope;
+use crate::problem::Limit;
 use crate::problem::fault::one_of;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::field::Field;
@@ -23,10 +23,7 @@ pub(super) fn check(
     coordinates: &Coordinates<'_>,
 ) -> Option<Stroke> {
     let line = line(scope, entry, coordinates);
-    let stations = entry.stations.or(9).and_then(|stations| {
-        scope.within("stations", stations as f64, Limit::STATIONS)?;
-        usize::try_from(stations).ok()
-    });
+    let stations = scope.optional("stations", &entry.stations, 9.0);
     let hold = hold(scope, &entry.hold);
     let steps = entry
         .steps
@@ -37,7 +34,7 @@ pub(super) fn check(
     let run_out = run_out(scope, &entry.run_out);
     Some(Stroke {
         line: line?,
-        stations: stations?,
+        stations: stations? as usize,
         hold: hold?,
         steps: steps?,
         feed: feed?,
@@ -164,9 +161,9 @@ fn around(scope: &Scope<'_>, entry: &AroundEntry, coordinates: &Coordinates<'_>)
         Field::Faulty => None,
         Field::Present(point) => coordinates.point(&scope.of("through"), point),
     };
-    let from = scope.needed("from", &entry.from, Limit::TURNS);
-    let to = scope.needed("to", &entry.to, Limit::TURNS);
-    let pitch = scope.optional("pitch", &entry.pitch, Limit::SHIFT, 0.0);
+    let from = scope.needed("from", &entry.from);
+    let to = scope.needed("to", &entry.to);
+    let pitch = scope.optional("pitch", &entry.pitch, 0.0);
     let (from, to) = (from?, to?);
     if from >= to {
         let fault = scope.fault(FaultCode::UpsideDown, "to", "is not larger than `from`");
@@ -245,7 +242,7 @@ fn steps(scope: &Scope<'_>, entry: &StepsEntry) -> Option<Vec<(Setting, f64)>> {
         ($($variant:ident $field:ident $key:ident $dimension:ident [$($serde:meta)?] $doc:literal,)+) => {
             $(found.push((
                 Setting::$variant,
-                scope.maybe(stringify!($field), &entry.$field, Limit::step(Dimension::$dimension)),
+                scope.maybe(stringify!($field), &entry.$field),
             ));)+
         };
     }

@@ -1,7 +1,6 @@
 //! `surfaces`: where one surface differs from the others.
 
 use super::contacts;
-use super::limit::Limit;
 use super::scene::Scene;
 use super::scope::Scope;
 use crate::problem::equipment::{Role, SurfaceRule};
@@ -47,10 +46,10 @@ pub(super) fn check(
 }
 
 fn rule(scope: &Scope<'_>, name: &str, entry: &SurfaceEntry) -> Option<SurfaceRule> {
-    let allow = scope.maybe("allow", &entry.allow, Limit::IMPULSE);
-    let share = scope.maybe("share", &entry.share, Limit::SHARE);
-    let weight = scope.maybe("weight", &entry.weight, Limit::WEIGHT);
-    let roughness = scope.optional("roughness", &entry.roughness, Limit::ROUGHNESS, 0.0);
+    let allow = scope.maybe("allow", &entry.allow);
+    let share = scope.maybe("share", &entry.share);
+    let weight = scope.maybe("weight", &entry.weight);
+    let roughness = scope.optional("roughness", &entry.roughness, 0.0);
     let contact = match &entry.contact {
         Field::Missing => Some(None),
         Field::Faulty => None,

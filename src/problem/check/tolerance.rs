@@ -1,10 +1,8 @@
 //! `tolerance`: how exactly a shop sets what is asked for.
 
-use super::limit::Limit;
 use super::scope::Scope;
 use crate::problem::fault_code::FaultCode;
 use crate::problem::file::settings::ToleranceEntry;
-use crate::problem::given::half_width_limit;
 use crate::problem::setting::{Range, Setting, SettingRanges, Tolerance, for_each_setting};
 
 /// Checks the half-widths; against the settings where those are sound.
@@ -13,16 +11,11 @@ pub(super) fn check(
     entry: &ToleranceEntry,
     settings: Option<&SettingRanges>,
 ) -> Option<Tolerance> {
-    let restitution = scope.optional("restitution", &entry.restitution, Limit::FRACTION, 0.0);
-    let friction = scope.optional("friction", &entry.friction, Limit::BELOW_ALL, 0.0);
+    let restitution = scope.optional("restitution", &entry.restitution, 0.0);
+    let friction = scope.optional("friction", &entry.friction, 0.0);
     macro_rules! half_widths {
         ($($variant:ident $field:ident $key:ident $dimension:ident [$($serde:meta)?] $doc:literal,)+) => {{
-            $(let $field = scope.optional(
-                stringify!($field),
-                &entry.$field,
-                half_width_limit(Setting::$variant),
-                0.0,
-            );)+
+            $(let $field = scope.optional(stringify!($field), &entry.$field, 0.0);)+
             // A faulty half-width is on record; 0 fits anywhere.
             let readable = Tolerance {
                 $($field: $field.unwrap_or_default(),)+

@@ -6,8 +6,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::json;
 
-use super::Speed;
 use super::form;
+use super::quantity::{Fraction, Friction, SignedFraction, Speed};
 use super::settings::OneOrRange;
 use crate::problem::field::{Field, Needed};
 use crate::problem::media::LibraryContact;
@@ -90,25 +90,25 @@ pub(in crate::problem) struct ContactEntry {
     #[serde(rename = "use")]
     #[schemars(with = "Field<form::ContactName>", example = &"steel-on-steel-dry")]
     pub library: Field<String>,
-    /// Static friction, 0 to 10. A range is searched, but not in the contact of a surface; that of
+    /// Static friction. A range is searched, but not in the contact of a surface; that of
     /// `use` where absent.
     #[schemars(example = 0.30, example = [0.05, 0.30])]
-    pub mu_s: Field<OneOrRange<f64>>,
+    pub mu_s: Field<OneOrRange<Friction>>,
     /// Dynamic friction, 0 to `mu_s`; `mu_d_ratio` or that of `use` where absent.
     #[schemars(example = 0.27)]
-    pub mu_d: Field<f64>,
-    /// Dynamic over static friction, 0 to 1. Instead of `mu_d`, and the only way where `mu_s` is a
+    pub mu_d: Field<Friction>,
+    /// Dynamic over static friction. Instead of `mu_d`, and the only way where `mu_s` is a
     /// range; `mu_d` or that of `use` where absent.
     #[schemars(example = 0.9)]
-    pub mu_d_ratio: Field<f64>,
-    /// Normal coefficient of restitution, 0 to 1, or how it falls with speed; that of `use` where
+    pub mu_d_ratio: Field<Fraction>,
+    /// Normal coefficient of restitution, or how it falls with speed; that of `use` where
     /// absent.
     #[schemars(example = 0.25)]
     pub restitution: Field<RestitutionEntry>,
-    /// Tangential coefficient of restitution, -1 to 1: how far a sticking contact springs back
+    /// Tangential coefficient of restitution: how far a sticking contact springs back
     /// sideways.
     #[schemars(example = 0.4, extend("default" = 0))]
-    pub tangential_restitution: Field<f64>,
+    pub tangential_restitution: Field<SignedFraction>,
     /// The friction law, see [model.md](model.md#contact-laws).
     #[schemars(example = &"kinetic", extend("default" = "stick_slip"))]
     pub law: Field<LawEntry>,
@@ -121,7 +121,7 @@ pub(in crate::problem) struct ContactEntry {
 pub(in crate::problem) enum RestitutionEntry {
     /// The same at every speed.
     #[serde(rename = "scalar")]
-    Constant(f64),
+    Constant(Fraction),
     /// Falling with the normal speed.
     #[serde(rename = "map")]
     Falling(FallingEntry),
@@ -131,24 +131,24 @@ pub(in crate::problem) enum RestitutionEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct FallingEntry {
-    /// The coefficient at the speed at which it was measured, 0 to 1.
+    /// The coefficient at the speed at which it was measured.
     #[schemars(example = 0.5)]
-    pub value: Needed<f64>,
-    /// That normal speed, 1 um/s to 10000 m/s.
+    pub value: Needed<Fraction>,
+    /// That normal speed.
     #[schemars(example = &"10 m/s")]
     pub at: Needed<Speed>,
-    /// How steeply it falls, 0 to 1; 0.25 is the plastic limit.
+    /// How steeply it falls; 0.25 is the plastic limit.
     #[schemars(example = 0.25)]
-    pub exponent: Needed<f64>,
+    pub exponent: Needed<Fraction>,
 }
 
 impl FallingEntry {
     /// As it would be written for a contact of the library.
     pub fn of(known: &LibraryContact) -> Self {
         Self {
-            value: Needed::from(known.restitution.value),
+            value: Needed::from(Fraction(known.restitution.value)),
             at: Needed::from(Speed(known.restitution_speed.value)),
-            exponent: Needed::from(known.restitution_exponent.value),
+            exponent: Needed::from(Fraction(known.restitution_exponent.value)),
         }
     }
 }

@@ -5,9 +5,11 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::contact::ContactEntry;
-use super::{
-    Angle, Density, Hardness, Impulse, Length, MassFlow, Percentage, Pressure, Speed, Triple, form,
+use super::quantity::{
+    BelowAll, Density, Divergence, Hardness, Impacts, Impulse, Incidence, Length, LengthOrZero,
+    MassFlow, Pressure, Roughness, Share, Speed, Spread, Wanted, Weight,
 };
+use super::{Triple, form};
 use crate::problem::field::{Field, Needed};
 
 /// The shot: solid spheres. Either both numbers are given, or a medium of the library, such as S110 or
@@ -29,40 +31,40 @@ pub(in crate::problem) struct ShotEntry {
     #[serde(rename = "use")]
     #[schemars(with = "Field<form::MediumName>", example = &"S110")]
     pub medium: Field<String>,
-    /// Mean radius, 0.001 um to 1000 m; that of `use` where absent.
+    /// Mean radius; that of `use` where absent.
     #[schemars(example = &"0.5 mm")]
     pub radius: Field<Length>,
-    /// Density, 1 to 100000 kg/m3; that of `use` where absent.
+    /// Density; that of `use` where absent.
     #[schemars(example = &"7000 kg/m3")]
     pub density: Field<Density>,
-    /// Standard deviation of the radius, cut at two, 0 to below 50 %.
+    /// Standard deviation of the radius, cut at two.
     #[schemars(example = &"5 %", extend("default" = "0 %"))]
-    pub size_spread: Field<Percentage>,
+    pub size_spread: Field<Spread>,
 }
 
 /// How the shots leave the nozzle.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct JetEntry {
-    /// Diameter of the exit, 0 mm (a point) to 1000 m.
+    /// Diameter of the exit; 0 mm is a point.
     #[schemars(example = &"1.5 mm")]
-    pub exit_diameter: Needed<Length>,
-    /// Half-angle of the cone, 0 deg (a parallel jet) to below 90 deg.
+    pub exit_diameter: Needed<LengthOrZero>,
+    /// Half-angle of the cone; 0 deg is a parallel jet.
     #[schemars(example = &"4 deg")]
-    pub divergence: Needed<Angle>,
+    pub divergence: Needed<Divergence>,
     /// How directions fill the cone: `uniform` in solid angle, or `gaussian`, with half the
     /// half-angle as the standard deviation, cut at the half-angle.
     #[schemars(example = &"gaussian", extend("default" = "uniform"))]
     pub spread: Field<SpreadEntry>,
-    /// Standard deviation of the speed before it is cut at two, 0 to below 50 %.
+    /// Standard deviation of the speed before it is cut at two.
     #[schemars(example = &"5 %", extend("default" = "0 %"))]
-    pub speed_spread: Field<Percentage>,
-    /// Mass of shot per time, above 0 kg/min. Changes no figure; with it the sheet says whether
+    pub speed_spread: Field<Spread>,
+    /// Mass of shot per time. Changes no figure; with it the sheet says whether
     /// shots get into each other's way, see [model.md](model.md#what-the-model-leaves-out); unknown where
     /// absent.
     #[schemars(example = &"5 kg/min")]
     pub mass_flow: Field<MassFlow>,
-    /// Speed of the air between exit and target, 1 um/s to 10000 m/s; that of an air nozzle is 200 to 300
+    /// Speed of the air between exit and target; that of an air nozzle is 200 to 300
     /// m/s. Changes no figure; with it the sheet says how much faster the shot gets on its way, see
     /// [model.md](model.md#what-the-model-leaves-out); taken to be at rest where absent.
     #[schemars(example = &"250 m/s")]
@@ -85,10 +87,10 @@ pub(in crate::problem) struct JetEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct CalibrationEntry {
-    /// The pressure that is set, above 0 bar.
+    /// The pressure that is set.
     #[schemars(example = &"2 bar")]
     pub pressure: Needed<Pressure>,
-    /// The mean speed of the shot at the exit, above 0 m/s.
+    /// The mean speed of the shot at the exit.
     #[schemars(example = &"22 m/s")]
     pub speed: Needed<Speed>,
 }
@@ -120,9 +122,9 @@ pub(in crate::problem) enum SpreadEntry {
 pub(in crate::problem) struct NozzleEntry {
     /// Its pieces; the disc of the exit grown by the radius of a shot where absent.
     pub body: Field<Vec<Field<BodyEntry>>>,
-    /// Least distance to every surface, up to 1000 m, for every pose within the [tolerance](#tolerance).
+    /// Least distance to every surface, for every pose within the [tolerance](#tolerance).
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
-    pub clearance: Field<Length>,
+    pub clearance: Field<LengthOrZero>,
 }
 
 /// One piece of the body: exactly one of these keys.
@@ -145,7 +147,7 @@ impl BodyEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BallEntry {
-    /// Radius, 0.001 um to 1000 m.
+    /// Radius.
     #[schemars(example = &"3 mm")]
     pub radius: Needed<Length>,
 }
@@ -154,10 +156,10 @@ pub(in crate::problem) struct BallEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct CapsuleEntry {
-    /// Length, 0.001 um to 1000 m.
+    /// Length.
     #[schemars(example = &"60 mm")]
     pub length: Needed<Length>,
-    /// Radius, 0.001 um to 1000 m.
+    /// Radius.
     #[schemars(example = &"2 mm")]
     pub radius: Needed<Length>,
     /// A fixed direction in the scene: a lance that keeps it whatever the jet does; back along the
@@ -178,20 +180,20 @@ pub(in crate::problem) struct CapsuleEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct SurfaceEntry {
-    /// Normal impulse of one impact that it may take, above 0 N.s; that of `goals.rebound` where absent.
+    /// Normal impulse of one impact that it may take; that of `goals.rebound` where absent.
     #[schemars(example = &"5 uN.s")]
     pub allow: Field<Impulse>,
-    /// Share of all shots that may exceed it, 0 to 100 %; that of `goals.rebound` where absent.
+    /// Share of all shots that may exceed it; that of `goals.rebound` where absent.
     #[schemars(example = &"0.1 %")]
-    pub share: Field<Percentage>,
-    /// Weight of its impacts in the objective, 0 to 1e9; that of `goals.rebound` where absent.
+    pub share: Field<Share>,
+    /// Weight of its impacts in the objective; that of `goals.rebound` where absent.
     #[schemars(example = 2)]
-    pub weight: Field<f64>,
+    pub weight: Field<Weight>,
     /// Its own contact, whatever contact is chosen; the chosen one where absent.
     pub contact: Field<ContactEntry>,
-    /// Standard deviation of the tilt of its normal about each direction in it, 0 to 30 deg.
+    /// Standard deviation of the tilt of its normal about each direction in it.
     #[schemars(example = &"3 deg", extend("default" = "0 deg"))]
-    pub roughness: Field<Angle>,
+    pub roughness: Field<Roughness>,
     /// What a hit on it counts as. With `deflector` it belongs to the flight, and is neither first
     /// hit nor rebound: not for the target, and not beside `allow`, `share` or `weight`.
     #[schemars(example = &"deflector", extend("default" = "part"))]
@@ -231,42 +233,41 @@ pub(in crate::problem) enum RoleEntry {
     "dependentRequired" = json!({ "measured_at": ["dent_diameter"] }),
 ))]
 pub(in crate::problem) struct CoverageEntry {
-    /// Diameter d of the dent that one hit leaves, as measured on a strip, 0.001 um to 1000 m.
+    /// Diameter d of the dent that one hit leaves, as measured on a strip.
     #[schemars(example = &"0.2 mm")]
     pub dent_diameter: Field<Length>,
     /// The hit that left it: d then grows with the root of the normal speed of each hit, and with the shot; the same dent
     /// for every hit where absent.
     pub measured_at: Field<DentHitEntry>,
-    /// Hardness of the target, 1 HB to 10000 HB: the volume of a dent is the work that the hit loses over the dynamic
+    /// Hardness of the target: the volume of a dent is the work that the hit loses over the dynamic
     /// hardness, taken to be 9.81 MPa for each HB; what `dent_diameter` says where absent.
     #[schemars(example = &"300 HB")]
     pub hardness: Field<Hardness>,
-    /// Share of the area that is to be dented, above 0 % and below 100 %, or above that for so many times the shot that
-    /// dents 98 %: 200 % is twice that.
+    /// Share of the area that is to be dented; above 100 % so many times the shot that dents 98 %: 200 % is twice that.
     #[schemars(example = &"95 %", extend("default" = "98 %"))]
-    pub wanted: Field<Percentage>,
+    pub wanted: Field<Wanted>,
 }
 
 /// The hit that left a dent which was measured, of the shot of the problem.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct DentHitEntry {
-    /// Its speed, 1 um/s to 10000 m/s.
+    /// Its speed.
     #[schemars(example = &"27 m/s")]
     pub speed: Needed<Speed>,
-    /// Its angle from the surface, above 0 deg to 90 deg.
+    /// Its angle from the surface.
     #[schemars(example = &"90 deg", extend("default" = "90 deg"))]
-    pub incidence: Field<Angle>,
+    pub incidence: Field<Incidence>,
 }
 
 /// When a path ends.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct PathsEntry {
-    /// Most impacts that are followed, the first hit included, 1 to 1000.
+    /// Most impacts that are followed, the first hit included.
     #[schemars(example = 2, extend("default" = 6))]
-    pub impacts: Field<u64>,
-    /// Share of its energy at the exit below which a shot is followed no further, 0 to below 100 %.
+    pub impacts: Field<Impacts>,
+    /// Share of its energy at the exit below which a shot is followed no further.
     #[schemars(example = &"0.1 %", extend("default" = "1 %"))]
-    pub least_energy: Field<Percentage>,
+    pub least_energy: Field<BelowAll>,
 }

@@ -5,20 +5,22 @@ use std::borrow::Cow;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
+use crate::problem::Limit;
 use crate::problem::media;
 use crate::problem::model::Effect;
 use crate::problem::name::NAME_PATTERN;
 use crate::units::Dimension;
 
 /// The schema of a number with a unit.
-pub(in crate::problem) fn quantity(dimension: Dimension) -> Schema {
+pub(super) fn quantity(dimension: Dimension, range: &str) -> Schema {
     let units: Vec<&str> = dimension.unit_names().collect();
     let described = dimension.described();
-    let mut letters = described.chars();
+    let (_, example) = described.split_once(" such as ").unwrap_or_default();
+    let mut letters = range.chars();
     let first = letters.next().into_iter().flat_map(char::to_uppercase);
     json_schema!({
         "description": format!(
-            "{}; in {}.",
+            "{}, such as {example}; in {}.",
             first.chain(letters).collect::<String>(),
             units.join(", ")
         ),
@@ -26,6 +28,26 @@ pub(in crate::problem) fn quantity(dimension: Dimension) -> Schema {
         "pattern": dimension.pattern(),
         "patternErrorMessage": format!("expected {described}; units: {}", units.join(", ")),
     })
+}
+
+/// The schema of a number without a unit.
+pub(super) fn number(mut schema: Schema, limit: &Limit) -> Schema {
+    let (min, max, is_closed) = limit.ends();
+    let most = if is_closed {
+        "maximum"
+    } else {
+        "exclusiveMaximum"
+    };
+    for (key, end) in [("minimum", min), (most, max)] {
+        let whole = end as i64;
+        let end = if whole as f64 == end {
+            json!(whole)
+        } else {
+            json!(end)
+        };
+        schema.insert(key.into(), end);
+    }
+    schema
 }
 
 /// What parts, contacts and regions may be called.

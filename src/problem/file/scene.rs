@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::{Angle, Length, Named, Pair, Triple, form};
+use super::quantity::{Length, LengthOrZero, Turn};
+use super::{Named, Pair, Triple, form};
 use crate::problem::LengthUnit;
 use crate::problem::field::{Field, Needed};
 
@@ -88,22 +89,22 @@ impl PartEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct KeywayEntry {
-    /// Diameter of the bore, 0.001 um to 1000 m.
+    /// Diameter of the bore.
     #[schemars(example = &"30 mm")]
     pub bore: Needed<Length>,
     /// Width of the groove, below `bore`.
     #[schemars(example = &"8 mm")]
     pub width: Needed<Length>,
-    /// Depth of the floor below the crown of the bore, 0.001 um to 1000 m.
+    /// Depth of the floor below the crown of the bore.
     #[schemars(example = &"3.3 mm")]
     pub depth: Needed<Length>,
-    /// Length along z, 0.001 um to 1000 m.
+    /// Length along z.
     #[schemars(example = &"40 mm")]
     pub length: Needed<Length>,
     /// Radius between floor and walls, at most half the width and at most the height of the
     /// straight walls.
     #[schemars(example = &"0.2 mm", extend("default" = "0 mm"))]
-    pub root_radius: Field<Length>,
+    pub root_radius: Field<LengthOrZero>,
 }
 
 /// A round hole along z from 0 to `length`; a pin when it is seen from outside. Surfaces: `wall`, and
@@ -111,10 +112,10 @@ pub(in crate::problem) struct KeywayEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct BoreEntry {
-    /// Diameter, 0.001 um to 1000 m.
+    /// Diameter.
     #[schemars(example = &"12 mm")]
     pub diameter: Needed<Length>,
-    /// Length along z, 0.001 um to 1000 m.
+    /// Length along z.
     #[schemars(example = &"48 mm")]
     pub length: Needed<Length>,
     /// Whether its ends are closed: both alike, or each on its own.
@@ -177,7 +178,7 @@ pub(in crate::problem) struct RegionEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ExtrudeEntry {
-    /// Length along z, 0.001 um to 1000 m.
+    /// Length along z.
     #[schemars(example = &"40 mm")]
     pub length: Needed<Length>,
     /// Whether its ends are closed, as for `bore`. The outline must be closed where an end is.
@@ -319,12 +320,12 @@ pub(in crate::problem) struct MoveEntry {
     /// Where the part's origin goes in that frame.
     #[schemars(example = [40, 0, 0], extend("default" = [0, 0, 0]))]
     pub at: Field<Triple>,
-    /// Angles about fixed x, then y, then z, -360 deg to 360 deg each.
+    /// Angles about fixed x, then y, then z.
     #[schemars(
         example = ["0 deg", "0 deg", "90 deg"],
         extend("default" = ["0 deg", "0 deg", "0 deg"])
     )]
-    pub rotate: Field<[Field<Angle>; 3]>,
+    pub rotate: Field<[Field<Turn>; 3]>,
 }
 
 /// What is to be peened.

@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Angle, Impulse, Length, Percentage, Speed};
+use super::quantity::{
+    Accuracy, AngleOrZero, BelowAll, Deviation, Fraction, Impulse, IncidenceOrZero, Length,
+    LengthOrZero, Share, Shift, Speed, Turn, Weight,
+};
+
 use crate::problem::field::{Field, Needed};
 
 /// A single value, which is held, or a range, which is searched.
@@ -45,30 +49,30 @@ pub(in crate::problem) enum OneOrMany {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct SettingsEntry {
-    /// Angle between jet axis and target plane, above 0 deg to 90 deg, which is perpendicular;
+    /// Angle between jet axis and target plane, 90 deg being perpendicular;
     /// 0 deg, along the target, only where all of `aim_above` is above 0 mm.
     #[schemars(example = ["30 deg", "85 deg"])]
-    pub incidence: Needed<OneOrRange<Angle>>,
-    /// Direction of the jet in the target's plane, -360 deg to 360 deg, at most a full turn wide;
+    pub incidence: Needed<OneOrRange<IncidenceOrZero>>,
+    /// Direction of the jet in the target's plane, at most a full turn wide;
     /// 0 deg is along `target.along`.
     #[schemars(example = ["-90 deg", "90 deg"])]
-    pub azimuth: Needed<OneOrRange<Angle>>,
-    /// From the aim point back along the axis to the exit, 0.001 um to 1000 m.
+    pub azimuth: Needed<OneOrRange<Turn>>,
+    /// From the aim point back along the axis to the exit.
     #[schemars(example = ["6 mm", "20 mm"])]
     pub standoff: Needed<OneOrRange<Length>>,
-    /// Speed of the shot at the exit, 1 um/s to 10000 m/s.
+    /// Speed of the shot at the exit.
     #[schemars(example = ["5 m/s", "40 m/s"])]
     pub speed: Needed<OneOrRange<Speed>>,
-    /// Moves the aim point along azimuth 0, -1000 m to 1000 m.
+    /// Moves the aim point along azimuth 0.
     #[schemars(example = ["-2 mm", "2 mm"], extend("default" = "0 mm"))]
-    pub aim_along: Field<OneOrRange<Length>>,
+    pub aim_along: Field<OneOrRange<Shift>>,
     /// Moves it across, along azimuth 90 deg.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
-    pub aim_across: Field<OneOrRange<Length>>,
+    pub aim_across: Field<OneOrRange<Shift>>,
     /// Moves it away from the target, along its normal: a jet at 0 deg runs parallel to the target
     /// at this height.
     #[schemars(example = &"6 mm", extend("default" = "0 mm"))]
-    pub aim_above: Field<OneOrRange<Length>>,
+    pub aim_above: Field<OneOrRange<Shift>>,
     /// The contacts that may be chosen; all of them where absent.
     #[schemars(example = ["dry", "oiled"])]
     pub contact: Field<OneOrMany>,
@@ -101,33 +105,33 @@ pub(in crate::problem) struct GoalsEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct NormalImpulseEntry {
-    /// The impulse, above 0 N.s, to 1e6 N.s.
+    /// The impulse.
     #[schemars(example = &"40 uN.s")]
     pub target: Needed<Impulse>,
-    /// A first hit on target breaks the goal when it is off by more, 0 to 1000 %.
+    /// A first hit on target breaks the goal when it is off by more.
     #[schemars(example = &"15 %", extend("default" = "10 %"))]
-    pub tolerance: Field<Percentage>,
-    /// Share of the first hits on target that may break it, 0 to 100 %.
+    pub tolerance: Field<Deviation>,
+    /// Share of the first hits on target that may break it.
     #[schemars(example = &"2 %", extend("default" = "5 %"))]
-    pub share: Field<Percentage>,
-    /// Weight in the objective, 0 to 1e9.
+    pub share: Field<Share>,
+    /// Weight in the objective.
     #[schemars(example = 0.5, extend("default" = 1))]
-    pub weight: Field<f64>,
+    pub weight: Field<Weight>,
 }
 
 /// First hits on the target shall not give more tangential impulse.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct TangentialImpulseEntry {
-    /// The limit, above 0 N.s.
+    /// The limit.
     #[schemars(example = &"8 uN.s")]
     pub limit: Needed<Impulse>,
-    /// Share of the first hits on target that may break it, 0 to 100 %.
+    /// Share of the first hits on target that may break it.
     #[schemars(example = &"2 %", extend("default" = "5 %"))]
-    pub share: Field<Percentage>,
-    /// Weight in the objective, 0 to 1e9.
+    pub share: Field<Share>,
+    /// Weight in the objective.
     #[schemars(example = 0.5, extend("default" = 1))]
-    pub weight: Field<f64>,
+    pub weight: Field<Weight>,
 }
 
 /// What other surfaces than the target may take. [`surfaces`](#surfaces) says where one of them
@@ -135,27 +139,27 @@ pub(in crate::problem) struct TangentialImpulseEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ReboundEntry {
-    /// Normal impulse of one impact on any of them, above 0 N.s.
+    /// Normal impulse of one impact on any of them.
     #[schemars(example = &"10 uN.s")]
     pub allow: Needed<Impulse>,
-    /// Share of all shots that may break it on each surface, 0 to 100 %.
+    /// Share of all shots that may break it on each surface.
     #[schemars(example = &"0.5 %", extend("default" = "1 %"))]
-    pub share: Field<Percentage>,
-    /// Weight in the objective, 0 to 1e9.
+    pub share: Field<Share>,
+    /// Weight in the objective.
     #[schemars(example = 0.5, extend("default" = 1))]
-    pub weight: Field<f64>,
+    pub weight: Field<Weight>,
 }
 
 /// Shots whose first hit is not on the target.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct MissEntry {
-    /// Share of all shots that may miss, 0 to 100 %.
+    /// Share of all shots that may miss.
     #[schemars(example = &"2 %", extend("default" = "1 %"))]
-    pub share: Field<Percentage>,
-    /// Weight in the objective, 0 to 1e9.
+    pub share: Field<Share>,
+    /// Weight in the objective.
     #[schemars(example = 2, extend("default" = 1))]
-    pub weight: Field<f64>,
+    pub weight: Field<Weight>,
 }
 
 /// How exactly a shop sets what the sheet says: half-widths. Every shot is fired from its own setting
@@ -167,45 +171,45 @@ pub(in crate::problem) struct MissEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct ToleranceEntry {
-    /// Of the incidence, 0 to 360 deg.
+    /// Of the incidence.
     #[schemars(example = &"2 deg", extend("default" = "0 deg"))]
-    pub incidence: Field<Angle>,
-    /// Of the azimuth, 0 to 360 deg.
+    pub incidence: Field<AngleOrZero>,
+    /// Of the azimuth.
     #[schemars(example = &"2 deg", extend("default" = "0 deg"))]
-    pub azimuth: Field<Angle>,
-    /// Of the standoff, 0 mm to 1000 m.
+    pub azimuth: Field<AngleOrZero>,
+    /// Of the standoff.
     #[schemars(example = &"1 mm", extend("default" = "0 mm"))]
-    pub standoff: Field<Length>,
-    /// Of the speed, relative, 0 to below 100 %.
+    pub standoff: Field<LengthOrZero>,
+    /// Of the speed, relative.
     #[schemars(example = &"3 %", extend("default" = "0 %"))]
-    pub speed: Field<Percentage>,
-    /// Of the aim point along azimuth 0, 0 mm to 1000 m.
+    pub speed: Field<BelowAll>,
+    /// Of the aim point along azimuth 0.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
-    pub aim_along: Field<Length>,
-    /// Of the aim point across it, 0 mm to 1000 m.
+    pub aim_along: Field<LengthOrZero>,
+    /// Of the aim point across it.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
-    pub aim_across: Field<Length>,
-    /// Of the aim point away from the target, 0 mm to 1000 m.
+    pub aim_across: Field<LengthOrZero>,
+    /// Of the aim point away from the target.
     #[schemars(example = &"0.5 mm", extend("default" = "0 mm"))]
-    pub aim_above: Field<Length>,
-    /// Of the coefficient of restitution, absolute, 0 to 1; the result is kept within 0 to 1. Of one that
+    pub aim_above: Field<LengthOrZero>,
+    /// Of the coefficient of restitution, absolute; the result is kept within 0 to 1. Of one that
     /// falls with speed it shifts `value`, which is E at the speed `at`: E at other speeds shifts in proportion.
     #[schemars(example = 0.1, extend("default" = 0))]
-    pub restitution: Field<f64>,
-    /// Of both friction coefficients at once, relative, 0 to below 100 %.
+    pub restitution: Field<Fraction>,
+    /// Of both friction coefficients at once, relative.
     #[schemars(example = &"20 %", extend("default" = "0 %"))]
-    pub friction: Field<Percentage>,
+    pub friction: Field<BelowAll>,
 }
 
 /// How the answer is searched.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct SolveEntry {
-    /// Accuracy of the objective, above 0 to 100 %. The search ends when validation shots confirm it.
+    /// Accuracy of the objective. The search ends when validation shots confirm it.
     /// `--accuracy` overrides it.
     #[schemars(example = &"0.5 %", extend("default" = "1 %"))]
-    pub accuracy: Field<Percentage>,
-    /// Seed of every sample, a whole number from 0. `--seed` overrides it.
+    pub accuracy: Field<Accuracy>,
+    /// Seed of every sample. `--seed` overrides it.
     #[schemars(example = 2, extend("default" = 1))]
     pub seed: Field<u64>,
 }

@@ -7,8 +7,9 @@ use serde::de::{Deserializer, Visitor};
 use serde::{Deserialize, de};
 use serde_json::json;
 
+use super::quantity::{AngleStep, Length, Shift, Speed, Stations, Turns};
 use super::settings::OneOrMany;
-use super::{Angle, Length, Speed, Triple, form};
+use super::{Triple, form};
 use crate::problem::field::{Field, Needed};
 
 /// The nozzle travels while it peens: the aim point runs along a line over the target, which is the whole
@@ -35,9 +36,9 @@ pub(in crate::problem) struct StrokeEntry {
     pub points: Field<Vec<Field<Triple>>>,
     /// Round an axis, as over a part that turns.
     pub around: Field<AroundEntry>,
-    /// Stations at which it is verified at least, 2 to 200.
+    /// Stations at which it is verified at least.
     #[schemars(example = 9, extend("default" = 9))]
-    pub stations: Field<u64>,
+    pub stations: Field<Stations>,
     /// What the machine cannot change under way: `all`, `none`, or a list of settings.
     #[schemars(example = ["azimuth", "standoff", "contact"], extend("default" = "all"))]
     pub hold: Field<OneOrMany>,
@@ -47,7 +48,7 @@ pub(in crate::problem) struct StrokeEntry {
     /// [`coverage`](#coverage) and `jet.mass_flow`; a speed; or for a part that turns its turns, such as `30 rpm`.
     #[schemars(with = "Field<form::FeedText>", example = &"5 mm/s", extend("default" = "auto"))]
     pub feed: Field<Choice>,
-    /// How often it goes over the target: `auto`, or a whole number from 1 to 10000.
+    /// How often it goes over the target; `auto` is as often as the feed needs.
     #[schemars(with = "Field<form::PassesText>", example = 2, extend("default" = "auto"))]
     pub passes: Field<Choice>,
     /// How far the aim point travels beyond both ends: `auto`, at each end as far as the spot reaches if coverage is
@@ -83,15 +84,15 @@ pub(in crate::problem) struct AroundEntry {
     /// A point of the axis; the origin where absent.
     #[schemars(example = json!([0, 0, 0]))]
     pub through: Field<Triple>,
-    /// The first angle, -360000 deg to 360000 deg.
+    /// The first angle.
     #[schemars(example = &"0 deg")]
-    pub from: Needed<Angle>,
+    pub from: Needed<Turns>,
     /// The last angle, larger than the first.
     #[schemars(example = &"3600 deg")]
-    pub to: Needed<Angle>,
-    /// How far it moves along the axis in a turn, -1000 m to 1000 m.
+    pub to: Needed<Turns>,
+    /// How far it moves along the axis in a turn.
     #[schemars(example = &"2 mm", extend("default" = "0 mm"))]
-    pub pitch: Field<Length>,
+    pub pitch: Field<Shift>,
 }
 
 /// An axis of the scene.
@@ -111,25 +112,25 @@ pub(in crate::problem) enum AxisEntry {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default)]
 pub(in crate::problem) struct StepsEntry {
-    /// Of the incidence, above 0 deg to 360 deg; any change where absent.
+    /// Of the incidence; any change where absent.
     #[schemars(example = &"1 deg")]
-    pub incidence: Field<Angle>,
-    /// Of the azimuth, above 0 deg to 360 deg; any change where absent.
+    pub incidence: Field<AngleStep>,
+    /// Of the azimuth; any change where absent.
     #[schemars(example = &"1 deg")]
-    pub azimuth: Field<Angle>,
-    /// Of the standoff, 0.001 um to 1000 m; any change where absent.
+    pub azimuth: Field<AngleStep>,
+    /// Of the standoff; any change where absent.
     #[schemars(example = &"0.5 mm")]
     pub standoff: Field<Length>,
-    /// Of the speed, 1 um/s to 10000 m/s; any change where absent.
+    /// Of the speed; any change where absent.
     #[schemars(example = &"0.5 m/s")]
     pub speed: Field<Speed>,
-    /// Of the shift along azimuth 0, 0.001 um to 1000 m; any change where absent.
+    /// Of the shift along azimuth 0; any change where absent.
     #[schemars(example = &"0.5 mm")]
     pub aim_along: Field<Length>,
-    /// Of the shift across it, 0.001 um to 1000 m; any change where absent.
+    /// Of the shift across it; any change where absent.
     #[schemars(example = &"0.5 mm")]
     pub aim_across: Field<Length>,
-    /// Of the shift away from the target, 0.001 um to 1000 m; any change where absent.
+    /// Of the shift away from the target; any change where absent.
     #[schemars(example = &"0.5 mm")]
     pub aim_above: Field<Length>,
 }

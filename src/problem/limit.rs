@@ -3,7 +3,6 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, TAU};
 
 use crate::problem::fault_code::FaultCode;
-use crate::units::Dimension;
 
 /// An interval of allowed values in SI.
 ///
@@ -89,19 +88,15 @@ impl Limit {
     pub const FEED: Self = to(1e-9, 1e3, "a speed above 0 mm/s, up to 1000 m/s");
     pub const PASSES: Self = to(1.0, 1e4, "`auto`, or a whole number from 1 to 10000");
     pub const RUN_OUT: Self = to(0.0, 1e3, "`auto`, or a length from 0 mm to 1000 m");
-    const STEP: Self = to(1e-9, TAU + ROUNDING, "an angle above 0 deg, up to 360 deg");
+    pub const ANGLE_STEP: Self = to(1e-9, TAU + ROUNDING, "an angle above 0 deg, up to 360 deg");
     pub const IMPACTS: Self = to(1.0, 1000.0, "a whole number from 1 to 1000");
     pub const FRICTION: Self = to(0.0, 10.0, "a number from 0 to 10");
     pub const FRACTION: Self = to(0.0, 1.0, "a number from 0 to 1");
     pub const SIGNED_FRACTION: Self = to(-1.0, 1.0, "a number from -1 to 1");
 
-    /// Of the smallest change of a setting.
-    pub const fn step(dimension: Dimension) -> Self {
-        match dimension {
-            Dimension::Angle => Self::STEP,
-            Dimension::Speed => Self::SPEED,
-            _ => Self::LENGTH,
-        }
+    /// The least number, and the largest with whether it may be reached; for numbers without a unit.
+    pub const fn ends(&self) -> (f64, f64, bool) {
+        (self.min, self.max, !self.below)
     }
 
     /// What is wrong with `value`, if anything.
