@@ -106,16 +106,20 @@ impl StationVerdicts {
 
 impl<'a> Open<'a> {
     fn new(station: &'a Station) -> Self {
+        let counts = ViolationCounts::none(&station.scenario);
         Self {
             station,
-            counts: ViolationCounts::none(&station.scenario),
-            verdicts: Vec::new(),
+            verdicts: Verdict::on(&station.scenario, &counts),
+            counts,
             rays: 0,
         }
     }
 
     fn is_decided(&self) -> bool {
-        !self.verdicts.is_empty() && self.verdicts.iter().all(Verdict::is_beyond_doubt)
+        // Where nothing is asked, as in a run-out without limits beside it, no shot tells anything.
+        let is_fired_at = self.counts.shots > 0;
+        let decides = |verdict: &Verdict| is_fired_at && verdict.is_beyond_doubt();
+        self.verdicts.iter().all(decides)
     }
 
     fn fire(&mut self, settings: &Settings, sets: &[Replicate]) {
