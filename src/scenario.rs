@@ -210,13 +210,13 @@ impl Scenario {
         let last = (stroke.stations - 1) as f64;
         let places = (0..stroke.stations).map(|index| index as f64 / last - 0.5);
         let beyond = stroke.run_out.map(|run_out| traverse.places_in(run_out));
-        // What is passed in the run-out is looked at as closely as the rest.
+        // What is passed in the run-out is looked at as closely as the rest, as far as as many stations reach.
         let beyond = beyond.filter(|&beyond| beyond > 0.0);
         let ends = WHOLE.into_iter().zip(traverse.reaches_ends());
         let ends = ends.filter_map(|(end, is_reached)| is_reached.then_some(end));
         let run_out = ends.flat_map(|end| {
             beyond.into_iter().flat_map(move |beyond| {
-                let count = (beyond * last).ceil();
+                let count = (beyond * last).ceil().min(stroke.stations as f64);
                 let shares = (1..=count as usize).map(move |index| index as f64 / count);
                 shares.map(move |share| end + end.signum() * beyond * share)
             })
