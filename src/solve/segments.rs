@@ -88,7 +88,7 @@ fn best_of_whole(scenario: &Scenario, control: &Control) -> Solution {
     };
     let coarse = best_of(scenario, &coarse(control), wanted);
     let is_hopeless = |best: &Answer| best.largest_violation() > HOPELESS;
-    if coarse.answers.first().is_some_and(is_hopeless) {
+    if control.is_stopped() || coarse.answers.first().is_some_and(is_hopeless) {
         return coarse;
     }
     let mut whole = best_of(scenario, control, wanted);

@@ -38,6 +38,10 @@ impl RunOut {
     /// As far as there is target left beyond each end and the spot reaches back from there, or less where the
     /// nozzle does not fit or other surfaces receive too much.
     pub fn both(scenario: &Scenario, traverse: &Traverse, legs: &[Leg]) -> [Self; 2] {
+        // Nothing travels beyond the ends where a part turns on the spot.
+        if traverse.places_in(1.0) == 0.0 {
+            return [Self::of(0.0); 2];
+        }
         let (target, _) = scenario.target.cut_out(&scenario.scene);
         WHOLE.map(|end| {
             let settings = &Leg::at(legs, end).settings;
