@@ -209,19 +209,17 @@ impl Scenario {
         };
         let last = (stroke.stations - 1) as f64;
         let places = (0..stroke.stations).map(|index| index as f64 / last - 0.5);
-        let beyond = stroke.run_out.map(|run_out| traverse.places_in(run_out));
-        // What is passed in the run-out is looked at as closely as the rest, as far as as many stations reach.
-        let beyond = beyond.filter(|&beyond| beyond > 0.0);
+        // What is passed in the run-out is looked at as closely as the rest, with at most as many stations.
+        let run_out = stroke.run_out.unwrap_or(0.0);
+        let wanted = (traverse.places_in(run_out) * last).ceil();
+        let count = wanted.min(stroke.stations as f64) as usize;
         let ends = WHOLE.into_iter().zip(traverse.reaches_ends());
         let ends = ends.filter_map(|(end, is_reached)| is_reached.then_some(end));
-        let run_out = ends.flat_map(|end| {
-            beyond.into_iter().flat_map(move |beyond| {
-                let count = (beyond * last).ceil().min(stroke.stations as f64);
-                let shares = (1..=count as usize).map(move |index| index as f64 / count);
-                shares.map(move |share| end + end.signum() * beyond * share)
-            })
+        let beyond = ends.flat_map(|end| {
+            let shares = (1..=count).map(|index| index as f64 / count as f64);
+            shares.map(move |share| traverse.beyond(end, run_out * share))
         });
-        let stations = places.chain(run_out).map(|place| self.station(place));
+        let stations = places.chain(beyond).map(|place| self.station(place));
         let (stations, sweep) = (stations.collect(), traverse.sweep());
         self.stations = stations;
         self.sweep = sweep;

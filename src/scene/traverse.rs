@@ -56,6 +56,11 @@ impl Traverse {
         }
     }
 
+    /// The place so far beyond an end, which is the first or the last place, m.
+    pub fn beyond(&self, end: f64, run_out: f64) -> f64 {
+        end + end.signum() * self.places_in(run_out)
+    }
+
     /// The direction in which a run-out goes on at an end, unit vector: along the line, or along the axis.
     pub fn onwards(&self, at_end: bool) -> Vector3<f64> {
         match &self.way {

@@ -113,6 +113,9 @@ pub fn solve(scenario: &Scenario, control: &Control) -> Solution {
     best_of(scenario, control, Wanted::ALL)
 }
 
+/// How many times what is allowed is far from passing.
+const HOPELESS: f64 = 2.0;
+
 /// What a search is to find besides the settings with the least J.
 #[derive(Clone, Copy)]
 struct Wanted {
@@ -120,12 +123,15 @@ struct Wanted {
     passing: bool,
     /// What each effect of the model does.
     ablations: bool,
+    /// J to within the accuracy, even where it is far from passing.
+    failing: bool,
 }
 
 impl Wanted {
     const ALL: Self = Self {
         passing: true,
         ablations: true,
+        failing: true,
     };
 }
 
@@ -165,7 +171,10 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
     };
     let mut open = still_open(&sampler, &searches, &answers, shots);
     for number in 0.. {
-        if open.is_empty() || shots * RISE > control.most_shots || control.is_stopped() {
+        let is_futile =
+            !wanted.failing && answers[leading(&searches)].largest_violation() > HOPELESS;
+        let is_spent = shots * RISE > control.most_shots;
+        if open.is_empty() || is_spent || is_futile || control.is_stopped() {
             break;
         }
         shots *= RISE;

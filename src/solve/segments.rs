@@ -43,7 +43,16 @@ pub fn solve_stroke(scenario: &Scenario, control: &Control) -> (Solution, Vec<Se
     let Some(stroke) = stroke.filter(|stroke| stroke.hold != Hold::All) else {
         return (solve(scenario, control), Vec::new());
     };
-    let mut whole = best_of_whole(scenario, control);
+    // What is far from passing is cut, and nobody asks how exactly its J is known.
+    let mut whole = best_of(
+        scenario,
+        control,
+        Wanted {
+            passing: false,
+            failing: false,
+            ..Wanted::ALL
+        },
+    );
     let Some(best) = whole.answers.first().filter(|best| !best.passes()) else {
         return (whole, Vec::new());
     };
@@ -78,38 +87,6 @@ pub fn solve_stroke(scenario: &Scenario, control: &Control) -> (Solution, Vec<Se
     }
     (whole, segments)
 }
-
-/// Few shots at a pose tell whether one setting is far from passing all along: then it is cut, and nobody asks how exactly
-/// the least J of the whole is known.
-fn best_of_whole(scenario: &Scenario, control: &Control) -> Solution {
-    let wanted = Wanted {
-        passing: false,
-        ..Wanted::ALL
-    };
-    let coarse = best_of(scenario, &coarse(control), wanted);
-    let is_hopeless = |best: &Answer| best.largest_violation() > HOPELESS;
-    if control.is_stopped() || coarse.answers.first().is_some_and(is_hopeless) {
-        return coarse;
-    }
-    let mut whole = best_of(scenario, control, wanted);
-    whole.rays += coarse.rays;
-    whole.poses += coarse.poses;
-    whole
-}
-
-/// A search that stops at few shots a pose, whose answers are verified elsewhere.
-fn coarse(control: &Control) -> Control {
-    Control {
-        most_shots: control.most_shots.min(FEW_SHOTS),
-        validation_shots: control.first_validation_shots(),
-        ..control.clone()
-    }
-}
-
-/// Most shots at a pose of such a search.
-const FEW_SHOTS: usize = 1024;
-/// How many times what is allowed is far from passing.
-const HOPELESS: f64 = 2.0;
 
 /// The answer of the segment that limits the stroke, with the worst verdict of all segments on each subject.
 fn combined(segments: &[Segment]) -> Option<Answer> {

@@ -62,8 +62,7 @@ impl Program {
             None if has_coverage => RunOut::both(scenario, traverse, legs),
             None => [RunOut::of(0.0); 2],
         };
-        let [before, after] = run_outs.map(|it| traverse.places_in(it.length));
-        let ends = [WHOLE[0] - before, WHOLE[1] + after];
+        let ends = [0, 1].map(|end| traverse.beyond(WHOLE[end], run_outs[end].length));
         let coverage = Coverage::of_stroke(scenario, legs, ends);
         let whole = ends[1] - ends[0];
         let way = traverse.length() * whole;

@@ -53,8 +53,7 @@ impl RunOut {
             let reach = spot.map_or(0.0, |spot| spot.reach(&-onwards));
             let wanted = left.fold(0.0, f64::max) + reach;
             let (length, limit) = farthest(wanted, |length| {
-                let place = end + end.signum() * traverse.places_in(length);
-                harm(scenario, place, settings)
+                harm(scenario, traverse.beyond(end, length), settings)
             });
             Self {
                 length,

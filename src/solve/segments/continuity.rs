@@ -50,11 +50,12 @@ impl Cut<'_> {
             }
             let from: &Candidate = kept.as_ref().unwrap_or(own);
             let changed = setting.with(&from.settings, setting.of(wanted));
+            // J of a piece takes less than verdicts all along.
+            if self.objective(&changed, piece).is_none_or(|it| it > most) {
+                continue;
+            }
             let candidate = self.candidate(&changed, own.status);
-            if candidate.settings == changed
-                && candidate.reach(piece.from) >= piece.to
-                && self.objective(&changed, piece).is_some_and(|it| it <= most)
-            {
+            if candidate.settings == changed && candidate.reach(piece.from) >= piece.to {
                 kept = Some(candidate);
             }
         }

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::Segment;
 use super::rounding::{fits, rounded};
-use super::{Segment, coarse};
 use crate::control::Control;
 use crate::evaluate::{Evaluation, evaluate_adaptively};
 use crate::feasibility::infeasibility;
@@ -155,10 +155,14 @@ impl<'a> Cut<'a> {
             part.problem.ranges.contact = vec![contact];
         }
         // What they come to is verified at all places of the cells.
-        let control = coarse(self.control);
+        let control = Control {
+            most_shots: self.control.most_shots.min(FEW_SHOTS),
+            validation_shots: self.control.first_validation_shots(),
+            ..self.control.clone()
+        };
         let wanted = Wanted {
-            passing: true,
             ablations: false,
+            ..Wanted::ALL
         };
         let solution = best_of(&part, &control, wanted);
         self.rays += solution.rays;
@@ -325,6 +329,9 @@ fn failing(candidates: &[Candidate], pieces: &[Piece]) -> usize {
     let fails = |piece: &&Piece| candidates[piece.candidate].reach(piece.from) < piece.to;
     pieces.iter().filter(fails).count()
 }
+
+/// Most shots at a pose of the search of a part.
+const FEW_SHOTS: usize = 1024;
 
 /// The largest violation of some settings at each station, and the rays that told it.
 fn violations_at(stations: &[Station], asked: &Scenario, settings: &Settings) -> (Vec<f64>, usize) {
