@@ -38,22 +38,27 @@ impl<'a> Figures<'a> {
         self.sharpened(answers, searches)
     }
 
-    /// The answers again, where searches have gone on.
-    pub fn renewed(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
+    /// The answers again, where searches have gone on. What a stage has found counts only if it is better on validation
+    /// shots, too: else the search goes back, and the stage has shown how good the answer was.
+    pub fn renewed(&mut self, answers: Vec<Answer>, searches: &mut [Search]) -> Vec<Answer> {
         let has_moved =
             |answer: &Answer, search: &Search| answer.settings != search.best().settings;
-        let pairs = answers.iter().zip(searches);
+        let pairs = answers.iter().zip(&*searches);
         let moved = pairs.filter(|(answer, search)| has_moved(answer, search));
         let moved: Vec<&Candidate> = moved.map(|(_, search)| search.best()).collect();
         let mut new =
             Answer::of_all(self.scenario, &moved, &self.validation, self.effort).into_iter();
-        let pairs = answers.into_iter().zip(searches);
+        let pairs = answers.into_iter().zip(&mut *searches);
         let renewed = pairs.filter_map(|(answer, search)| {
-            if has_moved(&answer, search) {
-                new.next()
-            } else {
-                Some(answer)
+            if !has_moved(&answer, search) {
+                return Some(answer);
             }
+            let found = new.next()?;
+            if search.began_with(&answer.settings) && answer.order() < found.order() {
+                search.go_back();
+                return Some(answer);
+            }
+            Some(found)
         });
         let renewed = renewed.collect();
         self.sharpened(renewed, searches)

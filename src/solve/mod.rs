@@ -40,6 +40,7 @@ mod starts;
 mod status;
 mod stopping_rule;
 mod tie;
+mod tilt;
 mod window;
 
 pub use ablation::Ablation;
@@ -152,7 +153,7 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
         false => descent.agreement(leader),
     });
     let mut searches = descent.best();
-    answers = figures.renewed(answers, &searches);
+    answers = figures.renewed(answers, &mut searches);
     let problem = &asked.problem;
     let (mut sampler, mut shots) = (descent.sampler.clone(), descent.shots);
     let still_open = |sampler: &Sampler, searches: &[Search], answers: &[Answer], shots| {
@@ -183,7 +184,7 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
         let evaluator = sampler.evaluator(&searched, &samples, &effort, control);
         refine_in_turn(&mut searches, &open, &evaluator, &Stage::beyond(shots));
         tell(control, &effort, &searches);
-        answers = figures.renewed(answers, &searches);
+        answers = figures.renewed(answers, &mut searches);
         open = still_open(&sampler, &searches, &answers, shots);
     }
     let sought = Sought {

@@ -10,6 +10,7 @@ use super::evaluator::{Evaluator, Fitness};
 use super::point::Point;
 use super::race::Race;
 use super::space::Space;
+use super::tilt::Coordinates;
 use crate::problem::setting::Settings;
 
 /// A point of the search with its fitness.
@@ -65,7 +66,8 @@ impl Candidate {
 /// A point that a descent has asked for, and the feasible one that is evaluated in its place.
 #[derive(Clone)]
 struct Probe {
-    point: Vec<f64>,
+    /// In the coordinates of the descent.
+    at: Vec<f64>,
     candidate: Candidate,
     /// The rank of that one, and more the farther away it is: were it as flat beyond a bound as it is on it, a simplex
     /// would fall over to the outside and never see that it is better inside.
@@ -73,22 +75,30 @@ struct Probe {
 }
 
 impl Probe {
-    fn at(race: &Race, space: &Space, evaluator: &Evaluator, point: Vec<f64>) -> Self {
+    fn at(
+        coordinates: &Coordinates,
+        race: &Race,
+        space: &Space,
+        evaluator: &Evaluator,
+        at: Vec<f64>,
+    ) -> Self {
+        let point = coordinates.point(&at);
         let mut candidate = Candidate::in_race(race, space, evaluator, &point);
         if candidate.fitness.objective().is_none()
             && let Some(feasible) = evaluator.repaired(space, &point)
         {
             candidate = Candidate::in_race(race, space, evaluator, &feasible);
         }
-        Self::of(point, candidate)
+        Self::of(coordinates, at, candidate)
     }
 
-    fn of(point: Vec<f64>, candidate: Candidate) -> Self {
-        let pairs = point.iter().zip(&candidate.point);
+    fn of(coordinates: &Coordinates, at: Vec<f64>, candidate: Candidate) -> Self {
+        let feasible = coordinates.of(&candidate.point);
+        let pairs = at.iter().zip(&feasible);
         let distance: f64 = pairs.map(|(x, feasible)| (x - feasible).abs()).sum();
         let cost = candidate.fitness.rank() * (1.0 + distance);
         Self {
-            point,
+            at,
             candidate,
             cost,
         }
@@ -100,6 +110,7 @@ impl Probe {
 struct Descent<'a> {
     space: &'a Space,
     evaluator: &'a Evaluator<'a>,
+    coordinates: &'a Coordinates,
     /// The first simplex: argmin asks for its corners again.
     corners: &'a [Probe],
     /// As many points as a simplex has, the best one first.
@@ -110,18 +121,24 @@ impl CostFunction for &Descent<'_> {
     type Param = Point;
     type Output = f64;
 
-    fn cost(&self, Point(point): &Point) -> Result<f64, Error> {
+    fn cost(&self, Point(at): &Point) -> Result<f64, Error> {
         if self.evaluator.is_stopped() {
             // A flat cost ends the run at once.
             return Ok(f64::MAX);
         }
-        if let Some(corner) = self.corners.iter().find(|corner| corner.point == *point) {
+        if let Some(corner) = self.corners.iter().find(|corner| corner.at == *at) {
             return Ok(corner.cost);
         }
         let mut leading = self.leading.borrow_mut();
         // What is above all corners of the simplex is rejected, however far above.
         let race = Race::against_worst(&leading);
-        let probe = Probe::at(&race, self.space, self.evaluator, point.clone());
+        let probe = Probe::at(
+            self.coordinates,
+            &race,
+            self.space,
+            self.evaluator,
+            at.clone(),
+        );
         let rank = probe.candidate.fitness.rank();
         let place = leading.partition_point(|other| other.fitness.rank() <= rank);
         leading.insert(place, probe.candidate);
@@ -144,23 +161,27 @@ pub fn polish(
         return start;
     }
     let start = best_bound(space, evaluator, start);
-    let mut leading = descend(space, evaluator, start, size, accuracy);
+    let coordinates = Coordinates::near(space, &start.point);
+    let mut leading = descend(&coordinates, space, evaluator, start, size, accuracy);
     for _ in 0..MOST_DESCENTS {
         if evaluator.is_stopped() {
             break;
         }
         let best = &leading[0];
-        let middle = Candidate::below(best.fitness.rank(), space, evaluator, &middle(&leading));
+        let (middle, extent) = middle_and_extent(&coordinates, &leading);
+        let middle = Candidate::below(best.fitness.rank(), space, evaluator, &middle);
         if middle.fitness.rank() >= best.fitness.rank() * (1.0 - accuracy) {
             return best.clone().or_better(middle);
         }
-        leading = descend(space, evaluator, middle, 0.5 * extent(&leading), accuracy);
+        let size = 0.5 * extent;
+        leading = descend(&coordinates, space, evaluator, middle, size, accuracy);
     }
     leading.swap_remove(0)
 }
 
 /// The best points found downhill from `start`, the very best one first.
 fn descend(
+    coordinates: &Coordinates,
     space: &Space,
     evaluator: &Evaluator,
     start: Candidate,
@@ -168,16 +189,17 @@ fn descend(
     accuracy: f64,
 ) -> Vec<Candidate> {
     let scale = start.fitness.rank().max(f64::MIN_POSITIVE);
-    let corners = first_simplex(space, evaluator, &start, size);
+    let corners = first_simplex(coordinates, space, evaluator, &start, size);
     let mut leading: Vec<Candidate> = corners.iter().map(|it| it.candidate.clone()).collect();
     leading.sort_by(Candidate::by_rank);
     let descent = Descent {
         space,
         evaluator,
+        coordinates,
         corners: &corners,
         leading: RefCell::new(leading),
     };
-    let simplex = corners.iter().map(|corner| Point(corner.point.clone()));
+    let simplex = corners.iter().map(|corner| Point(corner.at.clone()));
     if let Ok(solver) = NelderMead::new(simplex.collect()).with_sd_tolerance(accuracy * scale) {
         let most = ITERATIONS_PER_DIMENSION * space.dimensions() as u64;
         let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
@@ -187,24 +209,22 @@ fn descend(
     descent.leading.into_inner()
 }
 
-fn middle(candidates: &[Candidate]) -> Vec<f64> {
-    let mean = |axis: usize| {
-        let sum: f64 = candidates.iter().map(|it| it.point[axis]).sum();
-        sum / candidates.len() as f64
+/// The point in the middle of candidates, and the longest edge of the box round them.
+fn middle_and_extent(coordinates: &Coordinates, candidates: &[Candidate]) -> (Vec<f64>, f64) {
+    let places = candidates.iter().map(|it| coordinates.of(&it.point));
+    let places: Vec<Vec<f64>> = places.collect();
+    let along = |axis: usize| places.iter().map(move |at| at[axis]);
+    let axes = 0..places[0].len();
+    let mean = |axis| along(axis).sum::<f64>() / places.len() as f64;
+    let extent = |axis| {
+        let least = along(axis).fold(f64::INFINITY, f64::min);
+        along(axis).fold(f64::NEG_INFINITY, f64::max) - least
     };
-    (0..candidates[0].point.len()).map(mean).collect()
-}
-
-/// The longest edge of the box round candidates.
-fn extent(candidates: &[Candidate]) -> f64 {
-    let along = |axis: usize| {
-        let coordinates = candidates.iter().map(|it| it.point[axis]);
-        let least = coordinates.clone().fold(f64::INFINITY, f64::min);
-        coordinates.fold(f64::NEG_INFINITY, f64::max) - least
-    };
-    (0..candidates[0].point.len())
-        .map(along)
-        .fold(0.0, f64::max)
+    let middle: Vec<f64> = axes.clone().map(mean).collect();
+    (
+        coordinates.point(&middle),
+        axes.map(extent).fold(0.0, f64::max),
+    )
 }
 
 const ITERATIONS_PER_DIMENSION: u64 = 40;
@@ -232,17 +252,25 @@ fn best_bound(space: &Space, evaluator: &Evaluator, start: Candidate) -> Candida
 /// A simplex whose edges are so short that J rises by no more than a moderate share along them:
 /// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
 /// into a narrow valley loses sight of the valley's length.
-fn first_simplex(space: &Space, evaluator: &Evaluator, start: &Candidate, size: f64) -> Vec<Probe> {
+fn first_simplex(
+    coordinates: &Coordinates,
+    space: &Space,
+    evaluator: &Evaluator,
+    start: &Candidate,
+    size: f64,
+) -> Vec<Probe> {
+    let from = coordinates.of(&start.point);
+    let middle = coordinates.of(&vec![0.5; from.len()]);
     let rank = start.fitness.rank();
     let corner = |axis: usize| {
         // Inwards, so that a start on a bound does not make a flat simplex.
-        let towards_middle = if start.point[axis] > 0.5 { -1.0 } else { 1.0 };
+        let towards_middle = if from[axis] > middle[axis] { -1.0 } else { 1.0 };
         let mut edge = size;
         loop {
-            let mut point = start.point.clone();
-            point[axis] += towards_middle * edge;
+            let mut at = from.clone();
+            at[axis] += towards_middle * edge;
             let race = Race::above(rank * (1.0 + FAR_TOO_STEEP));
-            let corner = Probe::at(&race, space, evaluator, point);
+            let corner = Probe::at(coordinates, &race, space, evaluator, at);
             let rise = corner.cost / rank - 1.0;
             let is_short = edge <= SHORTEST_EDGE * size;
             if is_short || rise <= STEEPEST_EDGE || evaluator.is_stopped() {
@@ -251,7 +279,7 @@ fn first_simplex(space: &Space, evaluator: &Evaluator, start: &Candidate, size: 
             edge *= if rise > FAR_TOO_STEEP { 0.25 } else { 0.5 };
         }
     };
-    let mut simplex = vec![Probe::of(start.point.clone(), start.clone())];
+    let mut simplex = vec![Probe::of(coordinates, from.clone(), start.clone())];
     simplex.extend((0..space.dimensions()).map(corner));
     simplex
 }

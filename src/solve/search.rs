@@ -20,6 +20,8 @@ pub(super) struct Search {
     /// Groups of candidates, each best first. They start from points of their own and know nothing of each other, so
     /// that their best candidates, the finalists, tell whether a search ends where it does by chance.
     groups: Vec<Vec<Candidate>>,
+    /// The best candidate that the last stage began with, on the shots of that stage.
+    before: Option<Candidate>,
     /// See [`Search::optimality_gap`].
     optimality_gap: f64,
 }
@@ -47,6 +49,7 @@ impl Search {
         Self {
             space,
             groups,
+            before: None,
             optimality_gap: f64::INFINITY,
         }
     }
@@ -93,7 +96,24 @@ impl Search {
     /// Leaves out all candidates but the best one.
     pub fn keep_best(&mut self) {
         self.groups = vec![vec![self.best().clone()]];
+        self.before = None;
         self.optimality_gap = f64::INFINITY;
+    }
+
+    /// Whether the last stage began with these settings; the speed follows from the shots unless it is searched.
+    pub fn began_with(&self, settings: &Settings) -> bool {
+        let before = self.before.as_ref();
+        before.is_some_and(|before| {
+            let speed = before.settings.speed;
+            before.settings == Settings { speed, ..*settings }
+        })
+    }
+
+    /// Goes back to what the last stage began with: what that has found was only better on its own shots.
+    pub fn go_back(&mut self) {
+        if let Some(before) = self.before.take() {
+            self.groups = vec![vec![before]];
+        }
     }
 
     /// By how much J of the settings that the last stage began with is above the least that it found, both on the
@@ -106,6 +126,14 @@ impl Search {
         self.optimality_gap
     }
 
+    /// By how much the last stage has lowered J on its shots; 0 where the search went back.
+    pub fn gain(&self) -> f64 {
+        match self.before {
+            Some(_) => self.optimality_gap,
+            None => 0.0,
+        }
+    }
+
     /// Goes on from the best few candidates of each group with more shots.
     pub fn refine(&mut self, evaluator: &Evaluator, stage: &Stage) {
         let space = &self.space;
@@ -114,22 +142,23 @@ impl Search {
             let starts = starts(space, group, &stage).into_par_iter();
             let descents = starts.map(|start| {
                 let start = Candidate::at(space, evaluator, &start.point);
-                let before = start.fitness.rank();
-                (before, stage.descent(space, evaluator, start))
+                (start.clone(), stage.descent(space, evaluator, start))
             });
-            let (before, mut ends): (Vec<f64>, Vec<Candidate>) = descents.unzip();
+            let (before, mut ends): (Vec<Candidate>, Vec<Candidate>) = descents.unzip();
             ends.sort_by(Candidate::by_rank);
             (before, ends)
         };
-        let (before, groups): (Vec<Vec<f64>>, _) = self.groups.par_iter().map(refined).unzip();
-        let before = before.into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let (before, groups): (Vec<_>, _) = self.groups.par_iter().map(refined).unzip();
+        let before = before.into_iter().flatten().min_by(Candidate::by_rank);
         self.end_stage(before, groups);
     }
 
-    /// Takes what a stage has found, on whose shots J was `before` at least.
-    fn end_stage(&mut self, before: f64, groups: Vec<Vec<Candidate>>) {
+    /// Takes what a stage has found that began with this candidate.
+    fn end_stage(&mut self, before: Option<Candidate>, groups: Vec<Vec<Candidate>>) {
         self.groups = groups;
-        self.optimality_gap = before - self.best().fitness.rank();
+        let rank = |it: &Candidate| it.fitness.rank();
+        self.optimality_gap = before.as_ref().map_or(f64::INFINITY, rank) - rank(self.best());
+        self.before = before;
     }
 
     /// Goes on from the best candidate with more shots, or warm from the incumbent of another contact.
@@ -140,19 +169,19 @@ impl Search {
         stage: &Stage,
     ) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
-        let before = here.fitness.rank();
-        let found = self.beside(&here, leader, evaluator, stage);
-        let own = || stage.descent(&self.space, evaluator, here);
+        let found = self.beside(&here, leader, evaluator, stage, Stage::descent);
+        let own = || stage.descent(&self.space, evaluator, here.clone());
         let found = found.unwrap_or_else(own);
-        self.end_stage(before, vec![vec![found]]);
+        self.end_stage(Some(here), vec![vec![found]]);
     }
 
     /// Goes on from the incumbent of another contact, if that is better here than this contact's own.
     pub fn follow(&mut self, leader: &Candidate, evaluator: &Evaluator, stage: &Stage) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
-        if let Some(found) = self.beside(&here, leader, evaluator, stage) {
-            self.end_stage(here.fitness.rank(), vec![vec![found]]);
-        }
+        let found = self.beside(&here, leader, evaluator, stage, Stage::catching_up);
+        // On the shots of the others even where it stays: what is compared is compared on common ones.
+        let best = found.unwrap_or_else(|| here.clone());
+        self.end_stage(Some(here), vec![vec![best]]);
     }
 
     /// Warm start: what is found from the incumbent of another contact, if that is better than here.
@@ -166,6 +195,7 @@ impl Search {
         leader: &Candidate,
         evaluator: &Evaluator,
         stage: &Stage,
+        descent: impl Fn(&Stage, &Space, &Evaluator, Candidate) -> Candidate,
     ) -> Option<Candidate> {
         if leader.point.len() != self.space.dimensions() {
             return None;
@@ -187,7 +217,7 @@ impl Search {
         Some(if is_close && !gains {
             start
         } else {
-            stage.descent(&self.space, evaluator, start)
+            descent(stage, &self.space, evaluator, start)
         })
     }
 }
@@ -277,6 +307,22 @@ mod tests {
         let on_bound = rank(&search);
         search.refine(&evaluator, &STAGES_SET_EXACTLY[2]);
         assert!(rank(&search) < 0.98 * on_bound, "{}", rank(&search));
+    }
+
+    #[test]
+    fn a_search_goes_back_to_what_a_stage_began_with() {
+        on_common_shots(|evaluator, search| {
+            let mut dry = search(DRY, 60.0);
+            let before = dry.best().settings;
+            dry.refine(evaluator, STAGE);
+            assert!(dry.gain() > 0.1 * rank(&dry) && dry.began_with(&before));
+            let (gain, gap) = (dry.gain(), dry.optimality_gap());
+            dry.go_back();
+            assert_eq!(dry.best().settings, before);
+            // What the stage has shown of it stays.
+            assert_eq!((dry.gain(), dry.optimality_gap()), (0.0, gap));
+            assert_eq!(gain, gap);
+        });
     }
 
     #[test]

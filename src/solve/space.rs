@@ -11,10 +11,11 @@ pub struct Space {
     base: Settings,
 }
 
+/// A searched setting.
 #[derive(Clone, Copy, Debug)]
-struct Axis {
+pub(super) struct Axis {
     setting: Setting,
-    range: Range,
+    pub range: Range,
     /// A full turn of azimuth: both ends are the same direction.
     periodic: bool,
 }
@@ -27,6 +28,21 @@ impl Axis {
         } else {
             coordinate.clamp(0.0, 1.0)
         }
+    }
+
+    /// The value at a coordinate, which may go round on a periodic axis and stops at the bounds of any other.
+    pub fn value(&self, coordinate: f64) -> f64 {
+        let coordinate = self.within(coordinate);
+        self.range.at(if self.periodic {
+            coordinate.rem_euclid(1.0)
+        } else {
+            coordinate
+        })
+    }
+
+    /// The coordinate of a value.
+    pub fn coordinate(&self, value: f64) -> f64 {
+        (value - self.range.min) / self.range.width()
     }
 }
 
@@ -71,6 +87,12 @@ impl Space {
         )
     }
 
+    /// The axis of a setting and its index, where the setting is searched.
+    pub fn axis(&self, setting: Setting) -> Option<(usize, Axis)> {
+        let index = self.axes.iter().position(|axis| axis.setting == setting)?;
+        Some((index, self.axes[index]))
+    }
+
     /// Number of searched settings.
     pub fn dimensions(&self) -> usize {
         self.axes.len()
@@ -81,13 +103,7 @@ impl Space {
     pub fn settings(&self, point: &[f64]) -> Settings {
         let mut settings = self.base;
         for (axis, &coordinate) in self.axes.iter().zip(point) {
-            let coordinate = axis.within(coordinate);
-            let fraction = if axis.periodic {
-                coordinate.rem_euclid(1.0)
-            } else {
-                coordinate
-            };
-            settings = axis.setting.with(&settings, axis.range.at(fraction));
+            settings = axis.setting.with(&settings, axis.value(coordinate));
         }
         settings
     }
@@ -100,8 +116,7 @@ impl Space {
 
     /// The point of some settings.
     pub fn point(&self, settings: &Settings) -> Vec<f64> {
-        let coordinate =
-            |axis: &Axis| (axis.setting.of(settings) - axis.range.min) / axis.range.width();
+        let coordinate = |axis: &Axis| axis.coordinate(axis.setting.of(settings));
         self.axes.iter().map(coordinate).collect()
     }
 

@@ -17,6 +17,8 @@ pub(super) struct Stage {
     /// Descents at most, each from where the one before ended: a new simplex leaves hollows in which
     /// an old one has shrunk.
     pub descents: usize,
+    /// Whether contacts that lag behind descend as well.
+    pub catches_up: bool,
 }
 
 /// Successive halving: more shots for fewer candidates.
@@ -27,6 +29,7 @@ pub(super) const STAGES: [Stage; 4] = [
         size: 0.4,
         settled: 1.0,
         descents: 1,
+        catches_up: true,
     },
     Stage {
         shots: 256,
@@ -34,6 +37,7 @@ pub(super) const STAGES: [Stage; 4] = [
         size: 0.4,
         settled: 0.1,
         descents: 1,
+        catches_up: true,
     },
     Stage {
         shots: 1024,
@@ -41,6 +45,7 @@ pub(super) const STAGES: [Stage; 4] = [
         size: 0.3,
         settled: 0.05,
         descents: 1,
+        catches_up: true,
     },
     Stage {
         shots: 4096,
@@ -48,6 +53,7 @@ pub(super) const STAGES: [Stage; 4] = [
         size: 0.15,
         settled: 0.1,
         descents: 2,
+        catches_up: true,
     },
 ];
 
@@ -75,6 +81,7 @@ impl Stage {
             size: 0.06,
             settled: 0.1,
             descents: 1,
+            catches_up: false,
         }
     }
 
@@ -83,6 +90,14 @@ impl Stage {
         Self {
             descents: self.descents.div_ceil(groups),
             ..*self
+        }
+    }
+
+    /// Where the descents end from a candidate of a contact that lags behind.
+    pub fn catching_up(&self, space: &Space, evaluator: &Evaluator, start: Candidate) -> Candidate {
+        match self.catches_up {
+            true => self.descent(space, evaluator, start),
+            false => start,
         }
     }
 

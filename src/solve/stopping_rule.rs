@@ -39,6 +39,7 @@ pub(super) fn not_converged(
     validation_shots: usize,
 ) -> Vec<usize> {
     let least = least_found(answers);
+    let least_claimed = least_objective(searches);
     let is_open = |search: &Search, answer: &Answer| {
         let claimed = search.best().fitness.objective()?;
         let found = answer.objective()?;
@@ -48,14 +49,17 @@ pub(super) fn not_converged(
         // More shots than there are validation shots would promise what nobody can check.
         let promises =
             shots < validation_shots && lowest <= least - WORTHWHILE * problem.accuracy * least;
-        let could_win = found <= least || promises;
+        // On common random numbers the others need no more of the jet's scatter to be told apart.
+        let is_behind = claimed > least_claimed * (1.0 + BEHIND * problem.accuracy);
+        let could_win = (found <= least || promises) && !is_behind;
         let is_noisy = error > NOISY * wanted && shots < validation_shots;
         let tolerable = if shots < validation_shots {
             TOLERABLE * wanted
         } else {
             TOLERABLE_ON_MANY * wanted + error
         };
-        let is_doubtful = is_noisy || found - claimed > tolerable;
+        // Where a stage has still found what is much better, the next may as well.
+        let is_doubtful = is_noisy || found - claimed > tolerable || search.gain() > wanted;
         Some(could_win && is_doubtful && !is_near_best(search, problem))
     };
     let pairs = searches.iter().zip(answers).enumerate();
@@ -118,6 +122,8 @@ const TOLERABLE: f64 = 0.35;
 /// The same for a sample as large as the validation sample, which has such hollows
 /// less often; asking more of it makes some searches of the fir tree three times as long.
 const TOLERABLE_ON_MANY: f64 = 0.5;
+/// Share of the accuracy by which a contact may be behind the best one on common shots and still be searched on.
+const BEHIND: f64 = 0.5;
 /// Share of the accuracy by which a contact must promise to be better than the best one.
 const WORTHWHILE: f64 = 0.5;
 /// Share of the accuracy above which a standard error is too large for the gap to say much.
