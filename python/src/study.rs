@@ -236,13 +236,13 @@ impl Study {
         let mut known = PartialSettings::held(problem);
         for (name, value) in given.iter() {
             let name: String = name.extract()?;
-            if name == "contact" {
+            let setting = given::setting_or_contact(&name).map_err(PyValueError::new_err)?;
+            let Some(setting) = setting else {
                 known
                     .set_contact(&value.extract::<String>()?)
                     .map_err(PyValueError::new_err)?;
                 continue;
-            }
-            let setting = setting_named(&name)?;
+            };
             let value = given_value(setting, &value)?;
             match setting {
                 Setting::StaticFriction if answered => _ = known.fill(setting, value),

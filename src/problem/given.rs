@@ -63,10 +63,25 @@ pub fn range(of: Setting, from: &str, to: &str) -> Result<Range, String> {
 pub fn setting_named(name: &str) -> Result<Setting, String> {
     let mut all = Setting::ALL.into_iter();
     let found = all.find(|setting| setting.name() == name);
-    found.ok_or_else(|| {
-        let names = Setting::ALL.map(|setting| setting.name());
-        unknown("setting", name, &names)
-    })
+    found.ok_or_else(|| unknown("setting", name, &names()))
+}
+
+/// The setting with a name, or `None` for `contact`: what is given to be evaluated.
+///
+/// # Errors
+/// It is neither; with all that there are.
+pub fn setting_or_contact(name: &str) -> Result<Option<Setting>, String> {
+    const CONTACT: &str = "contact";
+    if name == CONTACT {
+        return Ok(None);
+    }
+    let names: Vec<&str> = names().into_iter().chain([CONTACT]).collect();
+    let found = setting_named(name).map_err(|_| unknown("setting", name, &names))?;
+    Ok(Some(found))
+}
+
+fn names() -> [&'static str; Setting::ALL.len()] {
+    Setting::ALL.map(|setting| setting.name())
 }
 
 /// The index of the contact with a name.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use peenpose::printable;
 use peenpose::problem::change::Change;
-use peenpose::problem::given::{Incomplete, PartialSettings, contact_named, unknown};
+use peenpose::problem::given::{Incomplete, PartialSettings, contact_named};
 use peenpose::problem::setting::{Setting, Settings};
 use peenpose::problem::{Problem, Source, given, schema};
 use peenpose::record::{Record, mesh_sha256};
@@ -133,20 +133,12 @@ fn known<'a>(
             format!("--set {text}: expected NAME=VALUE, such as `incidence=60deg`")
         })?;
         let (name, value) = (name.trim(), value.trim());
-        if name == "contact" {
+        let wrong = |fault: String| format!("--set {text}: {fault}");
+        let Some(setting) = given::setting_or_contact(name).map_err(wrong)? else {
             known.set_contact(value)?;
             continue;
-        }
-        let Some(setting) = Setting::ALL.into_iter().find(|it| it.name() == name) else {
-            let names = Setting::ALL.iter().map(|it| it.name());
-            let names: Vec<&str> = names.chain(["contact"]).collect();
-            return Err(format!(
-                "--set {text}: {}",
-                unknown("setting", name, &names)
-            ));
         };
-        let value =
-            given::setting(setting, value).map_err(|fault| format!("--set {text}: {fault}"))?;
+        let value = given::setting(setting, value).map_err(wrong)?;
         known.set(setting, value);
     }
     Ok(known)
