@@ -65,7 +65,7 @@ use sampler::Sampler;
 use search::Search;
 use space::Space;
 use stage::Stage;
-use stopping_rule::{is_near_best, not_converged};
+use stopping_rule::{is_near_best, not_converged, still_gains};
 use tie::ranked;
 
 /// What a search found.
@@ -204,11 +204,15 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
     };
     let agreement = agreement_on_best(&answers, &agreements, problem)
         .unwrap_or_else(|contact| descent.confirmed(contact));
+    let best = tie::best(&answers);
+    // Of what was searched for because the least J fails, its own finalists have told.
+    let has_least = answers[best].least_objective.is_none();
+    let still_gains = has_least && still_gains(&searches[best], problem);
     let answers = ranked(answers, problem);
     let status = match answers.first() {
         _ if control.is_stopped() => Status::Interrupted,
         Some(best) if best.evaluation.is_none() => Status::NoFeasiblePose,
-        Some(_) if open.is_empty() && agreement.is_reached => Status::Converged,
+        Some(_) if open.is_empty() && agreement.is_reached && !still_gains => Status::Converged,
         _ => Status::BestFound,
     };
     Solution {

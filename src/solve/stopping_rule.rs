@@ -58,8 +58,8 @@ pub(super) fn not_converged(
         } else {
             TOLERABLE_ON_MANY * wanted + error
         };
-        // Where a stage has still found what is much better, the next may as well.
-        let is_doubtful = is_noisy || found - claimed > tolerable || search.gain() > wanted;
+        let gains = shots < validation_shots && still_gains(search, problem);
+        let is_doubtful = is_noisy || found - claimed > tolerable || gains;
         Some(could_win && is_doubtful && !is_near_best(search, problem))
     };
     let pairs = searches.iter().zip(answers).enumerate();
@@ -74,6 +74,11 @@ pub(super) fn not_converged(
 pub(super) fn is_near_best(search: &Search, problem: &Problem) -> bool {
     let least = search.best().fitness.rank();
     search.optimality_gap() <= TOLERABLE * wanted(least, problem)
+}
+
+/// Whether the last stage has still found what is better by more than the accuracy: the next may as well.
+pub(super) fn still_gains(search: &Search, problem: &Problem) -> bool {
+    search.gain() > wanted(search.best().fitness.rank(), problem)
 }
 
 /// Whether J of a contact that could win is too noisy.
