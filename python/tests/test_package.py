@@ -92,6 +92,7 @@ def test_a_given_setting_is_evaluated(problems: Path, program: Path) -> None:
     for wrong, word in [
         ({}, "open"),
         ({**settings, "sped": 3.0}, "there is no setting `sped`"),
+        ({**settings, "contct": "dry"}, "did you mean `contact`"),
         ({**settings, "contact": "wet"}, "there is no contact `wet`"),
         ({**settings, "speed": "9.4 mm"}, "speed"),
     ]:
