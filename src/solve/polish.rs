@@ -63,6 +63,14 @@ impl Candidate {
     }
 }
 
+/// Where a descent moves.
+#[derive(Clone, Copy)]
+struct Local<'a> {
+    space: &'a Space,
+    evaluator: &'a Evaluator<'a>,
+    coordinates: &'a Coordinates,
+}
+
 /// A point that a descent has asked for, and the feasible one that is evaluated in its place.
 #[derive(Clone)]
 struct Probe {
@@ -75,21 +83,18 @@ struct Probe {
 }
 
 impl Probe {
-    fn at(
-        coordinates: &Coordinates,
-        race: &Race,
-        space: &Space,
-        evaluator: &Evaluator,
-        at: Vec<f64>,
-    ) -> Self {
-        let point = coordinates.point(&at);
+    fn at(local: Local, race: &Race, at: Vec<f64>) -> Self {
+        let Local {
+            space, evaluator, ..
+        } = local;
+        let point = local.coordinates.point(&at);
         let mut candidate = Candidate::in_race(race, space, evaluator, &point);
         if candidate.fitness.objective().is_none()
             && let Some(feasible) = evaluator.repaired(space, &point)
         {
             candidate = Candidate::in_race(race, space, evaluator, &feasible);
         }
-        Self::of(coordinates, at, candidate)
+        Self::of(local.coordinates, at, candidate)
     }
 
     fn of(coordinates: &Coordinates, at: Vec<f64>, candidate: Candidate) -> Self {
@@ -108,9 +113,7 @@ impl Probe {
 /// The cost function that argmin sees. It keeps the best points itself: argmin loses them when a run
 /// ends early.
 struct Descent<'a> {
-    space: &'a Space,
-    evaluator: &'a Evaluator<'a>,
-    coordinates: &'a Coordinates,
+    local: Local<'a>,
     /// The first simplex: argmin asks for its corners again.
     corners: &'a [Probe],
     /// As many points as a simplex has, the best one first.
@@ -122,7 +125,7 @@ impl CostFunction for &Descent<'_> {
     type Output = f64;
 
     fn cost(&self, Point(at): &Point) -> Result<f64, Error> {
-        if self.evaluator.is_stopped() {
+        if self.local.evaluator.is_stopped() {
             // A flat cost ends the run at once.
             return Ok(f64::MAX);
         }
@@ -132,13 +135,7 @@ impl CostFunction for &Descent<'_> {
         let mut leading = self.leading.borrow_mut();
         // What is above all corners of the simplex is rejected, however far above.
         let race = Race::against_worst(&leading);
-        let probe = Probe::at(
-            self.coordinates,
-            &race,
-            self.space,
-            self.evaluator,
-            at.clone(),
-        );
+        let probe = Probe::at(self.local, &race, at.clone());
         let rank = probe.candidate.fitness.rank();
         let place = leading.partition_point(|other| other.fitness.rank() <= rank);
         leading.insert(place, probe.candidate);
@@ -161,47 +158,41 @@ pub fn polish(
         return start;
     }
     let start = best_bound(space, evaluator, start);
-    let coordinates = Coordinates::near(space, &start.point);
-    let mut leading = descend(&coordinates, space, evaluator, start, size, accuracy);
+    let local = Local {
+        space,
+        evaluator,
+        coordinates: &Coordinates::near(space, &start.point),
+    };
+    let mut leading = descend(local, start, size, accuracy);
     for _ in 0..MOST_DESCENTS {
         if evaluator.is_stopped() {
             break;
         }
         let best = &leading[0];
-        let (middle, extent) = middle_and_extent(&coordinates, &leading);
+        let (middle, extent) = middle_and_extent(local.coordinates, &leading);
         let middle = Candidate::below(best.fitness.rank(), space, evaluator, &middle);
         if middle.fitness.rank() >= best.fitness.rank() * (1.0 - accuracy) {
             return best.clone().or_better(middle);
         }
-        let size = 0.5 * extent;
-        leading = descend(&coordinates, space, evaluator, middle, size, accuracy);
+        leading = descend(local, middle, 0.5 * extent, accuracy);
     }
     leading.swap_remove(0)
 }
 
 /// The best points found downhill from `start`, the very best one first.
-fn descend(
-    coordinates: &Coordinates,
-    space: &Space,
-    evaluator: &Evaluator,
-    start: Candidate,
-    size: f64,
-    accuracy: f64,
-) -> Vec<Candidate> {
+fn descend(local: Local, start: Candidate, size: f64, accuracy: f64) -> Vec<Candidate> {
     let scale = start.fitness.rank().max(f64::MIN_POSITIVE);
-    let corners = first_simplex(coordinates, space, evaluator, &start, size);
+    let corners = first_simplex(local, &start, size);
     let mut leading: Vec<Candidate> = corners.iter().map(|it| it.candidate.clone()).collect();
     leading.sort_by(Candidate::by_rank);
     let descent = Descent {
-        space,
-        evaluator,
-        coordinates,
+        local,
         corners: &corners,
         leading: RefCell::new(leading),
     };
     let simplex = corners.iter().map(|corner| Point(corner.at.clone()));
     if let Ok(solver) = NelderMead::new(simplex.collect()).with_sd_tolerance(accuracy * scale) {
-        let most = ITERATIONS_PER_DIMENSION * space.dimensions() as u64;
+        let most = ITERATIONS_PER_DIMENSION * local.space.dimensions() as u64;
         let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
         // The best points are kept by the cost function; how the run ended does not matter.
         drop(executor.run());
@@ -252,13 +243,8 @@ fn best_bound(space: &Space, evaluator: &Evaluator, start: Candidate) -> Candida
 /// A simplex whose edges are so short that J rises by no more than a moderate share along them:
 /// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
 /// into a narrow valley loses sight of the valley's length.
-fn first_simplex(
-    coordinates: &Coordinates,
-    space: &Space,
-    evaluator: &Evaluator,
-    start: &Candidate,
-    size: f64,
-) -> Vec<Probe> {
+fn first_simplex(local: Local, start: &Candidate, size: f64) -> Vec<Probe> {
+    let coordinates = local.coordinates;
     let from = coordinates.of(&start.point);
     let middle = coordinates.of(&vec![0.5; from.len()]);
     let rank = start.fitness.rank();
@@ -270,17 +256,17 @@ fn first_simplex(
             let mut at = from.clone();
             at[axis] += towards_middle * edge;
             let race = Race::above(rank * (1.0 + FAR_TOO_STEEP));
-            let corner = Probe::at(coordinates, &race, space, evaluator, at);
+            let corner = Probe::at(local, &race, at);
             let rise = corner.cost / rank - 1.0;
             let is_short = edge <= SHORTEST_EDGE * size;
-            if is_short || rise <= STEEPEST_EDGE || evaluator.is_stopped() {
+            if is_short || rise <= STEEPEST_EDGE || local.evaluator.is_stopped() {
                 return corner;
             }
             edge *= if rise > FAR_TOO_STEEP { 0.25 } else { 0.5 };
         }
     };
     let mut simplex = vec![Probe::of(coordinates, from.clone(), start.clone())];
-    simplex.extend((0..space.dimensions()).map(corner));
+    simplex.extend((0..from.len()).map(corner));
     simplex
 }
 

@@ -49,7 +49,7 @@ pub(super) fn not_converged(
         // More shots than there are validation shots would promise what nobody can check.
         let promises =
             shots < validation_shots && lowest <= least - WORTHWHILE * problem.accuracy * least;
-        // On common random numbers the others need no more of the jet's scatter to be told apart.
+        // On common random numbers contacts are told apart by far fewer shots than J of each is known by.
         let is_behind = claimed > least_claimed * (1.0 + BEHIND * problem.accuracy);
         let could_win = (found <= least || promises) && !is_behind;
         let is_noisy = error > NOISY * wanted && shots < validation_shots;

@@ -25,9 +25,8 @@ pub(super) enum Coordinates {
 impl Coordinates {
     /// Those for a descent from a point.
     pub fn near(space: &Space, point: &[f64]) -> Self {
-        let searched = |setting| space.axis(setting);
-        let (Some(incidence), Some(azimuth)) =
-            (searched(Setting::Incidence), searched(Setting::Azimuth))
+        let [Some(incidence), Some(azimuth)] =
+            [Setting::Incidence, Setting::Azimuth].map(|setting| space.axis(setting))
         else {
             return Self::Cube;
         };
@@ -56,8 +55,7 @@ impl Coordinates {
         if let Self::Tilt { incidence, azimuth } = self {
             let (along, across) = (at[incidence.0], at[azimuth.0]);
             let tilt = hypot(along, across) * incidence.1.range.width();
-            let range = azimuth.1.range;
-            let middle = 0.5 * (range.min + range.max);
+            let middle = azimuth.1.range.at(0.5);
             let turned = atan2(across, along) - middle;
             // Of all whole turns the one that leads into the range, or nearest to it.
             let angle = middle + turned - TAU * (turned / TAU).round();
