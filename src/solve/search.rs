@@ -128,10 +128,10 @@ impl Search {
 
     /// By how much the last stage has lowered J on its shots; 0 where the search went back.
     pub fn gain(&self) -> f64 {
-        match self.before {
-            Some(_) => self.optimality_gap,
-            None => 0.0,
-        }
+        let before = self.before.as_ref();
+        before.map_or(0.0, |before| {
+            before.fitness.rank() - self.best().fitness.rank()
+        })
     }
 
     /// Goes on from the best few candidates of each group with more shots.
@@ -156,9 +156,8 @@ impl Search {
     /// Takes what a stage has found that began with this candidate.
     fn end_stage(&mut self, before: Option<Candidate>, groups: Vec<Vec<Candidate>>) {
         self.groups = groups;
-        let rank = |it: &Candidate| it.fitness.rank();
-        self.optimality_gap = before.as_ref().map_or(f64::INFINITY, rank) - rank(self.best());
         self.before = before;
+        self.optimality_gap = self.gain();
     }
 
     /// Goes on from the best candidate with more shots, or warm from the incumbent of another contact.
@@ -169,7 +168,7 @@ impl Search {
         stage: &Stage,
     ) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
-        let found = self.beside(&here, leader, evaluator, stage, Stage::descent);
+        let found = self.beside(&here, leader, evaluator, stage);
         let own = || stage.descent(&self.space, evaluator, here.clone());
         let found = found.unwrap_or_else(own);
         self.end_stage(Some(here), vec![vec![found]]);
@@ -178,10 +177,12 @@ impl Search {
     /// Goes on from the incumbent of another contact, if that is better here than this contact's own.
     pub fn follow(&mut self, leader: &Candidate, evaluator: &Evaluator, stage: &Stage) {
         let here = Candidate::at(&self.space, evaluator, &self.best().point);
-        let found = self.beside(&here, leader, evaluator, stage, Stage::catching_up);
+        let found = self.beside(&here, leader, evaluator, &stage.catching_up());
         // On the shots of the others even where it stays: what is compared is compared on common ones.
         let best = found.unwrap_or_else(|| here.clone());
         self.end_stage(Some(here), vec![vec![best]]);
+        // What has not been searched on shows nothing of how good it is.
+        self.optimality_gap = f64::INFINITY;
     }
 
     /// Warm start: what is found from the incumbent of another contact, if that is better than here.
@@ -195,7 +196,6 @@ impl Search {
         leader: &Candidate,
         evaluator: &Evaluator,
         stage: &Stage,
-        descent: impl Fn(&Stage, &Space, &Evaluator, Candidate) -> Candidate,
     ) -> Option<Candidate> {
         if leader.point.len() != self.space.dimensions() {
             return None;
@@ -217,7 +217,7 @@ impl Search {
         Some(if is_close && !gains {
             start
         } else {
-            descent(stage, &self.space, evaluator, start)
+            stage.descent(&self.space, evaluator, start)
         })
     }
 }
@@ -332,6 +332,7 @@ mod tests {
             let before = oiled.best().settings;
             oiled.follow(damp.best(), evaluator, STAGE);
             assert_eq!(oiled.best().settings, before);
+            assert_eq!((oiled.gain(), oiled.optimality_gap()), (0.0, f64::INFINITY));
         });
     }
 }

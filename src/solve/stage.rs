@@ -93,11 +93,11 @@ impl Stage {
         }
     }
 
-    /// Where the descents end from a candidate of a contact that lags behind.
-    pub fn catching_up(&self, space: &Space, evaluator: &Evaluator, start: Candidate) -> Candidate {
-        match self.catches_up {
-            true => self.descent(space, evaluator, start),
-            false => start,
+    /// The same for a contact that lags behind.
+    pub fn catching_up(&self) -> Self {
+        Self {
+            descents: if self.catches_up { self.descents } else { 0 },
+            ..*self
         }
     }
 
