@@ -12,9 +12,10 @@ mod dose;
 mod grid;
 mod hits;
 mod map;
+mod shots;
 
 use crate::elementary::{exp_m1, ln_1p, square};
-use crate::jet::{Draw, purpose};
+use crate::jet::purpose;
 use crate::problem::equipment::CoverageWish;
 use crate::problem::setting::Settings;
 use crate::problem::stroke::{Leg, WHOLE};
@@ -26,6 +27,7 @@ use grid::{Cell, Cells};
 use hits::FirstHits;
 pub use map::CoverageMap;
 use map::Unrolled;
+use shots::Shots;
 
 /// Shots behind the densities.
 const SHOTS: usize = 1 << 18;
@@ -125,14 +127,14 @@ impl Coverage {
             Some(_) => SHOTS_OF_STROKE,
             None => SHOTS,
         };
-        let draw = Draw::new(&scenario.problem, purpose::COVERAGE, shots).without_boundary();
+        let fired = Shots::new(scenario, purpose::COVERAGE, shots, ends);
         let (target, _) = scenario.target.cut_out(&scenario.scene);
         let FirstHits {
             hits,
             dent_diameter,
             shots,
             relative_mass,
-        } = FirstHits::fire(scenario, legs, ends, &wish.dent, &draw);
+        } = FirstHits::of(scenario, legs, &wish.dent, &fired);
         let layout = scenario.traverse.as_ref().map(|traverse| {
             let unrolled = Unrolled::new(traverse, &target, &hits);
             let numbers = unrolled.numbers(CELLS_OF_STROKE);

@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 
 use super::grid::Cells;
-use super::hits::{FirstHit, drawn, shots_of};
-use crate::jet::{Draw, purpose};
+use super::hits::{FirstHit, shots_of};
+use super::shots::Shots;
+use crate::jet::purpose;
 use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
 use crate::scene::patch::Triangle;
@@ -31,9 +32,9 @@ const CELLS: f64 = 64.0;
 impl Dose {
     /// The doses of a stroke on all surfaces with a limit that are hit at all, its run-out included.
     pub fn of_stroke(scenario: &Scenario, legs: &[Leg], ends: [f64; 2]) -> Vec<Self> {
-        let draw = Draw::new(&scenario.problem, purpose::EVIDENCE, SHOTS).without_boundary();
+        let fired = Shots::new(scenario, purpose::EVIDENCE, SHOTS, ends);
         let of_set = |number: u32| {
-            let shots = drawn(&draw, number, ends);
+            let shots = fired.set(number);
             let mut hits = vec![Vec::new(); scenario.surfaces.len()];
             for leg in legs {
                 let own = shots_of(leg, legs, &shots);
@@ -49,7 +50,7 @@ impl Dose {
             (hits, shots.len())
         };
         let mut sets: Vec<(Vec<Vec<FirstHit>>, usize)> =
-            (0..draw.sets()).into_par_iter().map(of_set).collect();
+            (0..fired.sets()).into_par_iter().map(of_set).collect();
         let shots = sets.iter().map(|(_, shots)| shots).sum();
         let limited = scenario.surfaces.iter().enumerate();
         let limited = limited.filter(|(_, limits)| limits.allow.is_some() && !limits.deflector);

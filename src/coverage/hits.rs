@@ -5,10 +5,11 @@ use std::borrow::Cow;
 use nalgebra::Point3;
 use rayon::prelude::*;
 
+use super::shots::Shots;
 use crate::elementary::{power, square};
-use crate::jet::{Draw, ShotSample};
+use crate::jet::ShotSample;
 use crate::problem::equipment::Dent;
-use crate::problem::stroke::{Leg, WHOLE, place_in};
+use crate::problem::stroke::Leg;
 use crate::scenario::Scenario;
 use crate::trace::Tracer;
 
@@ -33,26 +34,19 @@ pub(super) struct FirstHits {
 }
 
 impl FirstHits {
-    /// Fires along a stroke from one place to another. Shots are drawn set by set, as all of them would take too much
-    /// room.
-    pub fn fire(
-        scenario: &Scenario,
-        legs: &[Leg],
-        ends: [f64; 2],
-        dent: &Dent,
-        draw: &Draw,
-    ) -> Self {
+    /// Those of shots that are fired with the settings of some legs.
+    pub fn of(scenario: &Scenario, legs: &[Leg], dent: &Dent, fired: &Shots) -> Self {
         let mut scenario = scenario.clone();
         scenario.problem.paths.impacts = 1;
         let of_set = |number: u32| {
-            let shots = drawn(draw, number, ends);
+            let shots = fired.set(number);
             let masses: f64 = shots.iter().map(ShotSample::mass).sum();
             let of_leg = |leg: &Leg| hits_of(&scenario, leg, &shots_of(leg, legs, &shots), dent);
             let hits: Vec<FirstHit> = legs.iter().flat_map(of_leg).collect();
             (hits, shots.len(), masses)
         };
         let sets: Vec<(Vec<FirstHit>, usize, f64)> =
-            (0..draw.sets()).into_par_iter().map(of_set).collect();
+            (0..fired.sets()).into_par_iter().map(of_set).collect();
         let shots = sets.iter().map(|(_, shots, _)| shots).sum();
         let masses: f64 = sets.iter().map(|(.., masses)| masses).sum();
         let mut hits: Vec<Vec<FirstHit>> = sets.into_iter().map(|(hits, ..)| hits).collect();
@@ -75,17 +69,6 @@ impl FirstHits {
             relative_mass: masses / shots as f64,
         }
     }
-}
-
-/// The shots of a set, from all along a stroke from one place to another.
-pub(super) fn drawn(draw: &Draw, number: u32, ends: [f64; 2]) -> Vec<ShotSample> {
-    let mut shots = draw.set(number).jet.shots;
-    if ends != WHOLE {
-        for shot in &mut shots {
-            shot.place = place_in(ends, shot.place);
-        }
-    }
-    shots
 }
 
 /// Those that are fired with the settings of a leg.
