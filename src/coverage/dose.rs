@@ -34,20 +34,21 @@ impl Dose {
     pub fn of_stroke(scenario: &Scenario, legs: &[Leg], ends: [f64; 2]) -> Vec<Self> {
         let fired = Shots::new(scenario, purpose::EVIDENCE, SHOTS, ends);
         let of_set = |number: u32| {
-            let shots = fired.set(number);
             let mut hits = vec![Vec::new(); scenario.surfaces.len()];
-            for leg in legs {
-                let own = shots_of(leg, legs, &shots);
-                let tracer = Tracer::new(scenario, &leg.settings, leg.settings.speed);
-                let impacts = tracer.paths(&own).into_iter().flat_map(|it| it.impacts);
-                for impact in impacts.filter(|it| it.number > 0 && !it.on_target) {
-                    hits[impact.surface as usize].push(FirstHit {
-                        point: impact.point,
-                        weight: 1.0,
-                    });
+            let shots = fired.fire(number, |shots| {
+                for leg in legs {
+                    let own = shots_of(leg, legs, shots);
+                    let tracer = Tracer::new(scenario, &leg.settings, leg.settings.speed);
+                    let impacts = tracer.paths(&own).into_iter().flat_map(|it| it.impacts);
+                    for impact in impacts.filter(|it| it.number > 0 && !it.on_target) {
+                        hits[impact.surface as usize].push(FirstHit {
+                            point: impact.point,
+                            weight: 1.0,
+                        });
+                    }
                 }
-            }
-            (hits, shots.len())
+            });
+            (hits, shots)
         };
         let mut sets: Vec<(Vec<Vec<FirstHit>>, usize)> =
             (0..fired.sets()).into_par_iter().map(of_set).collect();

@@ -39,11 +39,15 @@ impl FirstHits {
         let mut scenario = scenario.clone();
         scenario.problem.paths.impacts = 1;
         let of_set = |number: u32| {
-            let shots = fired.set(number);
-            let masses: f64 = shots.iter().map(ShotSample::mass).sum();
-            let of_leg = |leg: &Leg| hits_of(&scenario, leg, &shots_of(leg, legs, &shots), dent);
-            let hits: Vec<FirstHit> = legs.iter().flat_map(of_leg).collect();
-            (hits, shots.len(), masses)
+            let (mut hits, mut masses) = (Vec::new(), 0.0);
+            let shots = fired.fire(number, |shots| {
+                masses += shots.iter().map(ShotSample::mass).sum::<f64>();
+                for leg in legs {
+                    let own = shots_of(leg, legs, shots);
+                    hits.extend(hits_of(&scenario, leg, &own, dent));
+                }
+            });
+            (hits, shots, masses)
         };
         let sets: Vec<(Vec<FirstHit>, usize, f64)> =
             (0..fired.sets()).into_par_iter().map(of_set).collect();

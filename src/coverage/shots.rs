@@ -38,21 +38,18 @@ impl<'a> Shots<'a> {
         self.draw.sets()
     }
 
-    /// The shots of one replicate.
-    pub fn set(&self, number: u32) -> Vec<ShotSample> {
-        let drawn = self.draw.set(number).jet.shots;
-        if self.ends == WHOLE && self.repeats == 1 {
-            return drawn;
-        }
-        let again = (0..self.repeats).flat_map(|repeat| {
+    /// Fires the shots of one replicate, some at a time; how many there are.
+    pub fn fire(&self, number: u32, mut at: impl FnMut(&[ShotSample])) -> usize {
+        let mut shots = self.draw.set(number).jet.shots;
+        let drawn: Vec<f64> = shots.iter().map(|shot| shot.place).collect();
+        for repeat in 0..self.repeats {
             let further = repeat as f64 / self.repeats as f64;
-            let fired = drawn.iter().map(move |shot| ShotSample {
-                place: place_in(self.ends, onwards(shot.place, further)),
-                ..*shot
-            });
-            fired
-        });
-        again.collect()
+            for (shot, place) in shots.iter_mut().zip(&drawn) {
+                shot.place = place_in(self.ends, onwards(*place, further));
+            }
+            at(&shots);
+        }
+        shots.len() * self.repeats
     }
 }
 

@@ -78,6 +78,10 @@ impl ImportanceDensity {
 
     /// A coordinate with this density, from one that is uniform in 0 to 1.
     pub(super) fn drawn(&self, dimension: Dimension, uniform: f64) -> f64 {
+        // What the search below gives for a flat histogram.
+        if self.varied & (1 << dimension as u32) == 0 {
+            return uniform;
+        }
         let density = &self.density[dimension as usize];
         let mut left = uniform * CELLS as f64;
         let mut cell = 0;

@@ -39,6 +39,8 @@ struct Knot {
     /// How far it has come, m.
     travelled: f64,
     frame: Frame,
+    /// Whether the directions change on the way to the next one.
+    turns: bool,
 }
 
 /// Normals that differ by less are the same.
@@ -216,6 +218,7 @@ impl Traverse {
     }
 
     /// The aim point and the directions at a place.
+    #[inline(always)]
     pub fn frame_at(&self, place: f64) -> Frame {
         match &self.way {
             Way::Knots(knots) => between(knots, self.whole * (place_in(self.span, place) + 0.5)),
@@ -251,6 +254,7 @@ fn turned(helix: &Helix, base: &Frame, angle: f64) -> Frame {
 }
 
 /// The frame after some way; straight on beyond the ends.
+#[inline(always)]
 fn between(knots: &[Knot], travelled: f64) -> Frame {
     let last = knots.len() - 1;
     let next = knots.partition_point(|knot| knot.travelled <= travelled);
@@ -258,13 +262,19 @@ fn between(knots: &[Knot], travelled: f64) -> Frame {
     let (a, b) = (&knots[next - 1], &knots[next]);
     let share = (travelled - a.travelled) / (b.travelled - a.travelled);
     let aim = a.frame.aim + (b.frame.aim - a.frame.aim) * share;
-    let turned_by = share.clamp(0.0, 1.0);
-    if a.frame.normal == b.frame.normal && a.frame.along == b.frame.along {
-        return Frame { aim, ..a.frame };
+    if a.turns {
+        blend(&a.frame, &b.frame, share, aim)
+    } else {
+        Frame { aim, ..a.frame }
     }
+}
+
+/// The frame at an aim point, some share of the way from one frame to another.
+fn blend(a: &Frame, b: &Frame, share: f64, aim: Point3<f64>) -> Frame {
+    let turned_by = share.clamp(0.0, 1.0);
     let mix = |a: Vector3<f64>, b: Vector3<f64>| a + (b - a) * turned_by;
-    let normal = mix(a.frame.normal, b.frame.normal).normalize();
-    let along = mix(a.frame.along, b.frame.along);
+    let normal = mix(a.normal, b.normal).normalize();
+    let along = mix(a.along, b.along);
     let along = (along - normal * along.dot(&normal)).normalize();
     Frame {
         aim,

@@ -104,11 +104,19 @@ impl Surface<'_> {
         let knots = all.into_iter().map(|frame| {
             travelled += (frame.aim - before).norm();
             before = frame.aim;
-            Knot { travelled, frame }
+            Knot {
+                travelled,
+                frame,
+                turns: false,
+            }
         });
         let mut knots: Vec<Knot> = knots.collect();
         // Two places on one facet edge may be the same.
         knots.dedup_by(|next, knot| next.travelled <= knot.travelled);
+        for next in 1..knots.len() {
+            let (here, there) = (&knots[next - 1].frame, &knots[next].frame);
+            knots[next - 1].turns = here.normal != there.normal || here.along != there.along;
+        }
         Ok(Traverse {
             whole: knots.last().map_or(0.0, |knot| knot.travelled),
             span: WHOLE,
