@@ -1,11 +1,78 @@
-//! Logarithmic axes: their ends, ticks and labels.
+//! Axes, linear or logarithmic: their ends, ticks and labels.
 
-use plotters::coord::combinators::{BindKeyPoints, IntoLogRange, LogCoord, WithKeyPoints};
+use std::ops::Range;
+
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
+use plotters::coord::types::RangedCoordf64;
 
 use crate::elementary::{ln, log10, whole_power};
 use crate::report::number::{count, plain};
 
-/// A logarithmic axis.
+/// An axis of a panel.
+pub struct Axis<'a> {
+    /// Where its values lie.
+    pub scale: Scale,
+    /// What it shows, with its unit; without a name the axis has no labels either.
+    pub name: &'a str,
+    /// How its ticks are labelled.
+    pub label: fn(f64) -> String,
+    /// What lies towards its lower end; nothing for most.
+    pub towards_low: &'a str,
+}
+
+impl<'a> Axis<'a> {
+    /// A linear axis, without anything towards its lower end.
+    pub fn linear(ends: Range<f64>, name: &'a str) -> Self {
+        Self {
+            scale: Scale::Linear(ends),
+            name,
+            label: plain,
+            towards_low: "",
+        }
+    }
+}
+
+/// Where the values of an axis lie between its ends.
+#[derive(Clone, Debug)]
+pub enum Scale {
+    /// Evenly.
+    Linear(Range<f64>),
+    /// By their logarithms.
+    Log(LogAxis),
+}
+
+impl Ranged for Scale {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    /// Values beyond the ends lie at the ends.
+    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
+        let share = match self {
+            Self::Linear(ends) => (value - ends.start) / (ends.end - ends.start),
+            Self::Log(axis) => axis.fraction(*value),
+        };
+        from + (share.clamp(0.0, 1.0) * f64::from(to - from)).round() as i32
+    }
+
+    /// Bold points are labelled, light points get a fainter line.
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        match (self, hint.weight().allow_light_points()) {
+            (Self::Linear(_), true) => Vec::new(),
+            (Self::Linear(ends), false) => RangedCoordf64::from(ends.clone()).key_points(hint),
+            (Self::Log(axis), true) => axis.ticks(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
+            (Self::Log(axis), false) => axis.labelled(MOST_LABELS),
+        }
+    }
+
+    fn range(&self) -> Range<f64> {
+        match self {
+            Self::Linear(ends) => ends.clone(),
+            Self::Log(axis) => axis.from..axis.to,
+        }
+    }
+}
+
+/// The ends and ticks of a logarithmic axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogAxis {
     /// Lower end.
@@ -54,14 +121,6 @@ impl LogAxis {
         }
         let step = decades.len().div_ceil(most.max(1));
         decades.into_iter().step_by(step).collect()
-    }
-
-    /// The coordinate for plotters: bold points are labelled, light points get a fainter line.
-    pub fn coordinate(self) -> WithKeyPoints<LogCoord<f64>> {
-        (self.from..self.to)
-            .log_scale()
-            .with_key_points(self.labelled(MOST_LABELS))
-            .with_light_points(self.ticks(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]))
     }
 
     /// Multiples of the powers of ten on the axis.

@@ -1,10 +1,10 @@
 //! The figure of effects: what happens without each.
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 use super::axis::{LogAxis, percent};
-use super::sheet::{self, Area, Drawn, Fault, drawn, headline, marker, styled};
+use super::sheet::{self, Area, Drawn, Fault, beside, drawn, headline, marker};
 use super::style::{FAINT, GHOST, GRID, HEADING, INK, LABEL, Look, Shape, bold, letters, look_of};
 use crate::chart::{Chart, Effect};
 use crate::report::finding::{self, share, signed_share};
@@ -76,15 +76,9 @@ fn names(effects: &[Effect], area: &Area) -> Drawn {
         INK,
     )?;
     for (row, effect) in effects.iter().enumerate() {
-        beside(area, &effect.name, (40, line(row)), INK)?;
+        beside(area, &effect.name, (40, line(row)), HPos::Left, INK)?;
     }
     Ok(())
-}
-
-/// A text that starts at a place, centred on it.
-fn beside(area: &Area, text: &str, place: (i32, i32), colour: RGBColor) -> Drawn {
-    let style = styled(&letters(LABEL), colour, Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(text, &style, place)
 }
 
 fn heading(area: &Area, title: [&str; 2], left: i32) -> Drawn {
@@ -144,7 +138,8 @@ fn changes(effects: &[Effect], column: &Column, left: i32, area: &Area) -> Drawn
             }
             _ => (signed_share(value), INK),
         };
-        beside(area, &text, (left + AXIS + 14, line(row)), colour)?;
+        let place = (left + AXIS + 14, line(row));
+        beside(area, &text, place, HPos::Left, colour)?;
     }
     Ok(())
 }
@@ -173,12 +168,8 @@ fn costs(effects: &[Effect], left: i32, area: &Area) -> Drawn {
             look.colour.stroke_width(3),
         ))?;
         marker(area, place, look, 10.0)?;
-        beside(
-            area,
-            &share(effect.relative_cost),
-            (left + AXIS + 34, line(row)),
-            INK,
-        )?;
+        let (cost, place) = (share(effect.relative_cost), (left + AXIS + 34, line(row)));
+        beside(area, &cost, place, HPos::Left, INK)?;
     }
     Ok(())
 }

@@ -2,10 +2,10 @@
 //! rebound.
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 use super::levels::Levels;
-use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline, styled};
+use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline};
 use super::style::{FAINT, GHOST, GRID, HEADING, INK, LABEL, Look, bold, letters, look_of};
 use crate::record::{FrontRecord, Record};
 
@@ -115,13 +115,12 @@ fn draw_axis(area: &Area, x: i32, name: &str, axis: Option<&Axis>) -> Drawn {
     } else {
         (HPos::Right, -16)
     };
-    let label = styled(&letters(LABEL), FAINT, Pos::new(side, VPos::Center));
     if let Some(axis) = axis {
         for (index, &value) in axis.levels.values.iter().enumerate() {
             let y = height(Some(axis), value);
             let tick = vec![(x - 8, y), (x + 8, y)];
             area.draw(&PathElement::new(tick, GHOST.stroke_width(2)))?;
-            area.draw_text(&axis.levels.text(index), &label, (x + aside, y))?;
+            sheet::beside(area, &axis.levels.text(index), (x + aside, y), side, FAINT)?;
         }
     }
     area.draw(&PathElement::new(
@@ -169,13 +168,8 @@ fn draw_answer(
         sheet::marker(area, place, look, 9.0)?;
     }
     let text = format!("{} {}", index + 1, point.contact);
-    let beside = styled(
-        &letters(LABEL),
-        look.colour,
-        Pos::new(HPos::Right, VPos::Center),
-    );
     let at = (AXES[0] - 130, name_at);
-    area.draw_text(&text, &beside, at)?;
+    sheet::beside(area, &text, at, HPos::Right, look.colour)?;
     let line: Vec<Place> = vec![(at.0 + 8, at.1), (AXES[0] - 108, places[0].1)];
     area.draw(&PathElement::new(line, look.colour.mix(0.4)))
 }
@@ -208,7 +202,6 @@ fn spread(front: &[FrontRecord], axis: Option<&Axis>) -> Vec<i32> {
 }
 
 fn legend(area: &Area) -> Drawn {
-    let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
     let y = SIZE.1 as i32 - 60;
     let entries = [
         ("recommended", INK, 7, false),
@@ -223,7 +216,7 @@ fn legend(area: &Area) -> Drawn {
         } else {
             area.draw(&PathElement::new(line, colour.stroke_width(width)))?;
         }
-        area.draw_text(text, &style, (x + 76, y))?;
+        sheet::beside(area, text, (x + 76, y), HPos::Left, INK)?;
     }
     Ok(())
 }

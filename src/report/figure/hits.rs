@@ -11,6 +11,7 @@ use plotters::prelude::*;
 use self::grid::Grid;
 use self::histogram::histograms;
 use self::map::maps;
+use super::marks::Mark;
 use super::sheet::{Fault, drawn, headline};
 use super::style::INK;
 use crate::record::{
@@ -134,16 +135,6 @@ fn extent(points: &mut dyn Iterator<Item = [f64; 2]>) -> [Range<f64>; 2] {
             y.start.min(at[1])..y.end.max(at[1]),
         ]
     })
-}
-
-/// A value that is marked by name.
-pub(super) struct Mark {
-    /// In the unit of what it is marked on.
-    pub value: f64,
-    /// Its name.
-    pub name: String,
-    /// Whether its line is dashed.
-    pub is_dashed: bool,
 }
 
 /// What is wanted of N* and the ends of its tolerance, uN.s.

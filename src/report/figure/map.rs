@@ -4,22 +4,23 @@
 mod key;
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
+use super::axis::Axis;
 use super::field::{Field, Outline};
 use super::labels::{Labels, half_width};
 use super::levels::Levels;
-use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline, styled};
-use super::style::{GHOST, INK, LABEL, LOOKS, bold, letters};
+use super::panel::Panel;
+use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline};
+use super::style::{GHOST, INK, LOOKS};
 use crate::record::{CellRecord, MapTerm};
 use crate::report::map::{AxisView, MapView};
-use crate::report::number::plain;
 
 const SIZE: (u32, u32) = (1800, 1530);
 const HEAD: u32 = 190;
 const PLOT: u32 = 1120;
-/// Room beside the plot, px.
-const LEFT: u32 = 150;
+/// Upper left and lower right corner of the axes, px, and what is left below them.
+const AXES: [Place; 2] = [(150, 206), (1454, 1210)];
 const BELOW: u32 = 100;
 const BAR: u32 = 330;
 /// Shares above this count as a region.
@@ -40,15 +41,13 @@ pub fn svg(view: &MapView, term: MapTerm) -> Option<Result<String, Fault>> {
         headline(area, &view.title(term), &sentences)?;
         let (_, below) = area.split_vertically(HEAD);
         let (middle, foot) = below.split_vertically(PLOT);
-        let (left, bar) = middle.split_horizontally(SIZE.0 - BAR);
-        let picture = Picture::new(view, term, &axes, area, &left)?;
+        let (_, bar) = middle.split_horizontally(SIZE.0 - BAR);
+        let picture = Picture::new(view, term, &axes, area)?;
         picture.draw()?;
         picture.colour_bar(&bar)?;
         picture.legend(&foot)
     }))
 }
-
-type Linear = plotters::coord::types::RangedCoordf64;
 
 /// A map with its place on the sheet.
 struct Picture<'a, 'b> {
@@ -56,9 +55,7 @@ struct Picture<'a, 'b> {
     term: MapTerm,
     axes: &'a [AxisView; 2],
     sheet: &'a Area<'b>,
-    plot: &'a Area<'b>,
-    /// Lower left and upper right corner, px.
-    corners: [Place; 2],
+    panel: Panel<'a, 'b>,
     /// `None` where the quantity is the same everywhere.
     levels: Option<Levels>,
 }
@@ -69,33 +66,21 @@ impl<'a, 'b> Picture<'a, 'b> {
         term: MapTerm,
         axes: &'a [AxisView; 2],
         sheet: &'a Area<'b>,
-        plot: &'a Area<'b>,
     ) -> Result<Self, Fault> {
-        let mut picture = Self {
+        let [x_name, y_name] = axes.each_ref().map(AxisView::title);
+        let [x, y] = axes.each_ref().map(ends);
+        let shown = [
+            Axis::linear(x.0..x.1, &x_name),
+            Axis::linear(y.0..y.1, &y_name),
+        ];
+        Ok(Self {
             view,
             term,
             axes,
             sheet,
-            plot,
-            corners: [(0, 0); 2],
+            panel: Panel::new(sheet, AXES, "", &shown)?,
             levels: Levels::of(view.map.cells.iter().filter_map(|cell| term.of(cell))),
-        };
-        let context = picture.context()?;
-        let [x, y] = axes.each_ref().map(ends);
-        picture.corners = [(x.0, y.0), (x.1, y.1)].map(|corner| context.backend_coord(&corner));
-        Ok(picture)
-    }
-
-    fn context(
-        &self,
-    ) -> Result<ChartContext<'a, SVGBackend<'b>, Cartesian2d<Linear, Linear>>, Fault> {
-        let [x, y] = self.axes.each_ref().map(ends);
-        ChartBuilder::on(self.plot)
-            .set_label_area_size(LabelAreaPosition::Left, LEFT)
-            .set_label_area_size(LabelAreaPosition::Bottom, BELOW)
-            .margin_top(16)
-            .margin_right(16)
-            .build_cartesian_2d(x.0..x.1, y.0..y.1)
+        })
     }
 
     fn draw(&self) -> Drawn {
@@ -105,7 +90,7 @@ impl<'a, 'b> Picture<'a, 'b> {
             let fields = [&blocked, &unknown].into_iter().flatten();
             fields.into_iter().any(|field| field.reaches(HALF, place))
         };
-        let mut labels = Labels::new(self.corners, &is_covered);
+        let mut labels = Labels::new(self.panel.corners, &is_covered);
         self.quantity(&mut labels)?;
         self.sticking(&mut labels)?;
         self.no_room(blocked.as_ref())?;
@@ -122,7 +107,12 @@ impl<'a, 'b> Picture<'a, 'b> {
     fn field(&self, of: impl Fn(&CellRecord) -> Option<f64>) -> Option<Field> {
         let values: Vec<Option<f64>> = self.view.map.cells.iter().map(of).collect();
         let columns = self.axes[0].values.len();
-        Field::new(&values, columns, self.corners[0], self.corners[1])
+        Field::new(
+            &values,
+            columns,
+            self.panel.corners[0],
+            self.panel.corners[1],
+        )
     }
 
     fn line(&self, line: Outline, style: ShapeStyle) -> Drawn {
@@ -141,7 +131,7 @@ impl<'a, 'b> Picture<'a, 'b> {
             .as_ref()
             .map_or(WHITE, |levels| levels.colour(0));
         self.sheet
-            .draw(&Rectangle::new(self.corners, background.filled()))?;
+            .draw(&Rectangle::new(self.panel.corners, background.filled()))?;
         let Some(levels) = &self.levels else {
             return Ok(());
         };
@@ -174,8 +164,7 @@ impl<'a, 'b> Picture<'a, 'b> {
             [(x - half, y - 15), (x + half, y + 15)],
             ground,
         ))?;
-        let centred = styled(&letters(LABEL), INK, Pos::new(HPos::Center, VPos::Center));
-        self.sheet.draw_text(text, &centred, (x, y))
+        sheet::beside(self.sheet, text, (x, y), HPos::Center, INK)
     }
 
     /// Hatches where the nozzle does not fit.
@@ -186,7 +175,7 @@ impl<'a, 'b> Picture<'a, 'b> {
         for outline in field.regions(HALF) {
             self.region(&outline, WHITE)?;
         }
-        let [(left, bottom), (right, top)] = self.corners;
+        let [(left, bottom), (right, top)] = self.panel.corners;
         for start in (left - (bottom - top)..right).step_by(22) {
             let mut piece: Option<[Place; 2]> = None;
             for step in (0..=bottom - top).step_by(2) {
@@ -254,13 +243,9 @@ impl<'a, 'b> Picture<'a, 'b> {
         if !self.view.marks_settings || !is_inside(x) || !is_inside(y) {
             return Ok(());
         }
-        let context = self.context()?;
         let place = |sign: f64| {
-            let at = [x, y].map(|axis| {
-                let (low, high) = ends(axis);
-                (axis.at + sign * axis.tolerance).clamp(low, high)
-            });
-            context.backend_coord(&(at[0], at[1]))
+            let [x, y] = [x, y].map(|axis| axis.at + sign * axis.tolerance);
+            self.panel.place((x, y))
         };
         if x.tolerance > 0.0 || y.tolerance > 0.0 {
             let corners = [place(-1.0), place(1.0)];
@@ -271,32 +256,7 @@ impl<'a, 'b> Picture<'a, 'b> {
     }
 
     fn frame(&self) -> Drawn {
-        let label = styled(&letters(LABEL), INK, Pos::default());
-        self.context()?
-            .configure_mesh()
-            .disable_mesh()
-            .axis_style(GHOST.stroke_width(2))
-            .label_style(label)
-            .set_all_tick_mark_size(6)
-            .x_label_formatter(&|value| plain(*value))
-            .y_label_formatter(&|value| plain(*value))
-            .draw()?;
-        self.line(outline(self.corners), GHOST.stroke_width(2))?;
-        let [(left, bottom), (right, top)] = self.corners;
-        let [x, y] = self.axes.each_ref().map(AxisView::title);
-        let middle = (left + right) / 2;
-        sheet::text(
-            self.sheet,
-            &x,
-            (middle, bottom + 48),
-            HPos::Center,
-            &bold(LABEL),
-            INK,
-        )?;
-        let style = styled(&bold(LABEL), INK, Pos::new(HPos::Center, VPos::Top));
-        let upwards = style.transform(FontTransform::Rotate270);
-        self.sheet
-            .draw_text(&y, &upwards, (left - 130, (top + bottom) / 2))
+        self.line(outline(self.panel.corners), GHOST.stroke_width(2))
     }
 }
 

@@ -1,33 +1,73 @@
-//! Names of marked values above a histogram, beside their lines and off each other.
+//! Marked values of a histogram: a line for each, and its name beside it.
 
-use super::sheet::width;
-use super::style::LABEL;
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
 
-/// A marked value: where its line stands, px, and its name.
-pub struct Marked<'a> {
-    /// px from the left.
-    pub x: i32,
-    /// The name.
-    pub name: &'a str,
+use super::panel::Panel;
+use super::sheet::{self, Area, Drawn, width};
+use super::style::{INK, LABEL, letters};
+
+/// A value that is marked by name.
+pub struct Mark {
+    /// In the unit of what it is marked on.
+    pub value: f64,
+    /// Its name.
+    pub name: String,
+    /// Whether its line is dashed.
+    pub is_dashed: bool,
 }
 
-/// Where a name stands.
+/// Where the line of a marked value stands, px from the left, and its name.
+struct Marked<'a> {
+    x: i32,
+    name: &'a str,
+}
+
+/// Where a name stands, px, and on which line of text, from above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Standing {
-    /// Left end, px.
-    pub left: i32,
-    /// Right end, px.
-    pub right: i32,
-    /// Line of text, from above.
-    pub row: usize,
+struct Standing {
+    left: i32,
+    right: i32,
+    row: usize,
 }
+
+/// Height of a row of names, px.
+const ROW: i32 = 30;
 
 /// Room between a name and the line that it belongs to, and between names, px.
 const APART: i32 = 8;
 
+/// Lines over the whole height, with their names at the upper end, off each other.
+pub fn draw(area: &Area, plot: &Panel, marks: &[&Mark]) -> Drawn {
+    let [(left, bottom), (right, top)] = plot.corners;
+    let marked = marks.iter().map(|mark| Marked {
+        x: plot.place((mark.value, 0.0)).0,
+        name: &mark.name,
+    });
+    let marked: Vec<Marked> = marked.collect();
+    for (mark, Marked { x, .. }) in marks.iter().zip(&marked) {
+        let (ends, style) = (vec![(*x, bottom), (*x, top)], INK.stroke_width(3));
+        match mark.is_dashed {
+            true => sheet::dashes(area, ends, style)?,
+            false => area.draw(&PathElement::new(ends, style))?,
+        }
+    }
+    for (mark, standing) in marked.iter().zip(arrange(&marked, (left, right))) {
+        let y = top + 6 + ROW * standing.row as i32;
+        let corners = [(standing.left - 2, y), (standing.right + 2, y + ROW)];
+        area.draw(&Rectangle::new(corners, WHITE.mix(0.75).filled()))?;
+        let (side, x) = match standing.left < mark.x {
+            true => (HPos::Right, standing.right),
+            false => (HPos::Left, standing.left),
+        };
+        sheet::text(area, mark.name, (x, y), side, &letters(LABEL), INK)?;
+    }
+    Ok(())
+}
+
 /// Where the names stand between two places, px: each beside its line, on the first row on which it
 /// meets neither another name nor another line. Names of the left half rather stand on the left.
-pub fn arrange(marks: &[Marked], (left, right): (i32, i32)) -> Vec<Standing> {
+fn arrange(marks: &[Marked], (left, right): (i32, i32)) -> Vec<Standing> {
     let mut taken: Vec<Standing> = Vec::new();
     for mark in marks {
         let wide = width(mark.name, LABEL);

@@ -3,8 +3,8 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::axis::{LogAxis, percent};
-use super::plot::{Axes, Plot};
+use super::axis::{Axis, LogAxis, Scale, percent};
+use super::panel::Panel;
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
 use super::style::{FAINT, GHOST, INK, LABEL, look_of};
 use crate::chart::{Chart, Leaks, PoseCurve, Sampling, Walls};
@@ -12,7 +12,11 @@ use crate::report::finding;
 use crate::report::number::{count, significant, time};
 
 const SIZE: (u32, u32) = (2000, 1110);
-const HEAD: u32 = 230;
+/// Left ends of the panels, and what they have in common, px.
+const LEFT: [i32; 3] = [150, 770, 1400];
+const WIDTH: i32 = 560;
+const TOP: i32 = 280;
+const BOTTOM: i32 = 900;
 const FOOT: u32 = 110;
 /// Room beside and between the names of the legend, and from row to row, px.
 const MARGIN: i32 = 40;
@@ -42,9 +46,8 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
             "How well J of one pose is known after how much time",
             &sentences,
         )?;
-        let (_, below) = area.split_vertically(HEAD);
-        let (middle, foot) = below.split_vertically(SIZE.1 - HEAD - FOOT);
-        panels(chart, area, &middle, x, y)?;
+        let (_, foot) = area.split_vertically(SIZE.1 - FOOT);
+        panels(chart, area, x, y)?;
         legend(chart, &foot)
     }))
 }
@@ -64,20 +67,29 @@ fn noise(chart: &Chart) -> f64 {
 }
 
 /// One panel for each way to draw shots.
-fn panels<'a>(chart: &Chart, sheet: &Area<'a>, area: &Area<'a>, x: LogAxis, y: LogAxis) -> Drawn {
-    // The first panel has the labels of the left axis.
-    let parts = area.split_by_breakpoints([SIZE.0 * 37 / 100, SIZE.0 * 685 / 1000], [0; 0]);
-    for (part, sampling) in parts.iter().zip(Sampling::ALL) {
-        let axes = Axes {
-            title: title(sampling),
-            x,
-            x_name: "time for J of one pose",
-            x_label: time,
-            y,
-            y_name: (sampling == Sampling::ALL[0]).then_some("error of J, % of J"),
-            y_label: percent,
-        };
-        panel(chart, &Plot::new(sheet, part, &axes)?, sampling, (x, y))?;
+fn panels(chart: &Chart, area: &Area, x: LogAxis, y: LogAxis) -> Drawn {
+    for (left, sampling) in LEFT.into_iter().zip(Sampling::ALL) {
+        let axes = [
+            Axis {
+                scale: Scale::Log(x),
+                name: "time for J of one pose",
+                label: time,
+                towards_low: "faster",
+            },
+            // The first panel has the labels of the left axis.
+            Axis {
+                scale: Scale::Log(y),
+                name: match left == LEFT[0] {
+                    true => "error of J, % of J",
+                    false => "",
+                },
+                label: percent,
+                towards_low: "more accurate",
+            },
+        ];
+        let corners = [(left, TOP), (left + WIDTH, BOTTOM)];
+        let plot = Panel::new(area, corners, title(sampling), &axes)?;
+        panel(chart, &plot, sampling, (x, y))?;
     }
     Ok(())
 }
@@ -90,7 +102,7 @@ fn title(sampling: Sampling) -> &'static str {
     }
 }
 
-fn panel(chart: &Chart, plot: &Plot, sampling: Sampling, (x, y): (LogAxis, LogAxis)) -> Drawn {
+fn panel(chart: &Chart, plot: &Panel, sampling: Sampling, (x, y): (LogAxis, LogAxis)) -> Drawn {
     let curves = |sampling: Sampling| chart.poses.iter().filter(move |c| c.sampling == sampling);
     let first = curves(sampling).next();
     if sampling != Sampling::Random
@@ -133,7 +145,7 @@ fn fastest<'a>(curves: impl Iterator<Item = &'a PoseCurve>) -> Option<&'a PoseCu
 }
 
 /// Numbers of shots beside a curve; the first where the axis leaves room for it.
-fn shots(plot: &Plot, curve: &PoseCurve) -> Drawn {
+fn shots(plot: &Panel, curve: &PoseCurve) -> Drawn {
     let visible = curve
         .points
         .iter()
@@ -149,7 +161,7 @@ fn shots(plot: &Plot, curve: &PoseCurve) -> Drawn {
 }
 
 /// Marks the number of shots with which the search ended.
-fn picked(chart: &Chart, plot: &Plot, curve: &PoseCurve) -> Drawn {
+fn picked(chart: &Chart, plot: &Panel, curve: &PoseCurve) -> Drawn {
     let shots = chart.recommended.shots_per_pose;
     let is_picked = |point: &&crate::chart::PosePoint| point.shots == shots;
     let Some(point) = curve.points.iter().find(is_picked) else {

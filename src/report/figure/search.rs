@@ -1,11 +1,12 @@
 //! The figure of searches: how good the answer is against the time that it takes.
 
+use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-use super::axis::{LogAxis, percent};
-use super::plot::{Axes, Plot};
-use super::sheet::{self, Area, Drawn, Fault, drawn, headline, key};
-use super::style::{BAND, FAINT, INK, LABEL, look_of};
+use super::axis::{Axis, LogAxis, Scale, percent};
+use super::panel::Panel;
+use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline, key};
+use super::style::{BAND, FAINT, INK, LABEL, letters, look_of};
 use crate::chart::Chart;
 use crate::report::finding;
 use crate::report::number::{count, significant, time};
@@ -13,7 +14,10 @@ use crate::report::series::{Group, Series};
 
 const WIDTH: u32 = 2000;
 const HEAD: u32 = 150;
+/// The axes with their labels and names.
 const PLOT: u32 = 960;
+/// Upper left and lower right corner of the axes, px.
+const AXES: [Place; 2] = [(150, 200), (1970, 1010)];
 const ROW: i32 = 42;
 
 /// The figure as SVG; `None` when nothing was measured, or every answer is the best known.
@@ -34,18 +38,22 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
             "How good the answer is after how much time",
             &sentences,
         )?;
-        let (_, below) = area.split_vertically(HEAD);
-        let (middle, foot) = below.split_vertically(PLOT);
-        let axes = Axes {
-            title: "",
-            x,
-            x_name: &format!("time to the answer, {} threads", chart.threads),
-            x_label: time,
-            y,
-            y_name: Some("J of the answer above the best known, %"),
-            y_label: percent,
-        };
-        let plot = Plot::new(area, &middle, &axes)?;
+        let (_, foot) = area.split_vertically(HEAD + PLOT);
+        let axes = [
+            Axis {
+                scale: Scale::Log(x),
+                name: &format!("time to the answer, {} threads", chart.threads),
+                label: time,
+                towards_low: "faster",
+            },
+            Axis {
+                scale: Scale::Log(y),
+                name: "J of the answer above the best known, %",
+                label: percent,
+                towards_low: "more accurate",
+            },
+        ];
+        let plot = Panel::new(area, AXES, "", &axes)?;
         noise(searches.noise(), &plot, (x, y))?;
         // The search lies above other methods.
         for (index, one) in series.iter().enumerate().rev() {
@@ -63,11 +71,11 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
 const LEAST_EXCESS: f64 = 1e-7;
 
 /// What cannot be told apart.
-fn noise(noise: f64, plot: &Plot, (x, y): (LogAxis, LogAxis)) -> Drawn {
+fn noise(noise: f64, plot: &Panel, (x, y): (LogAxis, LogAxis)) -> Drawn {
     if noise <= y.from {
         return Ok(());
     }
-    plot.band(noise, BAND)?;
+    plot.rectangle([(x.from, y.from), (x.to, noise)], BAND.filled())?;
     let text = format!(
         "noise: answers closer than {} % cannot be told apart",
         significant(noise * 100.0, 1)
@@ -83,7 +91,7 @@ fn has_labels(one: &Series, all: &[Series]) -> bool {
     !one.is_beside || beside <= MOST_LABELLED
 }
 
-fn draw(series: &Series, index: usize, plot: &Plot) -> Drawn {
+fn draw(series: &Series, index: usize, plot: &Panel) -> Drawn {
     let look = look_of(index);
     let medians = medians(series);
     plot.line(&medians, look)?;
@@ -108,7 +116,7 @@ fn draw(series: &Series, index: usize, plot: &Plot) -> Drawn {
 }
 
 /// A series of which only the medians are shown.
-fn sketch(series: &Series, index: usize, plot: &Plot) -> Drawn {
+fn sketch(series: &Series, index: usize, plot: &Panel) -> Drawn {
     let look = look_of(index);
     let medians = medians(series);
     plot.line(&medians, look)?;
@@ -141,12 +149,5 @@ fn legend(chart: &Chart, series: &[Series], area: &Area) -> Drawn {
         ),
     );
     let place = (150, 4 + ROW * series.len() as i32);
-    sheet::text(
-        area,
-        &explanation,
-        place,
-        HPos::Left,
-        &super::style::letters(LABEL),
-        INK,
-    )
+    sheet::text(area, &explanation, place, HPos::Left, &letters(LABEL), INK)
 }

@@ -65,6 +65,12 @@ pub fn text(
     )
 }
 
+/// A line of text beside a place, at its height.
+pub fn beside(area: &Area, text: &str, place: Place, side: HPos, colour: RGBColor) -> Drawn {
+    let style = styled(&letters(LABEL), colour, Pos::new(side, VPos::Center));
+    area.draw_text(text, &style, place)
+}
+
 /// Letters in a colour, with a place to hold them by.
 pub fn styled<'a>(font: &FontDesc<'a>, colour: RGBColor, pos: Pos) -> TextStyle<'a> {
     font.clone().color(&colour).pos(pos)
@@ -121,8 +127,7 @@ pub fn arrow(area: &Area, from: Place, to: Place, colour: RGBColor) -> Drawn {
 pub fn key(area: &Area, (x, y): Place, look: Look, name: &str) -> Drawn {
     line(area, vec![(x, y), (x + 52, y)], look)?;
     marker(area, (x + 26, y), look, 9.0)?;
-    let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(name, &style, (x + 66, y))
+    beside(area, name, (x + 66, y), HPos::Left, INK)
 }
 
 /// About how wide a text is, px: enough to set one beside another.

@@ -3,12 +3,13 @@
 use std::ops::Range;
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
-use super::linear::{Axes, Plot};
+use super::axis::Axis;
+use super::panel::Panel;
 use super::scale::Scale;
-use super::sheet::{self, Area, Drawn, Fault, drawn, headline, styled};
-use super::style::{INK, LABEL, letters, look_of};
+use super::sheet::{self, Area, Drawn, Fault, drawn, headline};
+use super::style::{INK, look_of};
 use crate::record::{DentedMapRecord, Record, StrokeRecord, VerdictRecord};
 use crate::report::number::{plain, share};
 use crate::report::sheet::subject::utilisation;
@@ -72,17 +73,13 @@ fn curves(area: &Area, stroke: &StrokeRecord) -> Drawn {
     let to = places.fold(f64::NEG_INFINITY, f64::max);
     let all = stroke.stations.iter().flat_map(|station| &station.verdicts);
     let most = all.map(used).fold(LEAST_USED, f64::max).min(MOST_USED);
-    let axes = Axes {
-        title: "Share of what is allowed, %",
-        x: from..to,
-        x_name: "from the beginning of the stroke, mm",
-        y: 0.0..most,
-        y_name: "% of what is allowed",
-    };
+    let axes = [
+        Axis::linear(from..to, "from the beginning of the stroke, mm"),
+        Axis::linear(0.0..most, "% of what is allowed"),
+    ];
     let corners = [(LEFT, TOP), (LEFT + ACROSS, TOP + CURVES)];
-    let plot = Plot::new(area, corners, &axes)?;
-    let limit = [(from, 100.0), (to, 100.0)].map(|point| plot.place(point));
-    sheet::dashes(area, limit.to_vec(), INK.stroke_width(3))?;
+    let plot = Panel::new(area, corners, "Share of what is allowed, %", &axes)?;
+    plot.dashes(&[(from, 100.0), (to, 100.0)], INK.stroke_width(3))?;
     let mut subjects: Vec<&str> = Vec::new();
     for verdict in stroke.stations.iter().flat_map(|it| &it.verdicts) {
         if !subjects.contains(&verdict.subject.as_str()) {
@@ -94,12 +91,12 @@ fn curves(area: &Area, stroke: &StrokeRecord) -> Drawn {
         let points = stroke.stations.iter().filter_map(|station| {
             let mut verdicts = station.verdicts.iter();
             let verdict = verdicts.find(|verdict| verdict.subject == *subject)?;
-            Some(plot.place((station.at_m * 1e3, used(verdict).min(most))))
+            Some((station.at_m * 1e3, used(verdict)))
         });
-        let points: Vec<sheet::Place> = points.collect();
-        sheet::line(area, points.clone(), look)?;
-        for place in points {
-            sheet::marker(area, place, look, 8.0)?;
+        let points: Vec<(f64, f64)> = points.collect();
+        plot.line(&points, look)?;
+        for point in points {
+            plot.marker(point, look, 8.0)?;
         }
         sheet::key(area, (BESIDE, TOP + 16 + 38 * index as i32), look, subject)?;
     }
@@ -136,29 +133,13 @@ fn dented(area: &Area, map: &DentedMapRecord, [x_name, y_name]: [&str; 2]) -> Dr
     let corner = map.corner_m.map(|it| it * 1e3);
     let [x, y] = [(0, map.columns), (1, rows(map))]
         .map(|(axis, count)| corner[axis]..corner[axis] + sides[axis] * count as f64);
-    let axes = Axes {
-        title: "Dented, % of the area",
-        x,
-        x_name,
-        y,
-        y_name,
-    };
-    let plot = Plot::new(area, [(LEFT, top), (LEFT + ACROSS, bottom)], &axes)?;
+    let axes = [Axis::linear(x, x_name), Axis::linear(y, y_name)];
+    let corners = [(LEFT, top), (LEFT + ACROSS, bottom)];
+    let plot = Panel::new(area, corners, "Dented, % of the area", &axes)?;
     let scale = scale(map);
-    for (index, value) in map.dented.iter().enumerate() {
-        let Some(value) = value else {
-            continue;
-        };
-        let (column, row) = (index % map.columns, index / map.columns);
-        let at = |dx: usize, dy: usize| {
-            (
-                corner[0] + sides[0] * (column + dx) as f64,
-                corner[1] + sides[1] * (row + dy) as f64,
-            )
-        };
-        let colour = scale.colour(f64::from(*value) * 100.0);
-        plot.rectangle([at(0, 0), at(1, 1)], colour.filled())?;
-    }
+    let values = map.dented.iter();
+    let colours = values.map(|value| value.map(|value| scale.colour(f64::from(value) * 100.0)));
+    plot.cells(corner.into(), sides, map.columns, colours)?;
     bar(area, &scale, (top, bottom))
 }
 
@@ -176,11 +157,11 @@ fn scale(map: &DentedMapRecord) -> Scale {
 
 fn bar(area: &Area, scale: &Scale, (top, bottom): (i32, i32)) -> Drawn {
     scale.bar(area, [(BESIDE, top), (BESIDE + BAR_WIDTH, bottom)])?;
-    let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
     for share in [0.0, 0.5, 1.0] {
         let y = bottom - (f64::from(bottom - top) * share).round() as i32;
         let place = (BESIDE + BAR_WIDTH + 10, y);
-        area.draw_text(&format!("{} %", plain(scale.value(share))), &style, place)?;
+        let text = format!("{} %", plain(scale.value(share)));
+        sheet::beside(area, &text, place, HPos::Left, INK)?;
     }
     Ok(())
 }

@@ -19,7 +19,6 @@ pub struct Grid {
     /// Side of a cell, mm.
     pub side: f64,
     pub columns: usize,
-    pub rows: usize,
     /// Which hits lie in each cell.
     cells: Vec<Vec<usize>>,
 }
@@ -50,7 +49,6 @@ impl Grid {
             is_one_place,
             side,
             columns,
-            rows,
             cells: vec![Vec::new(); columns * rows],
         };
         for (index, at) in in_millimetres(hits).enumerate() {

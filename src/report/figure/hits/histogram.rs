@@ -3,9 +3,11 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::{HISTOGRAM_HEIGHT, LEFT, Mark, ROOM, SIZE, TOP, WIDTH, limit_mark, tolerance_marks};
+use super::{HISTOGRAM_HEIGHT, LEFT, ROOM, SIZE, TOP, WIDTH, limit_mark, tolerance_marks};
 use crate::record::{HitsRecord, Record};
-use crate::report::figure::linear::{Axes, Plot};
+use crate::report::figure::axis::Axis;
+use crate::report::figure::marks::{self, Mark};
+use crate::report::figure::panel::Panel;
 use crate::report::figure::sheet::{self, Area, Drawn};
 use crate::report::figure::style::{FAINT, LABEL, LOOKS, letters};
 use crate::report::layout::wrap;
@@ -121,14 +123,11 @@ impl Histogram {
         }
         let percent = |number: usize| number as f64 / self.values.len() as f64 * 100.0;
         let most = counts.into_iter().max().unwrap_or(1);
-        let axes = Axes {
-            title: self.title,
-            x: low..high,
-            x_name: self.name,
-            y: 0.0..percent(most) * HEADROOM,
-            y_name: "hits, %",
-        };
-        let plot = Plot::new(area, corners, &axes)?;
+        let axes = [
+            Axis::linear(low..high, self.name),
+            Axis::linear(0.0..percent(most) * HEADROOM, "hits, %"),
+        ];
+        let plot = Panel::new(area, corners, self.title, &axes)?;
         for (bar, number) in counts
             .into_iter()
             .enumerate()
@@ -138,7 +137,12 @@ impl Histogram {
             let corners = [(from, 0.0), (from + width, percent(number))];
             plot.rectangle(corners, LOOKS[0].colour.filled())?;
         }
-        plot.marks(&self.marks)?;
+        let shown: Vec<&Mark> = self
+            .marks
+            .iter()
+            .filter(|it| (low..=high).contains(&it.value))
+            .collect();
+        marks::draw(area, &plot, &shown)?;
         let decimals = decimals_for(span, 3);
         let [from, to] = [lowest, highest].map(|value| fixed(value, decimals));
         let extent = if from == to {

@@ -1,16 +1,18 @@
 //! The maps: where hits lie, and what they deliver there.
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 use super::grid::Grid;
-use super::{LEFT, MAP_HEIGHT, Mark, SIZE, TOP, WIDTH, limit_mark, tolerance_marks};
+use super::{LEFT, MAP_HEIGHT, SIZE, TOP, WIDTH, limit_mark, tolerance_marks};
 use crate::record::{HitsRecord, Record};
+use crate::report::figure::axis::Axis;
 use crate::report::figure::levels::round_step;
-use crate::report::figure::linear::{Axes, Plot};
+use crate::report::figure::marks::Mark;
+use crate::report::figure::panel::Panel;
 use crate::report::figure::scale::Scale;
-use crate::report::figure::sheet::{self, Area, Drawn, Fault, Place, styled};
-use crate::report::figure::style::{GHOST, INK, LABEL, letters};
+use crate::report::figure::sheet::{self, Area, Drawn, Fault, Place};
+use crate::report::figure::style::{GHOST, INK, LABEL};
 use crate::report::number::{plain, rounded};
 
 /// Where the colour bar stands beside a map, px, and how wide it is.
@@ -102,41 +104,20 @@ impl Map {
         area: &'a Area<'b>,
         index: usize,
         grid: &Grid,
-    ) -> Result<Plot<'a, 'b>, Fault> {
+    ) -> Result<Panel<'a, 'b>, Fault> {
         let (left, top) = (LEFT[index], TOP[0]);
         let corners = [(left, top), (left + WIDTH, top + MAP_HEIGHT)];
-        let axes = Axes {
-            title: self.title,
-            x: grid.x.clone(),
-            x_name: "along (azimuth 0), mm",
-            y: grid.y.clone(),
-            y_name: "across (azimuth 90°), mm",
-        };
-        let plot = Plot::new(area, corners, &axes)?;
-        self.cells(&plot, grid)?;
+        let axes = [
+            Axis::linear(grid.x.clone(), "along (azimuth 0), mm"),
+            Axis::linear(grid.y.clone(), "across (azimuth 90°), mm"),
+        ];
+        let plot = Panel::new(area, corners, self.title, &axes)?;
+        let colours = self.values.iter();
+        let colours = colours.map(|value| value.map(|value| self.scale.colour(value)));
+        let (corner, sides) = ((grid.x.start, grid.y.start), [grid.side; 2]);
+        plot.cells(corner, sides, grid.columns, colours)?;
         self.bar(area, (left + WIDTH + BAR_APART, top))?;
         Ok(plot)
-    }
-
-    fn cells(&self, plot: &Plot, grid: &Grid) -> Drawn {
-        for row in 0..grid.rows {
-            for column in 0..grid.columns {
-                let Some(value) = self.values[row * grid.columns + column] else {
-                    continue;
-                };
-                let corner = |dx: usize, dy: usize| {
-                    (
-                        grid.x.start + (column + dx) as f64 * grid.side,
-                        grid.y.start + (row + dy) as f64 * grid.side,
-                    )
-                };
-                plot.rectangle(
-                    [corner(0, 0), corner(1, 1)],
-                    self.scale.colour(value).filled(),
-                )?;
-            }
-        }
-        Ok(())
     }
 
     /// The colours with their values, the marked ones by name.
@@ -145,7 +126,6 @@ impl Map {
         let height = |share: f64| top + MAP_HEIGHT - (share * f64::from(MAP_HEIGHT)).round() as i32;
         let corners = [(left, top), (left + BAR_WIDTH, top + MAP_HEIGHT)];
         self.scale.bar(area, corners)?;
-        let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
         let right = left + BAR_WIDTH;
         // What is drawn beside it begins there.
         let next = LEFT.into_iter().find(|start| *start > right);
@@ -165,7 +145,7 @@ impl Map {
                 let both = format!("{value} {}", mark.name);
                 let fits = sheet::width(&both, LABEL) <= room;
                 let text = if fits { &both } else { &mark.name };
-                area.draw_text(text, &style, (right + 10, y))?;
+                sheet::beside(area, text, (right + 10, y), HPos::Left, INK)?;
             }
             taken.push(y);
         }
@@ -176,7 +156,7 @@ impl Map {
                     vec![(right, y), (right + 6, y)],
                     GHOST.stroke_width(2),
                 ))?;
-                area.draw_text(&plain(value), &style, (right + 10, y))?;
+                sheet::beside(area, &plain(value), (right + 10, y), HPos::Left, INK)?;
             }
         }
         Ok(())

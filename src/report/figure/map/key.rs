@@ -1,9 +1,9 @@
 //! What stands beside and below a map: its colour bar and its legend.
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
-use super::super::sheet::{self, Area, Drawn, Place, styled};
+use super::super::sheet::{self, Area, Drawn, Place};
 use super::super::style::{FAINT, GHOST, GRID, HEADING, INK, LABEL, LOOKS, bold, letters};
 use super::{BELOW, PLOT, Picture, marker};
 use crate::record::CellRecord;
@@ -42,9 +42,9 @@ impl Picture<'_, '_> {
             [(20, top), (80, bottom)],
             GHOST.stroke_width(2),
         ))?;
-        let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
         for index in 0..levels.values.len() {
-            area.draw_text(&levels.text(index), &style, (94, edge(index as i32 + 1)))?;
+            let place = (94, edge(index as i32 + 1));
+            sheet::beside(area, &levels.text(index), place, HPos::Left, INK)?;
         }
         if levels.is_logarithmic {
             let place = (20, bottom + 20);
@@ -126,12 +126,11 @@ impl Picture<'_, '_> {
             any(CellRecord::is_blocked),
         ];
         let shown = entries.iter().zip(is_shown).filter(|(_, shown)| *shown);
-        let style = styled(&letters(LABEL), INK, Pos::new(HPos::Left, VPos::Center));
         for (number, ((sample, text), _)) in shown.enumerate() {
             let (column, row) = (number as i32 % 2, number as i32 / 2);
             let (x, y) = (180 + 800 * column, 50 + 54 * row);
             sample((x, y))?;
-            area.draw_text(text, &style, (x + 46, y))?;
+            sheet::beside(area, text, (x + 46, y), HPos::Left, INK)?;
         }
         Ok(())
     }
