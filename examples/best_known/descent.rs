@@ -56,10 +56,13 @@ impl Evaluator<'_> {
         };
         if infeasibility(self.scenario, &trial.settings).is_none() {
             let problem = &self.scenario.problem;
-            let tally = Tally::trace(self.scenario, &trial.settings, 1.0, self.shots);
+            let settings = &mut trial.settings;
+            let tally = Tally::trace(self.scenario, settings, settings.speed, self.shots);
             self.work.rays.fetch_add(tally.rays, Ordering::Relaxed);
-            trial.settings.speed = tally.best_speed(&problem.goals, problem.ranges.speed);
-            trial.objective = tally.terms(&problem.goals, trial.settings.speed).total();
+            if self.scenario.speed_scales_out(settings.contact) {
+                settings.speed = tally.best_speed(&problem.goals, problem.ranges.speed);
+            }
+            trial.objective = tally.terms(&problem.goals, settings.speed).total();
         }
         trial
     }

@@ -7,18 +7,20 @@
 //! ```text
 //! cargo run --release --example best_known -- tests/data/best_known.csv
 //! cargo run --release --example best_known -- part.csv --poses 2000 --most-shots 16384 --only long
+//! cargo run --release --example best_known -- tests/data/brute_force.csv --suite --most-shots 65536
 //! ```
 
 #[path = "../common/mod.rs"]
 mod common;
 mod descent;
+mod suite;
 
 use std::error::Error;
 use std::path::PathBuf;
 
 use clap::Parser;
 use peenpose::jet::{Samples, Stream};
-use peenpose::problem::setting::Settings;
+use peenpose::problem::setting::{Setting, Settings};
 use peenpose::scenario::Scenario;
 use rayon::prelude::*;
 
@@ -46,6 +48,9 @@ struct Arguments {
     /// Only variants whose name contains this.
     #[arg(long, default_value = "")]
     only: String,
+    /// The problems of the suite instead, against the settings known of them.
+    #[arg(long)]
+    suite: bool,
 }
 
 /// Direct searches from the best places so far.
@@ -91,6 +96,9 @@ const MOST_SETS: usize = 1 << 11;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = Arguments::parse();
+    if arguments.suite {
+        return Ok(std::fs::write(&arguments.table, suite::table(&arguments)?)?);
+    }
     let mut table = format!("{HEADER}\n");
     println!("{HEADER}");
     for variant in variants() {
@@ -115,9 +123,6 @@ fn best_known(
     contact: usize,
     arguments: &Arguments,
 ) -> Result<Known, Box<dyn Error>> {
-    if !scenario.speed_scales_out(contact) {
-        return Err("the best speed does not follow from the paths".into());
-    }
     let work = Work::default();
     let candidates = search(scenario, contact, arguments, &work);
     let (
@@ -147,7 +152,11 @@ fn search(
     arguments: &Arguments,
     work: &Work,
 ) -> Vec<Settings> {
-    let cube = &Cube::new(&scenario.problem, contact, &ALL_BUT_SPEED);
+    let free = match scenario.speed_scales_out(contact) {
+        true => &ALL_BUT_SPEED[..],
+        false => &Setting::ALL,
+    };
+    let cube = &Cube::new(&scenario.problem, contact, free);
     let affordable = |stage: &&Stage| stage.shots <= arguments.most_shots;
     let stages: Vec<&Stage> = STAGES.iter().filter(affordable).collect();
     let most_shots = stages.last().map_or(SCREENING_SHOTS, |stage| stage.shots);

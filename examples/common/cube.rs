@@ -3,7 +3,7 @@
 use peenpose::problem::Problem;
 use peenpose::problem::setting::{Range, Setting, Settings};
 
-/// The unit cube over the settings of the nozzle that have a range.
+/// The unit cube over the settings that have a range.
 #[derive(Clone, Debug)]
 pub struct Cube {
     axes: Vec<(Setting, Range)>,
@@ -17,7 +17,10 @@ impl Cube {
         let ranges = &problem.ranges;
         let axes = free
             .iter()
-            .filter_map(|&setting| Some((setting, ranges.range(setting)?)))
+            .map(|&setting| {
+                let friction = problem.contacts[contact].static_friction;
+                (setting, ranges.range(setting).unwrap_or(friction))
+            })
             .filter(|(_, range)| !range.is_held())
             .collect();
         let middle = Settings {
@@ -55,11 +58,12 @@ impl Cube {
 }
 
 /// The settings that are searched where the best speed follows from the paths.
-pub const ALL_BUT_SPEED: [Setting; 6] = [
+pub const ALL_BUT_SPEED: [Setting; 7] = [
     Setting::Incidence,
     Setting::Azimuth,
     Setting::Standoff,
     Setting::AimAlong,
     Setting::AimAcross,
     Setting::AimAbove,
+    Setting::StaticFriction,
 ];
