@@ -129,7 +129,10 @@ impl ShotSample {
     pub(super) fn at(problem: &Problem, point: &mut QmcPoint) -> Self {
         let (jet, tolerance) = (&problem.jet, &problem.tolerance);
         Self {
-            exit: exit_offset(jet.exit_diameter / 2.0, point),
+            exit: match problem.paths.exit_width {
+                true => exit_offset(jet.exit_diameter / 2.0, point),
+                false => [0.0; 2],
+            },
             cone: cone_direction(jet.divergence, jet.spread, point),
             speed: point.scatter(jet.speed_spread, Dimension::SpeedScatter)
                 * (1.0 + point.within(tolerance.speed, Dimension::SpeedSetting)),

@@ -250,7 +250,7 @@ pub enum Role {
     Deflector,
 }
 
-/// When a path ends.
+/// How paths begin, what shots keep on them, and when they end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathLimits {
     /// Most impacts; the first hit is number 1.
@@ -261,6 +261,8 @@ pub struct PathLimits {
     pub shot_size: bool,
     /// Whether a shot takes its spin from one impact to the next.
     pub spin: bool,
+    /// Whether shots leave from all over the exit; otherwise from its centre, though the exit keeps its width.
+    pub exit_width: bool,
 }
 
 #[cfg(test)]

@@ -127,6 +127,7 @@ pub fn keyway(length: f64) -> Problem {
             least_energy: 0.01,
             shot_size: false,
             spin: true,
+            exit_width: true,
         },
         stroke: None,
         coverage: None,

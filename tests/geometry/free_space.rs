@@ -10,6 +10,7 @@ use nalgebra::{Point3, Vector3};
 use peenpose::control::Control;
 use peenpose::feasibility::{Obstacle, gap_within_tolerance, infeasibility};
 use peenpose::problem::fault_code::FaultCode;
+use peenpose::problem::model::Effect;
 use peenpose::problem::part::{Part, Place, Shape};
 use peenpose::problem::setting::Setting;
 use peenpose::scenario::Scenario;
@@ -62,6 +63,10 @@ fn a_nozzle_in_the_metal_is_named() {
             "exit_in_slot_wall",
             "the nozzle comes too near to disc.flanks",
         ),
+        (
+            "exit_wider_than_slot",
+            "the nozzle comes too near to left.x_max",
+        ),
     ] {
         let scenario = shipped(name);
         let found = infeasibility(&scenario, &only(&scenario)).expect("it is infeasible");
@@ -70,6 +75,31 @@ fn a_nozzle_in_the_metal_is_named() {
         let solution = solve(&scenario, &quick());
         assert!(!solution.answers[0].passes(), "{name}");
     }
+}
+
+/// Effects are what shots do; the nozzle stays what it is.
+#[test]
+fn a_model_without_an_effect_has_the_same_nozzle() {
+    let mut infeasible = 0;
+    for path in [
+        "tests/free_space/exit_wider_than_slot.yaml",
+        "tests/suite/bridge.yaml",
+        "problems/keyway.yaml",
+    ] {
+        let mut scenario = Scenario::load(path.as_ref()).expect("it is sound").0;
+        // Without a body the exit is what must not touch a wall.
+        scenario.problem.nozzle.body.clear();
+        for settings in spread_settings(&scenario, 0, 64) {
+            let whole = infeasibility(&scenario, &settings);
+            infeasible += usize::from(whole.is_some());
+            for effect in Effect::ALL {
+                let without = scenario.without(&[effect], &settings);
+                let found = infeasibility(&without, &settings);
+                assert_eq!(found, whole, "{path} without {effect:?}");
+            }
+        }
+    }
+    assert!(infeasible > 20, "{infeasible}");
 }
 
 /// Every kind of mesh, what is decided about it, and that nothing passes from inside.

@@ -184,6 +184,7 @@ fn the_plate_holds_every_setting_of_the_pose() {
             least_energy: 0.01,
             shot_size: true,
             spin: true,
+            exit_width: true,
         }
     );
     // N* = (1 + E) m v sin(60 deg) of the paper.
@@ -453,6 +454,7 @@ fn every_other_key_is_read() {
             least_energy: 0.0,
             shot_size: true,
             spin: true,
+            exit_width: true,
         }
     );
     assert_eq!((problem.accuracy, problem.seed), (0.005, u64::MAX));

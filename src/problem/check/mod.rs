@@ -260,6 +260,7 @@ fn paths(scope: &Scope<'_>, entry: &PathsEntry) -> Option<PathLimits> {
         least_energy: least_energy?,
         shot_size: true,
         spin: true,
+        exit_width: true,
     })
 }
 

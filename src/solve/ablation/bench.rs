@@ -46,6 +46,7 @@ fn draw_alike(one: &Scenario, other: &Scenario) -> bool {
     let (one, other) = (&one.problem, &other.problem);
     one.jet == other.jet
         && one.shot == other.shot
+        && one.paths.exit_width == other.paths.exit_width
         && Effect::Roughness.is_in(one) == Effect::Roughness.is_in(other)
         && one.has_one_ray() == other.has_one_ray()
 }
