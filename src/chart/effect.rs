@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::common::{COMPARISON, excess, sums};
 use super::plan::Plan;
 use super::timing;
+use crate::feasibility::infeasibility;
 use crate::jet::{Samples, Stream};
 use crate::objective::{Sums, Tally};
 use crate::problem::model::{Effect as Modelled, Model};
@@ -26,8 +27,16 @@ pub struct Effect {
     pub regret: f64,
     /// Standard error of that.
     pub regret_standard_error: f64,
+    /// Whether the nozzle fits at those settings; where it does not, J there means nothing.
+    #[serde(default = "yes")]
+    pub fits: bool,
     /// Time for a pose without it over time with it.
     pub relative_cost: f64,
+}
+
+/// Charts of older versions do not say whether the nozzle fits.
+fn yes() -> bool {
+    true
 }
 
 /// The problem without an effect, and the settings that a search for it recommends.
@@ -58,6 +67,7 @@ pub(super) fn effects(scenario: &Scenario, settings: &Settings, plan: &Plan) -> 
             change_standard_error,
             regret,
             regret_standard_error,
+            fits: infeasibility(scenario, &variant.misled).is_none(),
             relative_cost: relative_cost(plan, &variant.scenario, scenario, settings),
         }
     };

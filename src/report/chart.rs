@@ -192,19 +192,27 @@ fn effects(effects: &[Effect]) -> Option<Block> {
         ("time", Align::Right),
     ]);
     for effect in effects {
+        let [worse, error] = match effect.fits {
+            true => [
+                signed_share(effect.regret),
+                share(effect.regret_standard_error),
+            ],
+            false => ["no fit".into(), "-".into()],
+        };
         table.row([
             effect.name.clone(),
             signed_share(effect.change),
             share(effect.change_standard_error),
-            signed_share(effect.regret),
-            share(effect.regret_standard_error),
+            worse,
+            error,
             share(effect.relative_cost),
         ]);
     }
     block.table(table);
     block.paragraph(
         "J changes: at the recommended settings. Answer worse: J, computed with the effect, at the settings \
-         that a search without it recommends. +-: standard errors. Time: for a pose, of that with the effect.",
+         that a search without it recommends; no fit: the nozzle does not fit there. +-: standard errors. \
+         Time: for a pose, of that with the effect.",
     );
     Some(block)
 }

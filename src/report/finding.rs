@@ -94,22 +94,34 @@ pub fn of_searches(chart: &Chart, searches: &Searches) -> String {
     )
 }
 
-/// Which effect matters most for the answer.
+/// Which effect matters most for the answer, and without which the nozzle does not fit.
 pub fn of_effects(effects: &[Effect]) -> String {
-    let matters = |effect: &&Effect| effect.regret > 2.0 * effect.regret_standard_error;
+    let matters =
+        |effect: &&Effect| effect.fits && effect.regret > 2.0 * effect.regret_standard_error;
+    let misfit = effects.iter().find(|effect| !effect.fits);
     let worst = effects
         .iter()
         .filter(matters)
         .max_by(|a, b| a.regret.total_cmp(&b.regret));
-    match worst {
-        Some(worst) => format!(
+    let mut sentences = Vec::new();
+    if let Some(worst) = worst {
+        sentences.push(format!(
             "Without {}, J at the recommended settings changes by {}, and the answer found is {} worse.",
             worst.name,
             signed_share(worst.change),
             share(worst.regret),
-        ),
-        None => "The answer is as good without any one of these effects.".into(),
+        ));
     }
+    if let Some(misfit) = misfit {
+        sentences.push(format!(
+            "Without {}, an answer is found at which the nozzle does not fit.",
+            misfit.name
+        ));
+    }
+    if sentences.is_empty() {
+        sentences.push("The answer is as good without any one of these effects.".into());
+    }
+    sentences.join(" ")
 }
 
 /// J with four digits.

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::Instant;
 
 use assert_cmd::Command;
-use peenpose::chart::{BesidePoint, Chart, Plan, Refusal, Sampling, Walls, measure};
+use peenpose::chart::{BesidePoint, Chart, Effect, Plan, Refusal, Sampling, Walls, measure};
 use peenpose::control::{Cancel, Clock, Control, Progress};
 use peenpose::report;
 use peenpose::report::figure::Figure;
@@ -228,6 +228,42 @@ fn what_is_left_out_changes_what_it_should() {
     let rebounds = effect("impacts after the first");
     assert!(rebounds.regret > 10.0, "{rebounds:?}");
     assert!(rebounds.relative_cost < 1.0, "{rebounds:?}");
+}
+
+/// Without its tolerance the nozzle goes nearer than the tolerance lets it, where fewer shots miss the small target.
+const CROWDED: &str = r#"
+format: 1
+title: A small target, and a ball round the exit
+lengths_in: mm
+scene:
+  hub: { keyway: { bore: 30 mm, width: 8 mm, depth: 3.3 mm, length: 40 mm } }
+target: { surface: hub.floor, within: { min: [-1, 18, 19], max: [1, 19, 21] } }
+shot: { radius: 0.5 mm, density: 7000 kg/m3 }
+jet: { exit_diameter: 1.5 mm, divergence: 4 deg, speed_spread: 5 % }
+nozzle: { body: [ { ball: { radius: 3 mm } } ], clearance: 0 mm }
+contacts: { oiled: { mu_s: 0.06, mu_d: 0.054, restitution: 0.25 } }
+settings: { incidence: 65 deg, azimuth: 0 deg, standoff: [3 mm, 12 mm], speed: [5 m/s, 40 m/s], contact: oiled }
+goals:
+  normal_impulse: { target: 40 uN.s, tolerance: 15 % }
+  miss: { share: 50 %, weight: 2 }
+tolerance: { standoff: 1 mm }
+solve: { accuracy: 3 % }
+"#;
+
+#[test]
+fn an_answer_at_which_the_nozzle_does_not_fit_is_not_called_better() {
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("floor.yaml"), CROWDED).unwrap();
+    let arguments = "floor.yaml --out out --most-shots 1024 --seeds 1";
+    let run = run(folder, &arguments.split(' ').collect::<Vec<_>>());
+    let chart = run.chart();
+    let fits = |effect: &Effect| effect.fits == (effect.name != "tolerance of the settings");
+    assert!(chart.effects.iter().all(fits), "{:?}", chart.effects);
+    let mut lines = run.out.lines();
+    let row = lines.find(|line| line.starts_with("  tolerance of"));
+    assert!(row.is_some_and(|row| row.contains("no fit")), "{}", run.out);
+    assert!(run.text("effect.svg").contains("no fit"));
+    assert!(column(&run.text("effect.csv"), "fits").contains(&"false".into()));
 }
 
 #[test]

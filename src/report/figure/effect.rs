@@ -23,8 +23,8 @@ const CONFIDENCE: f64 = 2.0;
 /// A quantity that each effect changes.
 struct Column<'a> {
     title: [&'a str; 2],
-    /// Value and standard error.
-    of: fn(&Effect) -> (f64, f64),
+    /// Value and standard error; `None` where the nozzle does not fit.
+    of: fn(&Effect) -> Option<(f64, f64)>,
     look: Look,
 }
 
@@ -37,12 +37,15 @@ pub fn svg(chart: &Chart) -> Option<Result<String, Fault>> {
     let columns = [
         Column {
             title: ["J at the recommended settings", "changes without it by"],
-            of: |effect| (effect.change, effect.change_standard_error),
+            of: |effect| Some((effect.change, effect.change_standard_error)),
             look: look_of(0),
         },
         Column {
             title: ["a search without it finds an", "answer that is worse by"],
-            of: |effect| (effect.regret, effect.regret_standard_error),
+            of: |effect| {
+                let regret = (effect.regret, effect.regret_standard_error);
+                effect.fits.then_some(regret)
+            },
             look: look_of(1),
         },
     ];
@@ -95,7 +98,7 @@ fn changes(effects: &[Effect], column: &Column, left: i32, area: &Area) -> Drawn
     let is_noise = |(value, error): (f64, f64)| value.abs() <= CONFIDENCE * error;
     let sizes = effects
         .iter()
-        .map(column.of)
+        .filter_map(column.of)
         .map(|(value, error)| value.abs().max(error));
     let axis = LogAxis::over(sizes);
     let bottom = line(effects.len()) - ROW / 2;
@@ -105,10 +108,10 @@ fn changes(effects: &[Effect], column: &Column, left: i32, area: &Area) -> Drawn
             grid_line(area, at(decade), bottom, &percent(decade))?;
         }
         for (row, effect) in effects.iter().enumerate() {
-            let (value, error) = (column.of)(effect);
-            if value == 0.0 {
+            let Some((value, error)) = (column.of)(effect).filter(|(value, _)| *value != 0.0)
+            else {
                 continue;
-            }
+            };
             let noise = is_noise((value, error));
             let shape = if value > 0.0 {
                 Shape::Triangle
@@ -130,13 +133,13 @@ fn changes(effects: &[Effect], column: &Column, left: i32, area: &Area) -> Drawn
         }
     }
     for (row, effect) in effects.iter().enumerate() {
-        let (value, error) = (column.of)(effect);
-        let (text, colour) = match value {
-            _ if value == 0.0 => ("nothing".into(), FAINT),
-            _ if is_noise((value, error)) => {
+        let (text, colour) = match (column.of)(effect) {
+            None => ("no fit".into(), INK),
+            Some((0.0, _)) => ("nothing".into(), FAINT),
+            Some((value, error)) if is_noise((value, error)) => {
                 (format!("±{}: noise", share(CONFIDENCE * error)), FAINT)
             }
-            _ => (signed_share(value), INK),
+            Some((value, _)) => (signed_share(value), INK),
         };
         let place = (left + AXIS + 14, line(row));
         beside(area, &text, place, HPos::Left, colour)?;

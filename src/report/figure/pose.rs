@@ -13,8 +13,8 @@ use crate::report::number::{count, significant, time};
 
 const SIZE: (u32, u32) = (2000, 1110);
 /// Left ends of the panels, and what they have in common, px.
-const LEFT: [i32; 3] = [150, 770, 1400];
-const WIDTH: i32 = 560;
+const LEFT: [i32; 3] = [180, 790, 1410];
+const WIDTH: i32 = 550;
 const TOP: i32 = 280;
 const BOTTOM: i32 = 900;
 const FOOT: u32 = 110;

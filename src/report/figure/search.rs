@@ -17,7 +17,7 @@ const HEAD: u32 = 150;
 /// The axes with their labels and names.
 const PLOT: u32 = 960;
 /// Upper left and lower right corner of the axes, px.
-const AXES: [Place; 2] = [(150, 200), (1970, 1010)];
+const AXES: [Place; 2] = [(180, 200), (1970, 1010)];
 const ROW: i32 = 42;
 
 /// The figure as SVG; `None` when nothing was measured, or every answer is the best known.
@@ -133,7 +133,7 @@ fn legend(chart: &Chart, series: &[Series], area: &Area) -> Drawn {
     for (index, series) in series.iter().enumerate() {
         key(
             area,
-            (150, 16 + ROW * index as i32),
+            (AXES[0].0, 16 + ROW * index as i32),
             look_of(index),
             &series.name,
         )?;
@@ -148,6 +148,6 @@ fn legend(chart: &Chart, series: &[Series], area: &Area) -> Drawn {
                 .map_or(0, |searches| searches.runs.len())
         ),
     );
-    let place = (150, 4 + ROW * series.len() as i32);
+    let place = (AXES[0].0, 4 + ROW * series.len() as i32);
     sheet::text(area, &explanation, place, HPos::Left, &letters(LABEL), INK)
 }

@@ -107,6 +107,7 @@ fn effects(chart: &Chart) -> io::Result<Table> {
             "change_standard_error",
             "regret",
             "regret_standard_error",
+            "fits",
             "relative_cost",
         ],
     )?;
@@ -117,6 +118,7 @@ fn effects(chart: &Chart) -> io::Result<Table> {
             &effect.change_standard_error,
             &effect.regret,
             &effect.regret_standard_error,
+            &effect.fits,
             &effect.relative_cost,
         ])?;
     }
