@@ -1,6 +1,9 @@
 //! Whether the nozzle can be where settings put it: in free space, clear of every wall, and not in the way
 //! of its own jet, for every pose within the setup tolerance.
 
+mod carried;
+mod tolerance;
+
 use nalgebra::Vector3;
 
 use crate::elementary::{cos, hypot, tan};
@@ -9,6 +12,7 @@ use crate::problem::equipment::Body;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::swept::{Core, Directions, Swept};
+use carried::carried_meets;
 
 /// Why the nozzle cannot be where settings put it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +32,8 @@ pub enum Obstacle {
     Surface(u32),
     /// The jet leaves through the nozzle's own body.
     Body,
+    /// A part that moves with the nozzle meets this surface, at some pose within the tolerance.
+    Carried(u32),
 }
 
 /// How near a nozzle comes to a surface.
@@ -78,7 +84,7 @@ pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasi
             });
         }
     }
-    None
+    carried_meets(scenario, settings)
 }
 
 /// Whether what the nozzle sweeps is convex: of a spot, and of a stroke on which it moves straight on without turning.
@@ -141,7 +147,9 @@ pub(crate) fn closeness(scenario: &Scenario, settings: &Settings) -> f64 {
         return each.fold(f64::NEG_INFINITY, f64::max);
     }
     let pose = Pose::new(&scenario.target.frame, settings);
-    if let Some(infeasible) = not_in_free_space(scenario, settings, &pose) {
+    let infeasible =
+        not_in_free_space(scenario, settings, &pose).or_else(|| carried_meets(scenario, settings));
+    if let Some(infeasible) = infeasible {
         return infeasible.violation;
     }
     let gap = gap_as_set(scenario, settings, f64::INFINITY);
@@ -237,51 +245,24 @@ fn gap_as_set(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Ga
 }
 
 fn gap_swept(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap> {
-    let (frame, tolerance) = (&scenario.target.frame, &scenario.problem.tolerance);
-    let pose = Pose::new(frame, settings);
-    let grid = |error: f64| -> Vec<f64> {
-        if error == 0.0 {
-            return vec![0.0];
-        }
-        let step = 2.0 * error / (STEPS as f64);
-        (0..=STEPS).map(|k| step * k as f64 - error).collect()
-    };
-    let azimuths = grid(tolerance.azimuth);
-    let directions: Vec<Vector3<f64>> = grid(tolerance.incidence)
-        .iter()
-        .flat_map(|incidence| {
-            azimuths.iter().map(move |azimuth| Settings {
-                incidence: settings.incidence + incidence,
-                azimuth: settings.azimuth + azimuth,
-                ..*settings
-            })
-        })
-        .map(|set| Pose::new(frame, &set).direction)
-        .collect();
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let poses = tolerance::poses(scenario, settings);
+    let directions: Vec<Vector3<f64>> = poses.iter().map(|pose| pose.direction).collect();
     let directions = Directions::new(&directions);
-    // Between two directions of the grid the body lies outside the chord by no more than this.
-    let half_steps = [tolerance.incidence, tolerance.azimuth].map(|it| it / STEPS as f64);
-    let sag = reach(scenario, settings) * half_steps.iter().map(|it| it * it / 2.0).sum::<f64>();
     let swept = |core| Swept {
         aim: aim(&pose, settings),
-        shifts: [
-            frame.along * tolerance.aim_along,
-            frame.across * tolerance.aim_across,
-            frame.normal * tolerance.aim_above,
-            half_way(scenario),
-        ],
+        shifts: tolerance::shifts(scenario),
         directions: directions.clone(),
-        standoff: [
-            (settings.standoff - tolerance.standoff).max(0.0),
-            settings.standoff + tolerance.standoff,
-        ],
+        standoff: tolerance::standoffs(scenario, settings),
         core,
     };
-    nearest(scenario, limit, sag, swept)
+    nearest(
+        scenario,
+        limit,
+        tolerance::sag(scenario, reach(scenario, settings)),
+        swept,
+    )
 }
-
-/// Steps of the grid of directions, each way.
-const STEPS: usize = 4;
 
 /// The nearest surface to any of the cores.
 fn nearest(
@@ -322,14 +303,13 @@ fn reach(scenario: &Scenario, settings: &Settings) -> f64 {
 /// No point of the body moves by more than this, m, while settings err within their tolerance.
 fn room_for_errors(scenario: &Scenario, settings: &Settings) -> f64 {
     let tolerance = &scenario.problem.tolerance;
-    let turned = hypot(tolerance.incidence, tolerance.azimuth);
     let shifts = [
         tolerance.aim_along,
         tolerance.aim_across,
         tolerance.aim_above,
     ];
     let shifted = shifts.iter().map(|it| it * it).sum::<f64>().sqrt();
-    reach(scenario, settings) * turned + tolerance.standoff + shifted
+    reach(scenario, settings) * tolerance::turn(scenario) + tolerance.standoff + shifted
 }
 
 /// Infeasible because the jet leaves through the nozzle's own body.
@@ -392,6 +372,10 @@ impl Obstacle {
                 scenario.scene.surfaces()[surface as usize]
             ),
             Self::Body => "the jet leaves through the nozzle's own body".into(),
+            Self::Carried(surface) => format!(
+                "a part on the nozzle meets {}",
+                scenario.scene.surfaces()[surface as usize]
+            ),
         }
     }
 }

@@ -5,6 +5,7 @@
 
 mod build;
 mod bvh8;
+pub(crate) mod carried;
 mod clearance;
 mod cut;
 mod departure;

@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use nalgebra::{Point3, Vector3};
 
+use super::carried::Pieces;
 use super::geometry::Geometry;
 use super::mesh::{Shell, Shells};
 use super::parry_rays::ParryMesh;
@@ -29,6 +30,8 @@ pub(super) struct BuiltPart {
     anchor: Option<(Point3<f64>, bool)>,
     /// Whether its frame is the nozzle's.
     pub on_nozzle: bool,
+    /// The convex pieces that cover it; made when first asked for.
+    pieces: OnceLock<Pieces>,
     prism: Option<Prism>,
     /// What parry casts rays at, where it is to.
     parry: Option<ParryMesh>,
@@ -76,6 +79,7 @@ impl BuiltPart {
             solid: OnceLock::new(),
             anchor: None,
             on_nozzle: part.on_nozzle,
+            pieces: OnceLock::new(),
             is_block: matches!(part.shape, Shape::Box { .. }) && part.cut.is_empty(),
             round: match part.shape {
                 Shape::Bore {
@@ -91,6 +95,11 @@ impl BuiltPart {
                 Prism::new(&profile, length, ends, &part.place, surface_base, slack)
             }),
         }
+    }
+
+    /// The convex pieces that cover it, in its own frame.
+    pub fn pieces(&self) -> &Pieces {
+        self.pieces.get_or_init(|| Pieces::of(&self.facets))
     }
 
     /// Whether a point is inside its material, where its shape tells: a block, or the solid bodies of a

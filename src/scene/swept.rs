@@ -167,7 +167,8 @@ impl Scene {
         let mut nearest: Option<(f64, u32)> = None;
         for part in self.parts.iter().filter(|part| !part.on_nozzle) {
             let bound = nearest.map_or(limit, |(gap, _)| gap);
-            if let Some((distance, triangle)) = part.facets.distance_to_swept(swept, bound) {
+            let found = part.facets.distance_to_convex(swept, swept.middle(), bound);
+            if let Some((distance, triangle)) = found {
                 nearest = Some((distance, part.facets.surface(triangle)));
             }
         }
@@ -176,7 +177,14 @@ impl Scene {
 }
 
 impl TriangleMesh {
-    fn distance_to_swept(&self, swept: &Swept, limit: f64) -> Option<(f64, u32)> {
+    /// Distance between something convex with a line in its middle and the nearest triangle, and that triangle; 0 where
+    /// they meet, `None` where everything is farther than `limit`.
+    pub(super) fn distance_to_convex(
+        &self,
+        swept: &impl SupportMap,
+        line: Segment,
+        limit: f64,
+    ) -> Option<(f64, u32)> {
         let axes = [Vector::X, Vector::Y, Vector::Z];
         let reach = |sign: f64| axes.map(|axis| swept.local_support_point(axis * sign).dot(axis));
         let (low, high) = (
@@ -186,7 +194,7 @@ impl TriangleMesh {
         let convex = Convex {
             low,
             high,
-            line: swept.middle(),
+            line,
             height: |toward: Vector| swept.local_support_point(toward).dot(toward),
         };
         self.nearest_triangle(limit, &convex, |triangle, limit| {
@@ -196,7 +204,7 @@ impl TriangleMesh {
 }
 
 /// Distance between what is swept and a triangle, as far as it is below a limit.
-fn distance(swept: &Swept, triangle: &parry3d_f64::shape::Triangle, limit: f64) -> f64 {
+fn distance(swept: &impl SupportMap, triangle: &parry3d_f64::shape::Triangle, limit: f64) -> f64 {
     let there = Pose::IDENTITY;
     let mut simplex = VoronoiSimplex::new();
     let towards = triangle.a - swept.local_support_point(Vector::X);

@@ -92,6 +92,11 @@ impl TriangleMesh {
         &self.meshlets[leaf as usize]
     }
 
+    /// The corner points of all triangles, each once.
+    pub(super) fn vertices(&self) -> &[Point3<f64>] {
+        &self.vertices
+    }
+
     /// The corner points of a triangle.
     pub fn corners(&self, index: u32) -> [Point3<f64>; 3] {
         self.corners[index as usize].map(|corner| self.vertices[corner as usize])

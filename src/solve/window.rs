@@ -295,7 +295,7 @@ impl Asked<'_> {
         if let Some(infeasible) = infeasibility(self.scenario, settings) {
             return Some(match infeasible.obstacle {
                 Obstacle::Surface(_) => Turn::Clearance,
-                Obstacle::Material(_) | Obstacle::Body => Turn::FreeSpace,
+                Obstacle::Material(_) | Obstacle::Body | Obstacle::Carried(_) => Turn::FreeSpace,
             });
         }
         let none = || ViolationCounts::none(self.standing[0]);

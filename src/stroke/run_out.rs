@@ -70,7 +70,7 @@ fn harm(scenario: &Scenario, place: f64, settings: &Settings) -> Option<Subject>
     if let Some(infeasible) = infeasibility(&station.scenario, settings) {
         return Some(match infeasible.obstacle {
             Obstacle::Surface(_) => Subject::Clearance,
-            Obstacle::Material(_) | Obstacle::Body => Subject::FreeSpace,
+            Obstacle::Material(_) | Obstacle::Body | Obstacle::Carried(_) => Subject::FreeSpace,
         });
     }
     let fails =

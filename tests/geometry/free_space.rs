@@ -8,11 +8,11 @@ use std::path::Path;
 
 use nalgebra::{Point3, Vector3};
 use peenpose::control::Control;
-use peenpose::feasibility::{Obstacle, gap_within_tolerance, infeasibility};
+use peenpose::feasibility::{Infeasible, Obstacle, gap_within_tolerance, infeasibility};
 use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::model::Effect;
 use peenpose::problem::part::{Part, Place, Shape};
-use peenpose::problem::setting::Setting;
+use peenpose::problem::setting::{Range, Setting, Tolerance};
 use peenpose::scenario::Scenario;
 use peenpose::scene::{Scene, Walls};
 use peenpose::solve::{passing_windows, solve, spread_settings};
@@ -67,6 +67,7 @@ fn a_nozzle_in_the_metal_is_named() {
             "exit_wider_than_slot",
             "the nozzle comes too near to left.x_max",
         ),
+        ("pin_in_bore_wall", "a part on the nozzle meets hole.wall"),
     ] {
         let scenario = shipped(name);
         let found = infeasibility(&scenario, &only(&scenario)).expect("it is infeasible");
@@ -100,6 +101,49 @@ fn a_model_without_an_effect_has_the_same_nozzle() {
         }
     }
     assert!(infeasible > 20, "{infeasible}");
+}
+
+/// The pin of a lance in a bore: where it fits with every error of the tolerance, it fits with each.
+#[test]
+fn a_pin_on_the_nozzle_fits_with_every_error_of_its_tolerance() {
+    let mut scenario = Scenario::load("problems/deflector.yaml".as_ref())
+        .expect("it is sound")
+        .0;
+    scenario.problem.nozzle.body.clear();
+    scenario.problem.nozzle.clearance = 0.0;
+    scenario.problem.ranges.aim_above = Range {
+        min: 1e-3,
+        max: 9e-3,
+    };
+    let mut exact = scenario.clone();
+    exact.problem.tolerance = Tolerance::default();
+    let moved = [
+        Setting::Incidence,
+        Setting::Azimuth,
+        Setting::Standoff,
+        Setting::AimAcross,
+        Setting::AimAbove,
+    ];
+    let is_carried = |found: Infeasible| matches!(found.obstacle, Obstacle::Carried(_));
+    let (mut met, mut fitted) = (0, 0);
+    for settings in spread_settings(&scenario, 0, 64) {
+        if let Some(found) = infeasibility(&scenario, &settings) {
+            met += usize::from(is_carried(found));
+            assert!(found.violation > 0.0);
+            continue;
+        }
+        fitted += 1;
+        for errors in 0..1 << moved.len() {
+            let pairs = moved.iter().enumerate();
+            let set = pairs.fold(settings, |set, (index, setting)| {
+                let sign = if errors >> index & 1 == 0 { -1.0 } else { 1.0 };
+                let error = sign * scenario.problem.tolerance.half_width(*setting);
+                setting.with(&set, setting.of(&set) + error)
+            });
+            assert_eq!(infeasibility(&exact, &set), None, "{set:?}");
+        }
+    }
+    assert!(met > 8 && fitted > 8, "{met} {fitted}");
 }
 
 /// Every kind of mesh, what is decided about it, and that nothing passes from inside.

@@ -301,9 +301,9 @@ pub(in crate::problem) enum BaseEntry {
 /// `rotate` are in the frame of the nozzle then. That has its origin in the centre of the exit and z
 /// along the jet; y lies in the target's plane, and at azimuth 0 x points away from the target the
 /// flatter the jet is. `place: nozzle` puts a part there unmoved. Shots hit such parts like any
-/// other, each shot where its own setup error takes the nozzle. They cannot hold the target, and the
-/// clearance is not measured to or from them: pieces of [`nozzle.body`](#nozzle) stand for what of
-/// them must keep clear.
+/// other, each shot where its own setup error takes the nozzle. They cannot hold the target. With no
+/// error of the tolerance may they meet what stands in the scene; `nozzle.clearance` is not measured
+/// from them: what of them must keep farther off is a piece of [`nozzle.body`](#nozzle), too.
 ///
 /// ```yaml
 /// scene:

@@ -1,0 +1,52 @@
+//! Parts that move with the nozzle, such as a deflector pin on a lance, must not meet what stands in the scene.
+
+use nalgebra::Vector3;
+
+use super::{Infeasible, Obstacle, aim, half_way, room_for_errors, tolerance};
+use crate::jet::Pose;
+use crate::problem::setting::Settings;
+use crate::scenario::Scenario;
+use crate::scene::carried::CarriedWay;
+
+/// Nearer than this, m, two walls touch.
+const TOUCH: f64 = 1e-9;
+
+/// Infeasible because a part that moves with the nozzle meets one that stands in the scene.
+pub(super) fn carried_meets(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
+    if !scenario.scene.moves_with_nozzle() {
+        return None;
+    }
+    let carried = scenario.scene.carried_reach();
+    let room = room_for_errors(scenario, settings) + carried * tolerance::turn(scenario);
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let axes = |pose: &Pose| [pose.up, pose.side, pose.direction];
+    let as_set = CarriedWay {
+        aim: aim(&pose, settings),
+        shifts: [
+            half_way(scenario),
+            Vector3::zeros(),
+            Vector3::zeros(),
+            Vector3::zeros(),
+        ],
+        axes: vec![axes(&pose)],
+        standoff: [settings.standoff; 2],
+    };
+    let (gap, surface) = scenario.scene.distance_to_carried(&as_set, room + TOUCH)?;
+    let infeasible = |violation: f64, surface: u32| Infeasible {
+        violation,
+        obstacle: Obstacle::Carried(surface),
+    };
+    if gap <= TOUCH {
+        return Some(infeasible(room + carried, surface));
+    }
+    let poses = tolerance::poses(scenario, settings);
+    let within = CarriedWay {
+        shifts: tolerance::shifts(scenario),
+        axes: poses.iter().map(axes).collect(),
+        standoff: tolerance::standoffs(scenario, settings),
+        ..as_set
+    };
+    let sag = tolerance::sag(scenario, settings.standoff + carried);
+    let (_, surface) = scenario.scene.distance_to_carried(&within, sag + TOUCH)?;
+    Some(infeasible(room - gap + TOUCH, surface))
+}
