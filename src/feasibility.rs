@@ -2,17 +2,18 @@
 //! of its own jet, for every pose within the setup tolerance.
 
 mod carried;
+mod own_jet;
 mod tolerance;
 
 use nalgebra::Vector3;
 
-use crate::elementary::{cos, hypot, tan};
 use crate::jet::Pose;
 use crate::problem::equipment::Body;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::swept::{Core, Directions, Swept};
 use carried::carried_meets;
+use own_jet::through_own_body;
 
 /// Why the nozzle cannot be where settings put it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,8 +198,8 @@ fn aim(pose: &Pose, settings: &Settings) -> nalgebra::Point3<f64> {
     pose.exit + pose.direction * settings.standoff
 }
 
-/// What must not touch a wall, each with a radius round it, m: the nozzle's body, or else the disc of the
-/// exit grown by the radius of a shot.
+/// What must not touch a wall, each with a radius round it, m: the nozzle's body, and the disc of an exit that is wider
+/// than that; without a body the disc grown by the radius of a shot.
 fn cores(scenario: &Scenario) -> impl Iterator<Item = (Core, f64)> + '_ {
     let problem = &scenario.problem;
     let bodies = problem.nozzle.body.iter().map(|body| match *body {
@@ -212,18 +213,27 @@ fn cores(scenario: &Scenario) -> impl Iterator<Item = (Core, f64)> + '_ {
     let disc = Core::Disc {
         radius: problem.jet.exit_diameter / 2.0,
     };
-    let exit = problem
-        .nozzle
-        .body
-        .is_empty()
-        .then_some((disc, problem.shot.radius));
+    let grown_by = match problem.nozzle.body.is_empty() {
+        true => problem.shot.radius,
+        false => 0.0,
+    };
+    let exit = is_exit_bare(scenario).then_some((disc, grown_by));
     bodies.chain(exit)
+}
+
+/// Whether the exit is wider than every piece of the body round it, or has none.
+fn is_exit_bare(scenario: &Scenario) -> bool {
+    let problem = &scenario.problem;
+    let radii = problem.nozzle.body.iter().map(|body| match *body {
+        Body::Ball { radius } | Body::Capsule { radius, .. } => radius,
+    });
+    radii.fold(0.0, f64::max) < problem.jet.exit_diameter / 2.0 || problem.nozzle.body.is_empty()
 }
 
 fn gap_as_set(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap> {
     let pose = Pose::new(&scenario.target.frame, settings);
     let nozzle = &scenario.problem.nozzle;
-    if !nozzle.body.is_empty() && scenario.sweep.is_none() {
+    if !is_exit_bare(scenario) && scenario.sweep.is_none() {
         let found = scenario
             .scene
             .clearance(nozzle, &pose.exit, &pose.direction, limit);
@@ -311,49 +321,6 @@ fn room_for_errors(scenario: &Scenario, settings: &Settings) -> f64 {
     let shifted = shifts.iter().map(|it| it * it).sum::<f64>().sqrt();
     reach(scenario, settings) * tolerance::turn(scenario) + tolerance.standoff + shifted
 }
-
-/// Infeasible because the jet leaves through the nozzle's own body.
-fn through_own_body(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<Infeasible> {
-    let overlap = overlap_with_jet(scenario, settings, pose)?;
-    Some(Infeasible {
-        violation: scenario.problem.nozzle.clearance + overlap,
-        obstacle: Obstacle::Body,
-    })
-}
-
-/// How far, m, a jet goes along inside a lance of its own beyond the round end at the exit.
-///
-/// A lance in a fixed direction may have its exit in its side, but a jet that leaves it farther back than
-/// half its radius goes through it. A part that moves with the nozzle may turn the jet before.
-fn overlap_with_jet(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Option<f64> {
-    if scenario.scene.moves_with_nozzle() {
-        return None;
-    }
-    let tolerance = &scenario.problem.tolerance;
-    let errors = hypot(
-        tolerance.incidence,
-        tolerance.azimuth * cos(settings.incidence),
-    );
-    let spread = scenario.problem.jet.divergence + errors;
-    let bodies = scenario.problem.nozzle.body.iter();
-    let overlaps = bodies.filter_map(|body| match *body {
-        Body::Capsule {
-            length,
-            radius,
-            direction: Some(direction),
-        } => {
-            let angle = (pose.direction.angle(&direction) - spread).max(0.0);
-            let back = (radius / tan(angle)).min(length);
-            let is_through = angle < std::f64::consts::FRAC_PI_2 && back > SIDE_EXIT * radius;
-            is_through.then_some(back - SIDE_EXIT * radius)
-        }
-        _ => None,
-    });
-    overlaps.reduce(f64::max)
-}
-
-/// An exit in the side of a lance reaches back from its end by up to this share of its radius.
-const SIDE_EXIT: f64 = 0.5;
 
 impl Obstacle {
     /// What is in the way, in words: `the nozzle's exit is inside "hub"`.

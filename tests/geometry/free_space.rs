@@ -67,7 +67,15 @@ fn a_nozzle_in_the_metal_is_named() {
             "exit_wider_than_slot",
             "the nozzle comes too near to left.x_max",
         ),
+        (
+            "exit_wider_than_body",
+            "the nozzle comes too near to left.x_max",
+        ),
         ("pin_in_bore_wall", "a part on the nozzle meets hole.wall"),
+        (
+            "jet_through_lance_with_bracket",
+            "the jet leaves through the nozzle's own body",
+        ),
     ] {
         let scenario = shipped(name);
         let found = infeasibility(&scenario, &only(&scenario)).expect("it is infeasible");
