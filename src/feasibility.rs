@@ -1,6 +1,7 @@
 //! Whether the nozzle can be where settings put it: in free space, clear of every wall, and not in the way
 //! of its own jet, for every pose within the setup tolerance.
 
+mod between;
 mod carried;
 mod own_jet;
 mod tolerance;
@@ -12,6 +13,7 @@ use crate::problem::equipment::Body;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::swept::{Core, Directions, Swept};
+use between::infeasible_between;
 use carried::carried_meets;
 use own_jet::through_own_body;
 
@@ -48,10 +50,11 @@ pub struct Gap {
 
 /// Why settings are infeasible; `None` where they are feasible.
 ///
-/// Of a stroke it is the worst of its stations.
+/// Of a stroke it is the worst of its stations, or what is in the way between two of them.
 pub fn infeasibility(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
     if !is_straight(scenario) {
-        return worst_standing(standing(scenario), settings);
+        return worst_standing(standing(scenario), settings)
+            .or_else(|| infeasible_between(scenario, settings));
     }
     let beyond = standing(scenario).filter(|it| it.in_run_out);
     if let Some(infeasible) = worst_standing(beyond, settings) {

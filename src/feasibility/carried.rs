@@ -18,19 +18,7 @@ pub(super) fn carried_meets(scenario: &Scenario, settings: &Settings) -> Option<
     }
     let carried = scenario.scene.carried_reach();
     let room = room_for_errors(scenario, settings) + carried * tolerance::turn(scenario);
-    let pose = Pose::new(&scenario.target.frame, settings);
-    let axes = |pose: &Pose| [pose.up, pose.side, pose.direction];
-    let as_set = CarriedWay {
-        aim: aim(&pose, settings),
-        shifts: [
-            half_way(scenario),
-            Vector3::zeros(),
-            Vector3::zeros(),
-            Vector3::zeros(),
-        ],
-        axes: vec![axes(&pose)],
-        standoff: [settings.standoff; 2],
-    };
+    let as_set = as_set(scenario, settings);
     let (gap, surface) = scenario.scene.distance_to_carried(&as_set, room + TOUCH)?;
     let infeasible = |violation: f64, surface: u32| Infeasible {
         violation,
@@ -42,11 +30,43 @@ pub(super) fn carried_meets(scenario: &Scenario, settings: &Settings) -> Option<
     let poses = tolerance::poses(scenario, settings);
     let within = CarriedWay {
         shifts: tolerance::shifts(scenario),
-        axes: poses.iter().map(axes).collect(),
+        axes: poses.iter().map(axes_of).collect(),
         standoff: tolerance::standoffs(scenario, settings),
         ..as_set
     };
     let sag = tolerance::sag(scenario, settings.standoff + carried);
     let (_, surface) = scenario.scene.distance_to_carried(&within, sag + TOUCH)?;
     Some(infeasible(room - gap + TOUCH, surface))
+}
+
+/// How far the parts that move with the nozzle as it is set are from what stands in the scene, less what they may be turned
+/// nearer within the tolerance, m; infinite where there are none.
+pub(super) fn carried_gap(scenario: &Scenario, settings: &Settings) -> f64 {
+    if !scenario.scene.moves_with_nozzle() {
+        return f64::INFINITY;
+    }
+    let nearest = scenario
+        .scene
+        .distance_to_carried(&as_set(scenario, settings), f64::INFINITY);
+    let turned = scenario.scene.carried_reach() * tolerance::turn(scenario);
+    nearest.map_or(f64::INFINITY, |(gap, _)| gap - turned)
+}
+
+fn as_set(scenario: &Scenario, settings: &Settings) -> CarriedWay {
+    let pose = Pose::new(&scenario.target.frame, settings);
+    CarriedWay {
+        aim: aim(&pose, settings),
+        shifts: [
+            half_way(scenario),
+            Vector3::zeros(),
+            Vector3::zeros(),
+            Vector3::zeros(),
+        ],
+        axes: vec![axes_of(&pose)],
+        standoff: [settings.standoff; 2],
+    }
+}
+
+fn axes_of(pose: &Pose) -> [Vector3<f64>; 3] {
+    [pose.up, pose.side, pose.direction]
 }

@@ -217,6 +217,27 @@ impl Traverse {
         is_straight.then_some(half)
     }
 
+    /// No point so far from the aim point that moves with it, m, moves by more than this between two places, m.
+    pub fn motion(&self, places: [f64; 2], reach: f64) -> f64 {
+        match &self.way {
+            Way::Knots(knots) => {
+                let [from, to] =
+                    places.map(|place| self.whole * (place_in(self.span, place) + 0.5));
+                let turns = knots.windows(2).map(|pair| {
+                    let [begin, end] = [pair[0].travelled, pair[1].travelled];
+                    let passed = (to.min(end) - from.max(begin)).max(0.0) / (end - begin);
+                    passed * turned_between(&pair[0].frame, &pair[1].frame)
+                });
+                (to - from).abs() + reach * turns.sum::<f64>()
+            }
+            Way::Around { helix, base, .. } => {
+                let [from, to] = places.map(|place| self.angle_at(place));
+                let radius = outwards(helix, &base.aim).norm() + reach;
+                (to - from).abs() * (radius + helix.pitch.abs() / std::f64::consts::TAU)
+            }
+        }
+    }
+
     /// The aim point and the directions at a place.
     #[inline(always)]
     pub fn frame_at(&self, place: f64) -> Frame {
@@ -252,6 +273,15 @@ fn turned(helix: &Helix, base: &Frame, angle: f64) -> Frame {
         across: turn * base.across,
     }
 }
+
+/// A bound of how far directions turn from one frame to another, rad: mixed and made unit vectors again, they turn
+/// fastest in the middle.
+fn turned_between(a: &Frame, b: &Frame) -> f64 {
+    FASTEST * (a.normal.angle(&b.normal) + a.along.angle(&b.along))
+}
+
+/// How much faster than on the mean that is at most, for frames that differ by less than 90 deg.
+const FASTEST: f64 = 1.3;
 
 /// The frame after some way; straight on beyond the ends.
 #[inline(always)]

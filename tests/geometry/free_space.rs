@@ -111,6 +111,58 @@ fn a_model_without_an_effect_has_the_same_nozzle() {
     assert!(infeasible > 20, "{infeasible}");
 }
 
+/// A post beside a stroke that turns a corner, wherever its stations are; and how near the nozzle may pass it.
+#[test]
+fn a_nozzle_that_turns_a_corner_is_clear_between_its_stations() {
+    let path = "tests/free_space/post_between_stations.yaml";
+    let text = std::fs::read_to_string(path).expect("it is shipped");
+    let folder = tempfile::tempdir().expect("there is space");
+    let file = folder.path().join("post.yaml");
+    for stations in [3, 4, 7, 20] {
+        for (beside, fits) in [(3.0, false), (4.9, false), (5.2, true)] {
+            let text = text.replace("stations: 3 ", &format!("stations: {stations} "));
+            let post = format!("min: [6.9, {beside}, 0], max: [7.1, {}, 60]", beside + 0.2);
+            let text = text.replace("min: [6.9, 3, 0], max: [7.1, 3.2, 60]", &post);
+            std::fs::write(&file, text).expect("it can be written");
+            let scenario = Scenario::load(&file).expect("it is sound").0;
+            let settings = spread_settings(&scenario, 0, 1)[0];
+            let found = infeasibility(&scenario, &settings);
+            assert_eq!(found.is_none(), fits, "{stations} {beside}: {found:?}");
+        }
+    }
+}
+
+/// What moves with the aim point never moves farther than it is said to: on a line that turns with the wall of a bore, past
+/// a corner, and round an axis.
+#[test]
+fn nothing_moves_farther_along_a_stroke_than_its_bound() {
+    const REACH: f64 = 0.02;
+    for path in [
+        "tests/free_space/line_round_a_bore.yaml",
+        "tests/free_space/post_between_stations.yaml",
+        "problems/bore-turning.yaml",
+    ] {
+        let scenario = Scenario::load(path.as_ref()).expect("it is sound").0;
+        let traverse = scenario.traverse.as_ref().expect("it has a stroke");
+        let mut closest = 0.0_f64;
+        for index in 0..4000_u32 {
+            let at = |axis| f64::from(sobol_burley::sample(index, axis, 7));
+            let from = 1.4 * at(0) - 0.7;
+            let to = from + 0.02 * at(1);
+            let there = Vector3::new(at(2) - 0.5, at(3) - 0.5, at(4) - 0.5).normalize() * REACH;
+            let [a, b] = [from, to].map(|place| {
+                let frame = traverse.frame_at(place);
+                frame.aim + frame.along * there.x + frame.across * there.y + frame.normal * there.z
+            });
+            let bound = traverse.motion([from, to], REACH);
+            assert!((b - a).norm() <= bound + 1e-12, "{path} {from} {to}");
+            closest = closest.max((b - a).norm() / bound.max(1e-12));
+        }
+        // A bound that is far too large would cost as much as none.
+        assert!(closest > 0.5, "{path}: {closest}");
+    }
+}
+
 /// The pin of a lance in a bore: where it fits with every error of the tolerance, it fits with each.
 #[test]
 fn a_pin_on_the_nozzle_fits_with_every_error_of_its_tolerance() {
