@@ -14,6 +14,7 @@ use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::swept::{Core, Directions, Swept};
 use between::infeasible_between;
+pub use between::infeasible_on_way;
 use carried::carried_meets;
 use own_jet::through_own_body;
 

@@ -23,28 +23,25 @@ struct Stop {
 
 /// Why settings are infeasible between two stations at which they are feasible; `None` where they are not.
 pub(super) fn infeasible_between(scenario: &Scenario, settings: &Settings) -> Option<Infeasible> {
-    let traverse = scenario.traverse.as_ref()?;
-    let lengths = cores(scenario).map(|(core, _)| match core {
-        Core::Exit => 0.0,
-        Core::Line { length, .. } => length,
-        Core::Disc { radius } => radius,
-    });
-    let longest = lengths.fold(scenario.scene.carried_reach(), f64::max);
-    let between = Between {
-        scenario,
-        settings,
-        traverse,
-        reach: settings.standoff + longest,
-    };
+    let between = Between::new(scenario, settings)?;
     let stops = scenario.stations.iter();
     let mut stops: Vec<Stop> = stops
         .map(|it| between.stop(it.place, &it.scenario))
         .collect();
     stops.sort_by(|a, b| a.place.total_cmp(&b.place));
-    let pairs = stops.windows(2);
-    pairs
-        .into_iter()
-        .find_map(|pair| between.look(pair[0], pair[1]))
+    let mut pairs = stops.windows(2);
+    pairs.find_map(|pair| between.look(pair[0], pair[1]))
+}
+
+/// The same on the way from one place of a stroke to another.
+pub fn infeasible_on_way(
+    scenario: &Scenario,
+    settings: &Settings,
+    places: [f64; 2],
+) -> Option<Infeasible> {
+    let between = Between::new(scenario, settings)?;
+    let [from, to] = places.map(|place| between.stop(place, &scenario.standing_at(place)));
+    between.look(from, to)
 }
 
 struct Between<'a> {
@@ -55,7 +52,23 @@ struct Between<'a> {
     reach: f64,
 }
 
-impl Between<'_> {
+impl<'a> Between<'a> {
+    /// `None` for a spot.
+    fn new(scenario: &'a Scenario, settings: &'a Settings) -> Option<Self> {
+        let lengths = cores(scenario).map(|(core, _)| match core {
+            Core::Exit => 0.0,
+            Core::Line { length, .. } => length,
+            Core::Disc { radius } => radius,
+        });
+        let longest = lengths.fold(scenario.scene.carried_reach(), f64::max);
+        Some(Self {
+            scenario,
+            settings,
+            traverse: scenario.traverse.as_ref()?,
+            reach: settings.standoff + longest,
+        })
+    }
+
     fn stop(&self, place: f64, standing: &Scenario) -> Stop {
         let clearance = standing.problem.nozzle.clearance;
         let gap = gap_as_set(standing, self.settings, f64::INFINITY);

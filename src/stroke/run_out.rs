@@ -1,6 +1,6 @@
 //! How far the nozzle travels beyond an end of a stroke, so that the whole spot passes the end of the target.
 
-use crate::feasibility::{Obstacle, infeasibility};
+use crate::feasibility::{Obstacle, infeasibility, infeasible_on_way};
 use crate::problem::setting::Settings;
 use crate::problem::stroke::{Leg, WHOLE};
 use crate::scenario::Scenario;
@@ -53,7 +53,7 @@ impl RunOut {
             let reach = spot.map_or(0.0, |spot| spot.reach(&-onwards));
             let wanted = left.fold(0.0, f64::max) + reach;
             let (length, limit) = farthest(wanted, |length| {
-                harm(scenario, traverse.beyond(end, length), settings)
+                harm(scenario, [end, traverse.beyond(end, length)], settings)
             });
             Self {
                 length,
@@ -64,10 +64,13 @@ impl RunOut {
     }
 }
 
-/// What fails at a place of a run-out: the nozzle does not fit, or a surface other than the target receives too much.
-fn harm(scenario: &Scenario, place: f64, settings: &Settings) -> Option<Subject> {
+/// What fails at a place of a run-out: the nozzle does not fit there or on the way there from the end of the stroke, or a
+/// surface other than the target receives too much.
+fn harm(scenario: &Scenario, [end, place]: [f64; 2], settings: &Settings) -> Option<Subject> {
     let station = scenario.station(place);
-    if let Some(infeasible) = infeasibility(&station.scenario, settings) {
+    let infeasible = infeasibility(&station.scenario, settings)
+        .or_else(|| infeasible_on_way(scenario, settings, [end.min(place), end.max(place)]));
+    if let Some(infeasible) = infeasible {
         return Some(match infeasible.obstacle {
             Obstacle::Surface(_) => Subject::Clearance,
             Obstacle::Material(_) | Obstacle::Body | Obstacle::Carried(_) => Subject::FreeSpace,

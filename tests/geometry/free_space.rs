@@ -13,9 +13,11 @@ use peenpose::problem::fault_code::FaultCode;
 use peenpose::problem::model::Effect;
 use peenpose::problem::part::{Part, Place, Shape};
 use peenpose::problem::setting::{Range, Setting, Tolerance};
+use peenpose::problem::stroke::Leg;
 use peenpose::scenario::Scenario;
 use peenpose::scene::{Scene, Walls};
 use peenpose::solve::{passing_windows, solve, spread_settings};
+use peenpose::stroke::Program;
 use peenpose::verdict::Subject;
 use rayon::prelude::*;
 
@@ -129,6 +131,27 @@ fn a_nozzle_that_turns_a_corner_is_clear_between_its_stations() {
             let found = infeasibility(&scenario, &settings);
             assert_eq!(found.is_none(), fits, "{stations} {beside}: {found:?}");
         }
+    }
+}
+
+/// A post that is thinner than the steps in which a run-out is tried ends it wherever it stands.
+#[test]
+fn a_thin_post_ends_a_run_out() {
+    let text = std::fs::read_to_string("tests/free_space/post_in_run_out.yaml");
+    let text = text.expect("it is shipped");
+    let folder = tempfile::tempdir().expect("there is space");
+    let file = folder.path().join("post.yaml");
+    for at in [18.3, 18.85, 19.4, 20.5] {
+        let post = format!("min: [{at}, 0.98, 0], max: [{}, 1.5, 60]", at + 0.01);
+        let text = text.replace("min: [20, 0.98, 0], max: [20.01, 1.5, 60]", &post);
+        std::fs::write(&file, text).expect("it can be written");
+        let scenario = Scenario::load(&file).expect("it is sound").0;
+        let legs = [Leg::whole(&spread_settings(&scenario, 0, 1)[0])];
+        let program = Program::of(&scenario, &legs).expect("it is a stroke");
+        let [before, after] = program.run_outs;
+        assert!(before.limit.is_none() && before.length > 4e-3, "{before:?}");
+        assert_eq!(after.limit, Some(Subject::Clearance), "{at}: {after:?}");
+        assert!(18e-3 + after.length < at * 1e-3, "{at}: {after:?}");
     }
 }
 
