@@ -82,7 +82,11 @@ impl<'a> Between<'a> {
 
     /// Why the nozzle does not fit between two stops.
     fn look(&self, from: Stop, to: Stop) -> Option<Infeasible> {
-        let motion = self.traverse.motion([from.place, to.place], self.reach);
+        let motion = match self.scenario.sweep {
+            // What goes straight on, or round a part that is round, is moved by its half way twice.
+            Some(half) => 2.0 * half.norm() * (to.place - from.place),
+            None => self.traverse.motion([from.place, to.place], self.reach),
+        };
         if motion <= RESOLUTION || from.room + to.room >= motion {
             return None;
         }

@@ -52,8 +52,9 @@ impl RunOut {
             let spot = Spot::of(scenario, settings);
             let reach = spot.map_or(0.0, |spot| spot.reach(&-onwards));
             let wanted = left.fold(0.0, f64::max) + reach;
-            let (length, limit) = farthest(wanted, |length| {
-                harm(scenario, [end, traverse.beyond(end, length)], settings)
+            let (length, limit) = farthest(wanted, |[from, to]| {
+                let places = [from, to].map(|length| traverse.beyond(end, length));
+                harm(scenario, places, settings)
             });
             Self {
                 length,
@@ -64,12 +65,12 @@ impl RunOut {
     }
 }
 
-/// What fails at a place of a run-out: the nozzle does not fit there or on the way there from the end of the stroke, or a
-/// surface other than the target receives too much.
-fn harm(scenario: &Scenario, [end, place]: [f64; 2], settings: &Settings) -> Option<Subject> {
+/// What fails at a place of a run-out: the nozzle does not fit there or on the way there from another place, or a surface
+/// other than the target receives too much.
+fn harm(scenario: &Scenario, [from, place]: [f64; 2], settings: &Settings) -> Option<Subject> {
     let station = scenario.station(place);
     let infeasible = infeasibility(&station.scenario, settings)
-        .or_else(|| infeasible_on_way(scenario, settings, [end.min(place), end.max(place)]));
+        .or_else(|| infeasible_on_way(scenario, settings, [from.min(place), from.max(place)]));
     if let Some(infeasible) = infeasible {
         return Some(match infeasible.obstacle {
             Obstacle::Surface(_) => Subject::Clearance,
@@ -87,12 +88,12 @@ fn harm(scenario: &Scenario, [end, place]: [f64; 2], settings: &Settings) -> Opt
 
 /// As far as nothing fails, to within a 32nd of a length, as the nozzle passes all that is nearer; and what fails farther
 /// out.
-fn farthest<T>(whole: f64, failing: impl Fn(f64) -> Option<T>) -> (f64, Option<T>) {
+fn farthest<T>(whole: f64, failing: impl Fn([f64; 2]) -> Option<T>) -> (f64, Option<T>) {
     let part = whole / f64::from(PARTS);
     let (mut length, mut limit) = (0.0, None);
     for parts in 1..=PARTS {
         let more = f64::from(parts) * part;
-        limit = failing(more);
+        limit = failing([length, more]);
         if limit.is_some() {
             break;
         }
@@ -101,7 +102,7 @@ fn farthest<T>(whole: f64, failing: impl Fn(f64) -> Option<T>) -> (f64, Option<T
     if limit.is_some() {
         for halving in 1..=HALVINGS {
             let more = length + part / f64::from(1_u32 << halving);
-            match failing(more) {
+            match failing([length, more]) {
                 None => length = more,
                 nearer => limit = nearer,
             }
@@ -117,14 +118,16 @@ mod tests {
     #[test]
     fn it_goes_as_far_as_nothing_fails() {
         for limit in [0.0, 0.02, 0.3, 2.6, 3.99, 4.0, 9.0] {
-            let (found, failing) = farthest(4.0, |length| (length > limit).then_some(length));
+            let (found, failing) = farthest(4.0, |[_, length]| (length > limit).then_some(length));
             let off = f64::min(limit, 4.0) - found;
             assert!((0.0..4.0 / 32.0).contains(&off), "{limit}: {found}");
             assert_eq!(failing.is_some(), limit < 4.0, "{limit}");
             assert!(failing.is_none_or(|it| it > limit), "{limit}: {failing:?}");
         }
         // What would do farther out cannot be reached.
-        let (found, _) = farthest(4.0, |length| ((length - 2.0).abs() < 0.3).then_some(()));
+        let (found, _) = farthest(4.0, |[_, length]| {
+            ((length - 2.0).abs() < 0.3).then_some(())
+        });
         assert!((1.5..1.7).contains(&found), "{found}");
         assert_eq!(farthest(0.0, |_| None::<()>), (0.0, None));
     }
