@@ -29,6 +29,13 @@ pub(super) fn infeasible_between(scenario: &Scenario, settings: &Settings) -> Op
         .map(|it| between.stop(it.place, &it.scenario))
         .collect();
     stops.sort_by(|a, b| a.place.total_cmp(&b.place));
+    for place in between.traverse.corners() {
+        let after = stops.partition_point(|stop| stop.place < place);
+        let is_new = stops.get(after).is_none_or(|stop| stop.place > place);
+        if is_new && after > 0 && after < stops.len() {
+            stops.insert(after, between.stop(place, &scenario.standing_at(place)));
+        }
+    }
     let mut pairs = stops.windows(2);
     pairs.find_map(|pair| between.look(pair[0], pair[1]))
 }
@@ -91,7 +98,11 @@ impl<'a> Between<'a> {
             return None;
         }
         let place = f64::midpoint(from.place, to.place);
-        let standing = self.scenario.standing_at(place);
+        let mut standing = self.scenario.standing_at(place);
+        if let Some(half) = self.traverse.straight_half([from.place, to.place]) {
+            standing.sweep = Some(half);
+            return infeasibility(&standing, self.settings);
+        }
         infeasibility(&standing, self.settings).or_else(|| {
             let middle = self.stop(place, &standing);
             self.look(from, middle).or_else(|| self.look(middle, to))

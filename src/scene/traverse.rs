@@ -217,6 +217,34 @@ impl Traverse {
         is_straight.then_some(half)
     }
 
+    /// The places of the corners of a line, in order; none round an axis.
+    pub fn corners(&self) -> Vec<f64> {
+        let Way::Knots(knots) = &self.way else {
+            return Vec::new();
+        };
+        let inner = &knots[1..knots.len() - 1];
+        let share = |knot: &Knot| knot.travelled / self.whole - 0.5;
+        let [from, to] = self.span;
+        inner
+            .iter()
+            .map(|knot| (share(knot) - from) / (to - from) - 0.5)
+            .collect()
+    }
+
+    /// Half the way between two places with no corner of a line in between, m, where no direction turns on it.
+    pub fn straight_half(&self, places: [f64; 2]) -> Option<Vector3<f64>> {
+        let Way::Knots(_) = &self.way else {
+            return None;
+        };
+        let [from, to] = places.map(|place| self.frame_at(place));
+        let has_corner = || {
+            let mut corners = self.corners().into_iter();
+            corners.any(|corner| places[0] + FLAT < corner && corner + FLAT < places[1])
+        };
+        let is_alike = from.normal == to.normal && from.along == to.along;
+        (is_alike && !has_corner()).then(|| (to.aim - from.aim) / 2.0)
+    }
+
     /// No point so far from the aim point that moves with it, m, moves by more than this between two places, m.
     pub fn motion(&self, places: [f64; 2], reach: f64) -> f64 {
         match &self.way {
