@@ -7,7 +7,7 @@ mod find;
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
 use super::patch::Frame;
-use crate::elementary::atan2;
+use crate::elementary::{atan2, tan};
 use crate::problem::stroke::{Helix, WHOLE, place_in};
 
 /// The way of the aim point over the target.
@@ -39,8 +39,8 @@ struct Knot {
     /// How far it has come, m.
     travelled: f64,
     frame: Frame,
-    /// Whether the directions change on the way to the next one.
-    turns: bool,
+    /// A bound of how far the directions turn on the way to the next one, rad; `None` where they stay.
+    turn: Option<f64>,
 }
 
 /// Normals that differ by less are the same.
@@ -254,7 +254,7 @@ impl Traverse {
                 let turns = knots.windows(2).map(|pair| {
                     let [begin, end] = [pair[0].travelled, pair[1].travelled];
                     let passed = (to.min(end) - from.max(begin)).max(0.0) / (end - begin);
-                    passed * turned_between(&pair[0].frame, &pair[1].frame)
+                    passed * pair[0].turn.unwrap_or(0.0)
                 });
                 (to - from).abs() + reach * turns.sum::<f64>()
             }
@@ -302,14 +302,21 @@ fn turned(helix: &Helix, base: &Frame, angle: f64) -> Frame {
     }
 }
 
-/// A bound of how far directions turn from one frame to another, rad: mixed and made unit vectors again, they turn
-/// fastest in the middle.
-fn turned_between(a: &Frame, b: &Frame) -> f64 {
-    FASTEST * (a.normal.angle(&b.normal) + a.along.angle(&b.along))
+/// A bound of how far directions turn from one frame to another, rad, as if all the way as fast as at most; `None` where
+/// they are the same. Mixed and made unit vectors again, vectors turn fastest in the middle: by 2 tan of half their angle.
+fn turn_between(a: &Frame, b: &Frame) -> Option<f64> {
+    let fastest = |a: &Vector3<f64>, b: &Vector3<f64>| {
+        let angle = a.angle(b).min(SHARPEST);
+        f64::max(LOOSE * angle, 2.0 * tan(angle / 2.0))
+    };
+    let is_same = a.normal == b.normal && a.along == b.along;
+    (!is_same).then(|| fastest(&a.normal, &b.normal) + fastest(&a.along, &b.along))
 }
 
-/// How much faster than on the mean that is at most, for frames that differ by less than 90 deg.
-const FASTEST: f64 = 1.3;
+/// Room for what making both directions of a frame square to each other adds.
+const LOOSE: f64 = 1.3;
+/// No line turns by more at a corner, rad: 170 deg.
+const SHARPEST: f64 = 2.967;
 
 /// The frame after some way; straight on beyond the ends.
 #[inline(always)]
@@ -320,7 +327,7 @@ fn between(knots: &[Knot], travelled: f64) -> Frame {
     let (a, b) = (&knots[next - 1], &knots[next]);
     let share = (travelled - a.travelled) / (b.travelled - a.travelled);
     let aim = a.frame.aim + (b.frame.aim - a.frame.aim) * share;
-    if a.turns {
+    if a.turn.is_some() {
         blend(&a.frame, &b.frame, share, aim)
     } else {
         Frame { aim, ..a.frame }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{FLAT, Knot, Traverse, Way, outwards};
+use super::{FLAT, Knot, Traverse, Way, outwards, turn_between};
 use crate::elementary::hypot;
 use crate::problem::Problem;
 use crate::problem::fault::Fault;
@@ -107,15 +107,14 @@ impl Surface<'_> {
             Knot {
                 travelled,
                 frame,
-                turns: false,
+                turn: None,
             }
         });
         let mut knots: Vec<Knot> = knots.collect();
         // Two places on one facet edge may be the same.
         knots.dedup_by(|next, knot| next.travelled <= knot.travelled);
         for next in 1..knots.len() {
-            let (here, there) = (&knots[next - 1].frame, &knots[next].frame);
-            knots[next - 1].turns = here.normal != there.normal || here.along != there.along;
+            knots[next - 1].turn = turn_between(&knots[next - 1].frame, &knots[next].frame);
         }
         Ok(Traverse {
             whole: knots.last().map_or(0.0, |knot| knot.travelled),
