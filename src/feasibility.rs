@@ -244,15 +244,8 @@ fn gap_as_set(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Ga
         return found.map(|(distance, surface)| Gap { distance, surface });
     }
     let swept = |core| Swept {
-        aim: aim(&pose, settings),
-        shifts: [
-            half_way(scenario),
-            Vector3::zeros(),
-            Vector3::zeros(),
-            Vector3::zeros(),
-        ],
+        aims: tolerance::aims_as_set(scenario, settings, &pose),
         directions: Directions::new(&[pose.direction]),
-        standoff: [settings.standoff; 2],
         core,
     };
     nearest(scenario, limit, 0.0, swept)
@@ -264,10 +257,8 @@ fn gap_swept(scenario: &Scenario, settings: &Settings, limit: f64) -> Option<Gap
     let directions: Vec<Vector3<f64>> = poses.iter().map(|pose| pose.direction).collect();
     let directions = Directions::new(&directions);
     let swept = |core| Swept {
-        aim: aim(&pose, settings),
-        shifts: tolerance::shifts(scenario),
+        aims: tolerance::aims(scenario, settings, &pose),
         directions: directions.clone(),
-        standoff: tolerance::standoffs(scenario, settings),
         core,
     };
     nearest(
@@ -303,13 +294,11 @@ fn nearest(
 /// The farthest point of the body from the aim point, m.
 fn reach(scenario: &Scenario, settings: &Settings) -> f64 {
     let lengths = cores(scenario).map(|(core, _)| match core {
-        Core::Exit => 0.0,
         // A lance in a fixed direction is shifted, not turned.
         Core::Line {
             direction: Some(_), ..
         } => 0.0,
-        Core::Line { length, .. } => length,
-        Core::Disc { radius } => radius,
+        core => core.length(),
     });
     settings.standoff + scenario.problem.tolerance.standoff + lengths.fold(0.0, f64::max)
 }
@@ -327,6 +316,11 @@ fn room_for_errors(scenario: &Scenario, settings: &Settings) -> f64 {
 }
 
 impl Obstacle {
+    /// Whether it is a wall that is nearer than the clearance; else the nozzle does not stand in free space.
+    pub fn is_near_wall(&self) -> bool {
+        matches!(self, Self::Surface(_))
+    }
+
     /// What is in the way, in words: `the nozzle's exit is inside "hub"`.
     pub fn reason(&self, scenario: &Scenario) -> String {
         match *self {

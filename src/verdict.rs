@@ -8,7 +8,7 @@ pub use stations::StationVerdicts;
 use serde::{Deserialize, Serialize};
 
 use crate::evaluate::{Evaluation, ViolationCounts};
-use crate::feasibility::{Infeasible, Obstacle, gap_within_tolerance};
+use crate::feasibility::{Infeasible, gap_within_tolerance};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use interval::Count;
@@ -120,7 +120,7 @@ impl Verdict {
         settings: &Settings,
         infeasible: Option<&Infeasible>,
     ) -> [Self; 2] {
-        let is_near = |it: &Infeasible| matches!(it.obstacle, Obstacle::Surface(_));
+        let is_near = |it: &Infeasible| it.obstacle.is_near_wall();
         let clearance = scenario.problem.nozzle.clearance;
         let is_nearer =
             || gap_within_tolerance(scenario, settings).is_some_and(|gap| gap.distance < clearance);

@@ -7,7 +7,6 @@ use super::carried::carried_gap;
 use super::{Infeasible, cores, gap_as_set, infeasibility, room_for_errors};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
-use crate::scene::swept::Core;
 use crate::scene::traverse::Traverse;
 
 /// A way on which no point of the nozzle moves farther than this, m, is not looked at: between its ends it may come
@@ -62,11 +61,7 @@ struct Between<'a> {
 impl<'a> Between<'a> {
     /// `None` for a spot.
     fn new(scenario: &'a Scenario, settings: &'a Settings) -> Option<Self> {
-        let lengths = cores(scenario).map(|(core, _)| match core {
-            Core::Exit => 0.0,
-            Core::Line { length, .. } => length,
-            Core::Disc { radius } => radius,
-        });
+        let lengths = cores(scenario).map(|(core, _)| core.length());
         let longest = lengths.fold(scenario.scene.carried_reach(), f64::max);
         Some(Self {
             scenario,
@@ -89,18 +84,23 @@ impl<'a> Between<'a> {
 
     /// Why the nozzle does not fit between two stops.
     fn look(&self, from: Stop, to: Stop) -> Option<Infeasible> {
-        let motion = match self.scenario.sweep {
-            // What goes straight on, or round a part that is round, is moved by its half way twice.
-            Some(half) => 2.0 * half.norm() * (to.place - from.place),
-            None => self.traverse.motion([from.place, to.place], self.reach),
+        let places = [from.place, to.place];
+        let straight = match self.scenario.sweep {
+            // Round a part that is round it is straight, too.
+            Some(half) => Some(half * (to.place - from.place)),
+            None => self.traverse.straight_half(places),
+        };
+        let motion = match straight {
+            Some(half) => 2.0 * half.norm(),
+            None => self.traverse.motion(places, self.reach),
         };
         if motion <= RESOLUTION || from.room + to.room >= motion {
             return None;
         }
         let place = f64::midpoint(from.place, to.place);
         let mut standing = self.scenario.standing_at(place);
-        if let Some(half) = self.traverse.straight_half([from.place, to.place]) {
-            standing.sweep = Some(half);
+        if straight.is_some() {
+            standing.sweep = straight;
             return infeasibility(&standing, self.settings);
         }
         infeasibility(&standing, self.settings).or_else(|| {

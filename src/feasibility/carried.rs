@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Infeasible, Obstacle, aim, half_way, room_for_errors, tolerance};
+use super::{Infeasible, Obstacle, room_for_errors, tolerance};
 use crate::jet::Pose;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
@@ -18,7 +18,8 @@ pub(super) fn carried_meets(scenario: &Scenario, settings: &Settings) -> Option<
     }
     let carried = scenario.scene.carried_reach();
     let room = room_for_errors(scenario, settings) + carried * tolerance::turn(scenario);
-    let as_set = as_set(scenario, settings);
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let as_set = as_set(scenario, settings, &pose);
     let (gap, surface) = scenario.scene.distance_to_carried(&as_set, room + TOUCH)?;
     let infeasible = |violation: f64, surface: u32| Infeasible {
         violation,
@@ -29,10 +30,8 @@ pub(super) fn carried_meets(scenario: &Scenario, settings: &Settings) -> Option<
     }
     let poses = tolerance::poses(scenario, settings);
     let within = CarriedWay {
-        shifts: tolerance::shifts(scenario),
+        aims: tolerance::aims(scenario, settings, &pose),
         axes: poses.iter().map(axes_of).collect(),
-        standoff: tolerance::standoffs(scenario, settings),
-        ..as_set
     };
     let sag = tolerance::sag(scenario, settings.standoff + carried);
     let (_, surface) = scenario.scene.distance_to_carried(&within, sag + TOUCH)?;
@@ -45,25 +44,17 @@ pub(super) fn carried_gap(scenario: &Scenario, settings: &Settings) -> f64 {
     if !scenario.scene.moves_with_nozzle() {
         return f64::INFINITY;
     }
-    let nearest = scenario
-        .scene
-        .distance_to_carried(&as_set(scenario, settings), f64::INFINITY);
+    let pose = Pose::new(&scenario.target.frame, settings);
+    let as_set = as_set(scenario, settings, &pose);
+    let nearest = scenario.scene.distance_to_carried(&as_set, f64::INFINITY);
     let turned = scenario.scene.carried_reach() * tolerance::turn(scenario);
     nearest.map_or(f64::INFINITY, |(gap, _)| gap - turned)
 }
 
-fn as_set(scenario: &Scenario, settings: &Settings) -> CarriedWay {
-    let pose = Pose::new(&scenario.target.frame, settings);
+fn as_set(scenario: &Scenario, settings: &Settings, pose: &Pose) -> CarriedWay {
     CarriedWay {
-        aim: aim(&pose, settings),
-        shifts: [
-            half_way(scenario),
-            Vector3::zeros(),
-            Vector3::zeros(),
-            Vector3::zeros(),
-        ],
-        axes: vec![axes_of(&pose)],
-        standoff: [settings.standoff; 2],
+        aims: tolerance::aims_as_set(scenario, settings, pose),
+        axes: vec![axes_of(pose)],
     }
 }
 

@@ -2,11 +2,12 @@
 
 use nalgebra::Vector3;
 
-use super::half_way;
+use super::{aim, half_way};
 use crate::elementary::hypot;
 use crate::jet::Pose;
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
+use crate::scene::swept::Aims;
 
 /// A grid of poses within the tolerance of the angles.
 pub(super) fn poses(scenario: &Scenario, asked: &Settings) -> Vec<Pose> {
@@ -32,24 +33,36 @@ pub(super) fn poses(scenario: &Scenario, asked: &Settings) -> Vec<Pose> {
         .collect()
 }
 
-/// Half the edges of the box of aim points within the tolerance, m, and half the way of a stroke.
-pub(super) fn shifts(scenario: &Scenario) -> [Vector3<f64>; 4] {
-    let (frame, tolerance) = (&scenario.target.frame, &scenario.problem.tolerance);
-    [
-        frame.along * tolerance.aim_along,
-        frame.across * tolerance.aim_across,
-        frame.normal * tolerance.aim_above,
-        half_way(scenario),
-    ]
+/// Where the jet of a pose is aimed as it is set; on a stroke that goes straight on, all along it.
+pub(super) fn aims_as_set(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Aims {
+    Aims {
+        centre: aim(pose, settings),
+        shifts: [
+            half_way(scenario),
+            Vector3::zeros(),
+            Vector3::zeros(),
+            Vector3::zeros(),
+        ],
+        standoff: [settings.standoff; 2],
+    }
 }
 
-/// The smallest and the largest standoff within the tolerance, m.
-pub(super) fn standoffs(scenario: &Scenario, settings: &Settings) -> [f64; 2] {
-    let error = scenario.problem.tolerance.standoff;
-    [
-        (settings.standoff - error).max(0.0),
-        settings.standoff + error,
-    ]
+/// The same with all errors of aim and standoff.
+pub(super) fn aims(scenario: &Scenario, settings: &Settings, pose: &Pose) -> Aims {
+    let (frame, tolerance) = (&scenario.target.frame, &scenario.problem.tolerance);
+    Aims {
+        centre: aim(pose, settings),
+        shifts: [
+            frame.along * tolerance.aim_along,
+            frame.across * tolerance.aim_across,
+            frame.normal * tolerance.aim_above,
+            half_way(scenario),
+        ],
+        standoff: [
+            (settings.standoff - tolerance.standoff).max(0.0),
+            settings.standoff + tolerance.standoff,
+        ],
+    }
 }
 
 /// Between two directions of the grid of [`poses`] what is so far from the aim point lies outside the

@@ -1,10 +1,11 @@
 //! Parts that move with the nozzle, as convex pieces that must not meet the parts that stand in the scene.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::{Segment, SupportMap};
 
 use super::Scene;
+use super::swept::Aims;
 use super::triangle_mesh::TriangleMesh;
 
 /// All places of one piece within the tolerance of the nozzle's settings.
@@ -17,14 +18,10 @@ struct SweptPiece<'a> {
 /// How a nozzle stands within the tolerance of its settings.
 #[derive(Clone, Debug)]
 pub struct CarriedWay {
-    /// Centre of the aim points, m.
-    pub aim: Point3<f64>,
-    /// Half the edges of their box, m, and half the way of a stroke.
-    pub shifts: [Vector3<f64>; 4],
+    /// Where the jets are aimed.
+    pub aims: Aims,
     /// The unit vectors of the nozzle's frame: z along the jet.
     pub axes: Vec<[Vector3<f64>; 3]>,
-    /// Smallest and largest standoff, m.
-    pub standoff: [f64; 2],
 }
 
 impl SupportMap for SweptPiece<'_> {
@@ -33,7 +30,7 @@ impl SupportMap for SweptPiece<'_> {
         let mut best = (f64::NEG_INFINITY, Vector3::zeros());
         for axes in &self.way.axes {
             let along = axes.map(|axis| axis.dot(&toward));
-            let [near, far] = self.way.standoff;
+            let [near, far] = self.way.aims.standoff;
             let standoff = if along[2] > 0.0 { near } else { far };
             for corner in self.corners {
                 let there = corner - Vector3::z() * standoff;
@@ -44,14 +41,7 @@ impl SupportMap for SweptPiece<'_> {
                 }
             }
         }
-        let shifts = self.way.shifts.iter().map(|shift| {
-            if shift.dot(&toward) < 0.0 {
-                -shift
-            } else {
-                *shift
-            }
-        });
-        (self.way.aim.coords + best.1 + shifts.sum::<Vector3<f64>>()).into()
+        (best.1 + self.way.aims.farthest(&toward)).into()
     }
 }
 
@@ -59,11 +49,11 @@ impl SweptPiece<'_> {
     /// A point in the middle of all.
     fn middle(&self) -> Segment {
         let centre = self.corners.iter().sum::<Vector3<f64>>() / self.corners.len() as f64;
-        let [near, far] = self.way.standoff;
-        let there = centre - Vector3::z() * ((near + far) / 2.0);
+        let aims = &self.way.aims;
+        let there = centre - Vector3::z() * aims.middle_standoff();
         let each = self.way.axes.iter();
         let each = each.map(|axes| axes[0] * there.x + axes[1] * there.y + axes[2] * there.z);
-        let middle = self.way.aim.coords + each.sum::<Vector3<f64>>() / self.way.axes.len() as f64;
+        let middle = aims.centre.coords + each.sum::<Vector3<f64>>() / self.way.axes.len() as f64;
         Segment::new(middle.into(), middle.into())
     }
 }
@@ -72,23 +62,12 @@ impl Scene {
     /// Distance between all places of the parts that move with the nozzle and the nearest surface of those that stand in
     /// the scene, and that surface; 0 where they meet, `None` where everything is farther than `limit`.
     pub fn distance_to_carried(&self, way: &CarriedWay, limit: f64) -> Option<(f64, u32)> {
-        let (carried, standing): (Vec<_>, Vec<_>) =
-            self.parts.iter().partition(|part| part.on_nozzle);
         let nearest_to = |corners: &[Vector3<f64>], limit: f64| {
             let piece = SweptPiece { way, corners };
-            standing
-                .iter()
-                .fold(None, |nearest: Option<(f64, u32)>, part| {
-                    let bound = nearest.map_or(limit, |(gap, _)| gap);
-                    let facets = &part.facets;
-                    let found = facets.distance_to_convex(&piece, piece.middle(), bound);
-                    let found =
-                        found.map(|(distance, triangle)| (distance, facets.surface(triangle)));
-                    found.or(nearest)
-                })
+            self.distance_to_convex(&piece, piece.middle(), limit)
         };
         let mut nearest: Option<(f64, u32)> = None;
-        for pieces in carried.iter().map(|part| part.pieces()) {
+        for pieces in self.carried() {
             let bound = |nearest: Option<(f64, u32)>| nearest.map_or(limit, |(gap, _)| gap);
             if nearest_to(&pieces.hull, bound(nearest)).is_none() {
                 continue;
@@ -102,10 +81,12 @@ impl Scene {
 
     /// The farthest that a part that moves with the nozzle reaches from the exit, m; 0 where none does.
     pub fn carried_reach(&self) -> f64 {
+        self.carried().map(Pieces::reach).fold(0.0, f64::max)
+    }
+
+    fn carried(&self) -> impl Iterator<Item = &Pieces> {
         let carried = self.parts.iter().filter(|part| part.on_nozzle);
-        carried
-            .map(|part| part.pieces().reach())
-            .fold(0.0, f64::max)
+        carried.map(|part| part.pieces())
     }
 }
 
@@ -199,11 +180,17 @@ mod tests {
 
     /// A nozzle at the origin that shoots along z of the scene.
     fn way() -> CarriedWay {
+        aimed([0.0, 0.0, 5.0], [Vector3::zeros(); 4])
+    }
+
+    fn aimed(centre: [f64; 3], shifts: [Vector3<f64>; 4]) -> CarriedWay {
         CarriedWay {
-            aim: Point3::new(0.0, 0.0, 5.0),
-            shifts: [Vector3::zeros(); 4],
+            aims: Aims {
+                centre: centre.into(),
+                shifts,
+                standoff: [5.0; 2],
+            },
             axes: vec![[Vector3::x(), Vector3::y(), Vector3::z()]],
-            standoff: [5.0; 2],
         }
     }
 
@@ -216,15 +203,13 @@ mod tests {
         let distance =
             |way: &CarriedWay| scene.distance_to_carried(way, 9.0).expect("it is near").0;
         assert!((distance(&way()) - 2.0).abs() < 1e-9);
-        let shifted = CarriedWay {
-            shifts: [
-                Vector3::x() * 0.5,
-                Vector3::y() * 0.3,
-                Vector3::zeros(),
-                Vector3::zeros(),
-            ],
-            ..way()
-        };
+        let shifts = [
+            Vector3::x() * 0.5,
+            Vector3::y() * 0.3,
+            Vector3::zeros(),
+            Vector3::zeros(),
+        ];
+        let shifted = aimed([0.0, 0.0, 5.0], shifts);
         assert!((distance(&shifted) - 1.5).abs() < 1e-9);
         // Turned by 45 degrees about its own axis a corner is nearest, or a side as before.
         let root = 0.5_f64.sqrt();
@@ -239,10 +224,7 @@ mod tests {
         };
         assert!((distance(&either) - (3.0 - 2.0_f64.sqrt())).abs() < 1e-9);
         // From farther back it is the same wall, until it meets it.
-        let met = CarriedWay {
-            aim: Point3::new(2.5, 0.0, 5.0),
-            ..way()
-        };
+        let met = aimed([2.5, 0.0, 5.0], [Vector3::zeros(); 4]);
         assert_eq!(distance(&met), 0.0);
         assert_eq!(scene.distance_to_carried(&way(), 1.9), None);
     }
@@ -282,10 +264,7 @@ mod tests {
         let scene = Scene::build(&[fork, rail], Walls::Exact).expect("it is sound");
         assert!(!scene.parts[0].pieces().triangles.is_empty());
         let distance = |aim: [f64; 3]| {
-            let way = CarriedWay {
-                aim: aim.into(),
-                ..way()
-            };
+            let way = aimed(aim, [Vector3::zeros(); 4]);
             scene.distance_to_carried(&way, 9.0).expect("it is near").0
         };
         assert!((distance([0.0, 0.0, 5.0]) - 0.5).abs() < 1e-9);

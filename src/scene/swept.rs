@@ -34,17 +34,54 @@ pub enum Core {
     },
 }
 
+impl Core {
+    /// How far it reaches from the exit, m.
+    pub fn length(&self) -> f64 {
+        match *self {
+            Self::Exit => 0.0,
+            Self::Line { length, .. } => length,
+            Self::Disc { radius } => radius,
+        }
+    }
+}
+
+/// Where the jets of a nozzle are aimed within the tolerance of its settings, and from how far.
+#[derive(Clone, Copy, Debug)]
+pub struct Aims {
+    /// Centre of the aim points, m.
+    pub centre: Point3<f64>,
+    /// Half the edges of their box, m, and half the way of a stroke.
+    pub shifts: [Vector3<f64>; 4],
+    /// Smallest and largest standoff, m.
+    pub standoff: [f64; 2],
+}
+
+impl Aims {
+    /// The aim point that is farthest in a direction, m.
+    pub(super) fn farthest(&self, toward: &Vector3<f64>) -> Vector3<f64> {
+        let shifts = self.shifts.iter().map(|shift| {
+            if shift.dot(toward) < 0.0 {
+                -shift
+            } else {
+                *shift
+            }
+        });
+        self.centre.coords + shifts.sum::<Vector3<f64>>()
+    }
+
+    /// The standoff in the middle, m.
+    pub(super) fn middle_standoff(&self) -> f64 {
+        (self.standoff[0] + self.standoff[1]) / 2.0
+    }
+}
+
 /// All places of the core of a nozzle's body within the tolerance of its settings.
 #[derive(Clone, Debug)]
 pub struct Swept {
-    /// Centre of the aim points, m.
-    pub aim: Point3<f64>,
-    /// Half the edges of their box, m, and half the way of a stroke.
-    pub shifts: [Vector3<f64>; 4],
+    /// Where the jets are aimed.
+    pub aims: Aims,
     /// Directions of the jet.
     pub directions: Directions,
-    /// Smallest and largest standoff, m.
-    pub standoff: [f64; 2],
     /// What is swept.
     pub core: Core,
 }
@@ -97,7 +134,7 @@ impl Directions {
 impl SupportMap for Swept {
     fn local_support_point(&self, dir: Vector) -> Vector {
         let toward: Vector3<f64> = dir.into();
-        let [near, far] = self.standoff.map(f64x4::splat);
+        let [near, far] = self.aims.standoff.map(f64x4::splat);
         let back = |ahead: f64x4| ahead.simd_gt(f64x4::ZERO).select(near, far) * ahead;
         // How far the core of a jet reaches that goes so far ahead.
         let jet = match self.core {
@@ -113,15 +150,7 @@ impl SupportMap for Swept {
                 across.fast_max(f64x4::ZERO).sqrt() * radius - back(ahead)
             }),
         };
-        let shifts = self.shifts.iter().map(|shift| {
-            if shift.dot(&toward) < 0.0 {
-                -shift
-            } else {
-                *shift
-            }
-        });
-        let point = self.farthest_point(&jet, &toward);
-        (self.aim.coords + point + shifts.sum::<Vector3<f64>>()).into()
+        (self.farthest_point(&jet, &toward) + self.aims.farthest(&toward)).into()
     }
 }
 
@@ -129,7 +158,7 @@ impl Swept {
     /// The core somewhere in the middle of all.
     fn middle(&self) -> Segment {
         let jet = self.directions.mean();
-        let exit = self.aim.coords - jet * ((self.standoff[0] + self.standoff[1]) / 2.0);
+        let exit = self.aims.centre.coords - jet * self.aims.middle_standoff();
         let end = match self.core {
             Core::Line { length, direction } => exit + direction.unwrap_or(-jet) * length,
             Core::Exit | Core::Disc { .. } => exit,
@@ -155,7 +184,7 @@ impl Swept {
                 across.try_normalize(0.0).unwrap_or_default() * radius
             }
         };
-        let [near, far] = self.standoff;
+        let [near, far] = self.aims.standoff;
         beyond - jet * if ahead > 0.0 { near } else { far }
     }
 }
@@ -164,10 +193,20 @@ impl Scene {
     /// Distance between all places of a nozzle's core and the nearest surface of the parts that stand in
     /// the scene, and that surface; 0 where they meet, `None` when everything is farther than `limit`.
     pub fn distance_to_swept(&self, swept: &Swept, limit: f64) -> Option<(f64, u32)> {
+        self.distance_to_convex(swept, swept.middle(), limit)
+    }
+
+    /// The same for anything convex with a line in its middle.
+    pub(super) fn distance_to_convex(
+        &self,
+        convex: &impl SupportMap,
+        line: Segment,
+        limit: f64,
+    ) -> Option<(f64, u32)> {
         let mut nearest: Option<(f64, u32)> = None;
         for part in self.parts.iter().filter(|part| !part.on_nozzle) {
             let bound = nearest.map_or(limit, |(gap, _)| gap);
-            let found = part.facets.distance_to_convex(swept, swept.middle(), bound);
+            let found = part.facets.distance_to_convex(convex, line, bound);
             if let Some((distance, triangle)) = found {
                 nearest = Some((distance, part.facets.surface(triangle)));
             }
@@ -179,7 +218,7 @@ impl Scene {
 impl TriangleMesh {
     /// Distance between something convex with a line in its middle and the nearest triangle, and that triangle; 0 where
     /// they meet, `None` where everything is farther than `limit`.
-    pub(super) fn distance_to_convex(
+    fn distance_to_convex(
         &self,
         swept: &impl SupportMap,
         line: Segment,
@@ -245,15 +284,17 @@ mod tests {
     fn swept(core: Core, direction: Vector3<f64>, shifts: [f64; 3]) -> Swept {
         let [x, y, z] = shifts;
         Swept {
-            aim: Point3::origin(),
-            shifts: [
-                Vector3::x() * x,
-                Vector3::y() * y,
-                Vector3::z() * z,
-                Vector3::zeros(),
-            ],
+            aims: Aims {
+                centre: Point3::origin(),
+                shifts: [
+                    Vector3::x() * x,
+                    Vector3::y() * y,
+                    Vector3::z() * z,
+                    Vector3::zeros(),
+                ],
+                standoff: [2.0, 3.0],
+            },
             directions: Directions::new(&[direction.normalize()]),
-            standoff: [2.0, 3.0],
             core,
         }
     }
@@ -318,15 +359,17 @@ mod tests {
                 }
             }
             let swept = Swept {
-                aim: Point3::new(1.05, 0.0, 0.1),
-                shifts: [
-                    Vector3::x() * 0.02,
-                    Vector3::y() * 0.02,
-                    Vector3::zeros(),
-                    Vector3::zeros(),
-                ],
+                aims: Aims {
+                    centre: Point3::new(1.05, 0.0, 0.1),
+                    shifts: [
+                        Vector3::x() * 0.02,
+                        Vector3::y() * 0.02,
+                        Vector3::zeros(),
+                        Vector3::zeros(),
+                    ],
+                    standoff: [0.9, 1.1],
+                },
                 directions: Directions::new(&directions),
-                standoff: [0.9, 1.1],
                 core: Core::Line {
                     length: 1.0,
                     direction: Some(Vector3::new(-0.6, 0.0, 0.8)),
@@ -339,7 +382,7 @@ mod tests {
                     let jet = tilt(polar + step(i, 0.035), turn + step(j, 0.035));
                     for standoff in [0.9, 0.95, 1.0, 1.05, 1.1] {
                         for (x, y) in [(-0.02, -0.02), (-0.02, 0.02), (0.02, -0.02), (0.02, 0.02)] {
-                            let from = swept.aim + Vector3::new(x, y, 0.0) - jet * standoff;
+                            let from = swept.aims.centre + Vector3::new(x, y, 0.0) - jet * standoff;
                             let to = from + Vector3::new(-0.6, 0.0, 0.8);
                             let facets = &scene.parts[0].facets;
                             let near = facets.distance_to_segment(&from, &to, 9.0);

@@ -6,7 +6,7 @@ use super::answer::Answer;
 use crate::control::Cancel;
 use crate::elementary::whole_power;
 use crate::evaluate::{LargestImpulses, ViolationCounts};
-use crate::feasibility::{Obstacle, infeasibility};
+use crate::feasibility::infeasibility;
 use crate::jet::{Replicate, Replicates, purpose};
 use crate::problem::setting::{Range, Setting, Settings};
 use crate::scenario::{Scenario, Station};
@@ -293,9 +293,9 @@ impl Asked<'_> {
     /// shots than it takes to tell.
     fn turned(&self, settings: &Settings, shots: &mut dyn Shots) -> Option<Turn> {
         if let Some(infeasible) = infeasibility(self.scenario, settings) {
-            return Some(match infeasible.obstacle {
-                Obstacle::Surface(_) => Turn::Clearance,
-                Obstacle::Material(_) | Obstacle::Body | Obstacle::Carried(_) => Turn::FreeSpace,
+            return Some(match infeasible.obstacle.is_near_wall() {
+                true => Turn::Clearance,
+                false => Turn::FreeSpace,
             });
         }
         let none = || ViolationCounts::none(self.standing[0]);

@@ -1,6 +1,6 @@
 //! How far the nozzle travels beyond an end of a stroke, so that the whole spot passes the end of the target.
 
-use crate::feasibility::{Obstacle, infeasibility, infeasible_on_way};
+use crate::feasibility::{infeasibility, infeasible_on_way};
 use crate::problem::setting::Settings;
 use crate::problem::stroke::{Leg, WHOLE};
 use crate::scenario::Scenario;
@@ -72,9 +72,9 @@ fn harm(scenario: &Scenario, [from, place]: [f64; 2], settings: &Settings) -> Op
     let infeasible = infeasibility(&station.scenario, settings)
         .or_else(|| infeasible_on_way(scenario, settings, [from.min(place), from.max(place)]));
     if let Some(infeasible) = infeasible {
-        return Some(match infeasible.obstacle {
-            Obstacle::Surface(_) => Subject::Clearance,
-            Obstacle::Material(_) | Obstacle::Body | Obstacle::Carried(_) => Subject::FreeSpace,
+        return Some(match infeasible.obstacle.is_near_wall() {
+            true => Subject::Clearance,
+            false => Subject::FreeSpace,
         });
     }
     let fails =
