@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import slurm_loopback
 
 import peenpose as p
 
@@ -73,7 +74,16 @@ def dask(program: Path, folder: Path) -> list[str]:
     return [sys.executable, "-m", "peenpose.dask", str(folder), "--shards", str(SHARDS)]
 
 
-ENGINES = [one_process, parallel, hyperqueue, dask]
+def slurm(program: Path, folder: Path) -> list[str]:
+    if absent := slurm_loopback.missing():
+        pytest.skip(f"not installed: {', '.join(absent)}")
+    run = f"{program} campaign run {folder} --quiet --threads 1 --shard $SLURM_ARRAY_TASK_ID/{SHARDS}"
+    output = f"--output={folder.with_name('slurm-%a.log')}"
+    submission = ["sbatch", "--wait", f"--array=1-{SHARDS}", output, "--wrap", run]
+    return [sys.executable, slurm_loopback.__file__, *submission]
+
+
+ENGINES = [one_process, parallel, hyperqueue, dask, slurm]
 
 
 def finish(command: list[str]) -> None:
