@@ -130,7 +130,7 @@ impl Template {
             match put(&mut wanted, &steps, change.node().ok()?).ok()? {
                 Splice {
                     at,
-                    missing: Missing::Nothing,
+                    missing: Missing::Nothing { .. },
                 } => splices.push((at, &change.value)),
                 _ => return None,
             }
@@ -160,35 +160,44 @@ impl Template {
             at: [start, end],
             missing,
         } = splice;
+        // Texts of several lines end in the next one.
+        let end = start + self.text[start..end].trim_end().len();
         let (before, after) = (&self.text[..start], &self.text[end..]);
-        let text = match missing {
-            Missing::Nothing => format!("{before}{value}{after}"),
-            // Where nothing stands there is no place but behind the colon.
-            Missing::Value { behind } if !["~", "null"].contains(&&self.text[start..end]) => {
-                let colon = self.text[behind..].find(':').map(|at| behind + at + 1);
-                let (before, after) = self.text.split_at(colon.unwrap_or(behind));
-                format!("{before} {value}{after}")
+        let texts = match missing {
+            Missing::Nothing { behind } => {
+                let mut texts = vec![format!("{before}{value}{after}")];
+                let colon = |behind: usize| Some(behind + self.text[behind..].find(':')? + 1);
+                if let Some(colon) = behind.and_then(colon) {
+                    let (before, rest) = self.text.split_at(colon);
+                    texts.push(format!("{before} {value}{rest}"));
+                    // Comments on the key stay there.
+                    let lines = self.text.get(colon..start);
+                    let comments = lines.and_then(|it| Some(it.rsplit_once('\n')?.0));
+                    let comments = comments.unwrap_or_default().trim_end();
+                    texts.push(format!("{before} {value}{comments}{after}"));
+                }
+                texts
             }
-            Missing::Value { .. } => format!("{before}{value}{after}"),
             Missing::InBraces { names, is_empty } => {
                 let comma = if is_empty { "" } else { "," };
-                format!("{before} {}{comma}{after}", nested(&names, value))
+                vec![format!("{before} {}{comma}{after}", nested(&names, value))]
             }
             Missing::OnLines { names, indent } => {
-                format!(
-                    "{before}{}\n{}{after}",
-                    nested(&names, value),
-                    " ".repeat(indent)
-                )
+                let (names, indent) = (nested(&names, value), " ".repeat(indent));
+                vec![format!("{before}{names}\n{indent}{after}")]
             }
         };
         // What is written there must mean what was meant, and nothing else may have changed.
-        match yaml::parse(&text) {
-            Ok(root) if root.value.means(&wanted.value) => Ok(Self { text, root }),
-            _ => Err(refuse(
+        let meant = texts.into_iter().find_map(|text| {
+            let root = yaml::parse(&text).ok()?;
+            let is_meant = root.value.means(&wanted.value);
+            is_meant.then_some(Self { text, root })
+        });
+        meant.ok_or_else(|| {
+            refuse(
                 "cannot be changed as it stands in the file; write its group on lines of its own, without anchors",
-            )),
-        }
+            )
+        })
     }
 }
 

@@ -49,13 +49,16 @@ pub fn files(record: &Record) -> io::Result<Vec<(String, Vec<u8>)>> {
         files.push((format!("{name}.csv"), csv.into_bytes()));
     }
     let figures = Figure::of_record(record).map_err(io::Error::other)?;
-    let page = page_with(record, &figures).map_err(io::Error::other)?;
+    // Pixels take as long as all else.
+    let (pixels, page): (Vec<_>, _) = rayon::join(
+        || figures.par_iter().map(Figure::png).collect(),
+        || page_with(record, &figures),
+    );
+    let page = page.map_err(io::Error::other)?;
     files.push(("report.html".to_owned(), page.into_bytes()));
     if let Some(stroke) = &record.stroke {
         files.extend(program::files(stroke, 1)?);
     }
-    // Pixels take longer than all else.
-    let pixels: Vec<_> = figures.par_iter().map(Figure::png).collect();
     for (figure, png) in figures.into_iter().zip(pixels) {
         let png = png.map_err(io::Error::other)?;
         files.push((format!("{}.png", figure.name), png));

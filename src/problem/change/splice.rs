@@ -52,21 +52,13 @@ pub(super) struct Splice {
 
 /// What has to be written besides the value.
 pub(super) enum Missing {
-    Nothing,
-    /// Perhaps the place of the value itself, which is the one behind this key then.
-    Value {
-        behind: usize,
-    },
+    /// Perhaps a place for the value, which is behind this key then: nothing stands there, or lines that begin in the
+    /// column of the key.
+    Nothing { behind: Option<usize> },
     /// Keys behind an opening brace.
-    InBraces {
-        names: Vec<String>,
-        is_empty: bool,
-    },
+    InBraces { names: Vec<String>, is_empty: bool },
     /// Keys on a line of their own before others, which begin in this column, from 0.
-    OnLines {
-        names: Vec<String>,
-        indent: usize,
-    },
+    OnLines { names: Vec<String>, indent: usize },
 }
 
 /// Puts a value into a tree, and tells where in its text it belongs.
@@ -76,7 +68,7 @@ pub(super) fn put(node: &mut Node, steps: &[Step], value: Node) -> Result<Splice
         node.value = value.value;
         return Ok(Splice {
             at,
-            missing: Missing::Nothing,
+            missing: Missing::Nothing { behind: None },
         });
     };
     match (&mut node.value, first) {
@@ -96,17 +88,16 @@ pub(super) fn put(node: &mut Node, steps: &[Step], value: Node) -> Result<Splice
             });
             if let Some((index, rest)) = way {
                 let entry = &mut entries[index];
-                if rest.is_empty() && entry.node.value == Value::Null {
-                    let Span { start, end, .. } = entry.node.span;
-                    entry.node.value = value.value;
-                    return Ok(Splice {
-                        at: [start, end],
-                        missing: Missing::Value {
-                            behind: entry.key_span.end,
+                let splice = put(&mut entry.node, rest, value)?;
+                return Ok(match rest {
+                    [] => Splice {
+                        missing: Missing::Nothing {
+                            behind: Some(entry.key_span.end),
                         },
-                    });
-                }
-                return put(&mut entry.node, rest, value);
+                        ..splice
+                    },
+                    _ => splice,
+                });
             }
             if !left.is_empty() {
                 return Err(format!(

@@ -15,6 +15,17 @@ nil: ~ # none
 list:
   - a: 1
   - b: 2
+range: # of two
+- 1 m   # at least
+
+- 2 m   # at most
+text: >-
+  two
+  lines
+long: two
+  lines
+last:
+  - 3
 ";
 
 fn changed(changes: &[&str]) -> Result<String, String> {
@@ -50,6 +61,17 @@ fn one_value_changes_and_all_else_stays() {
         ("surfaces.hub.bore.allow=6 uN.s", "5 uN.s", "6 uN.s"),
         ("empty=1", "empty:", "empty: 1"),
         ("nil=1", "nil: ~ #", "nil: 1 #"),
+        // Lists may begin in the column of their key, where no other value may.
+        (
+            "range=[3 m, 4 m]",
+            "range: # of two\n- 1 m   # at least\n\n- 2 m   # at most",
+            "range: [3 m, 4 m] # of two   # at most",
+        ),
+        ("range[0]=0 m", "- 1 m ", "- 0 m "),
+        ("list=1", "list:\n  - a: 1\n  - b: 2", "list:\n  1"),
+        ("last=4", "last:\n  - 3", "last:\n  4"),
+        ("text=one", ">-\n  two\n  lines", ">-\n  one"),
+        ("long=one", "long: two\n  lines", "long: one"),
         // What is not there is added to its group.
         (
             "contacts.dry.mu_d=0.2",
@@ -76,7 +98,7 @@ fn one_value_changes_and_all_else_stays() {
             "  hub.bore",
             "  hub.floor: { allow: 6 uN.s }\n  hub.bore",
         ),
-        ("solve.seed=2", "list:", "solve: { seed: 2 }\nlist:"),
+        ("solve.seed=2", "last:", "solve: { seed: 2 }\nlast:"),
         ("list[0].c=2", "- a: 1", "- c: 2\n    a: 1"),
     ] {
         assert_eq!(

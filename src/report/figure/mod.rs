@@ -1,6 +1,6 @@
 //! Figures, drawn from a chart or a record alone: SVG with texts, and PNG with the embedded font.
 //!
-//! This module is the only one that knows plotters, resvg, and the crates for contours and colours.
+//! This module is the only one that knows plotters, resvg, png, and the crates for contours and colours.
 
 mod axis;
 mod effect;

@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, LazyLock};
 
-use resvg::tiny_skia::{Pixmap, Transform};
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, Filter};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
 
 /// Open Sans, under the SIL Open Font License in the same folder.
@@ -29,6 +30,23 @@ pub fn png(svg: &str) -> Result<Vec<u8>, String> {
     let tree = Tree::from_str(svg, &options).map_err(|fault| fault.to_string())?;
     let size = tree.size().to_int_size();
     let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the figure has no size")?;
+    pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|fault| fault.to_string())
+    encoded(&pixels).map_err(|fault| fault.to_string())
+}
+
+/// Pixels that nothing shines through, as the bytes of a file.
+fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    let colors = pixels.pixels().iter();
+    let bytes = colors.flat_map(|it| [it.red(), it.green(), it.blue()]);
+    let bytes: Vec<u8> = bytes.collect();
+    let mut file = Vec::new();
+    let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    // Figures are lines on even colours, which filters make no smaller; more effort takes as long as the page.
+    encoder.set_filter(Filter::NoFilter);
+    encoder.set_deflate_compression(DeflateCompression::Level(3));
+    encoder.write_header()?.write_image_data(&bytes)?;
+    Ok(file)
 }
