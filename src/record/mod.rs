@@ -145,7 +145,7 @@ pub struct Record {
 pub enum StatusRecord {
     /// The accuracy asked for was reached: finalists of independent searches agree.
     Converged,
-    /// The best settings that were found; finalists differ, or the shots were spent before. In results of older
+    /// The best settings that were found; finalists differ, or J was not certain. In results of older
     /// versions it is called `budget_spent`.
     #[serde(alias = "budget_spent")]
     BestFound,

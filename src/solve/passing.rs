@@ -11,6 +11,7 @@ use super::figures::Figures;
 use super::finalists::Agreement;
 use super::sampler::Sampler;
 use super::stage::Stage;
+use super::stopping_rule::still_gains;
 use super::{RISE, tie};
 use crate::control::Control;
 use crate::scenario::{Scenario, Station};
@@ -137,12 +138,14 @@ impl Sought<'_> {
         let mut searches = descent.best();
         // The fewer the shots, the farther the search stays below what is allowed.
         let more = shots * RISE;
+        let mut is_settled = true;
         if searches[leader].best().fitness.penalty() <= 0.0 && more <= control.most_shots {
             let samples = descent.sampler.draw(more);
             let evaluator = descent
                 .sampler
                 .evaluator(&scenario, &samples, effort, control);
             searches[leader].refine(&evaluator, &Stage::beyond(more));
+            is_settled = !still_gains(&searches[leader], &self.asked.problem);
         }
         let new = figures.of(&searches);
         let claims = searches.iter().map(|it| it.best().fitness.objective());
@@ -166,7 +169,10 @@ impl Sought<'_> {
         let place = failing.iter().position(|&index| index == best);
         if let Some((place, is_known)) = place.and_then(|it| Some((it, known[it]?))) {
             let found = match place == leader {
-                true => of_leader,
+                true => Agreement {
+                    is_reached: of_leader.is_reached && is_settled,
+                    ..of_leader
+                },
                 false => descent.confirmed(place),
             };
             agreements[best] = Some(Agreement {

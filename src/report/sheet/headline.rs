@@ -202,8 +202,8 @@ pub fn status(record: &Record) -> String {
                 significant(spread * 100.0, 2)
             ),
             _ => format!(
-                "BEST FOUND: the shots were spent before {accuracy} of the score J was reached; better settings \
-                 may exist"
+                "BEST FOUND: the search ended before {accuracy} of the score J was certain; better settings may \
+                 exist"
             ),
         },
         StatusRecord::NoFeasiblePose => "the nozzle fits at no pose that was tried".into(),
