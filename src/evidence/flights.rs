@@ -128,7 +128,7 @@ pub fn broken_by(impact: &PathImpact, scenario: &Scenario) -> Vec<Subject> {
         (0, _) => {}
         (1, true) => {
             let goal = goals.normal_impulse;
-            let off = (impact.normal_impulse / goal.target - 1.0).abs() > goal.tolerance;
+            let off = goal.is_off(impact.normal_impulse);
             let limit = goals.tangential_impulse.map(|goal| goal.limit);
             note(off, Subject::NormalImpulse);
             let over = limit.is_some_and(|limit| impact.tangential_impulse > limit);

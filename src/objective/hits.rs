@@ -84,8 +84,7 @@ impl Hits {
     /// How many are off the wanted normal impulse by more than the tolerance at a launch speed,
     /// m/s.
     pub fn off_target(&self, goals: &Goals, speed: f64) -> usize {
-        let goal = goals.normal_impulse;
-        let is_off = |gain: &&f64| (**gain * speed / goal.target - 1.0).abs() > goal.tolerance;
+        let is_off = |gain: &&f64| goals.normal_impulse.is_off(**gain * speed);
         self.normal.iter().filter(is_off).count()
     }
 

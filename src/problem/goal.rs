@@ -26,6 +26,13 @@ pub struct NormalImpulse {
     pub weight: f64,
 }
 
+impl NormalImpulse {
+    /// Whether a hit with this N*, N s, breaks it.
+    pub fn is_off(&self, normal: f64) -> bool {
+        (normal / self.target - 1.0).abs() > self.tolerance
+    }
+}
+
 /// First hits on the target shall not give more tangential impulse than this.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentialImpulse {

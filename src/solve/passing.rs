@@ -138,16 +138,28 @@ impl Sought<'_> {
         let mut searches = descent.best();
         // The fewer the shots, the farther the search stays below what is allowed.
         let more = shots * RISE;
+        let before = searches[leader].clone();
         let mut is_settled = true;
         if searches[leader].best().fitness.penalty() <= 0.0 && more <= control.most_shots {
             let samples = descent.sampler.draw(more);
             let evaluator = descent
                 .sampler
                 .evaluator(&scenario, &samples, effort, control);
-            searches[leader].refine(&evaluator, &Stage::beyond(more));
+            let stage = Stage {
+                descents: DESCENTS,
+                ..Stage::beyond(more)
+            };
+            searches[leader].refine(&evaluator, &stage);
             is_settled = !still_gains(&searches[leader], &self.asked.problem);
         }
-        let new = figures.of(&searches);
+        let mut new = figures.of(&searches);
+        // What is farther down may fail on validation shots where what the stage began with passes.
+        if !new[leader].passes()
+            && let Some(answer) = figures.of(std::slice::from_ref(&before)).pop()
+            && tie::is_better(&answer, &new[leader])
+        {
+            (new[leader], searches[leader]) = (answer, before);
+        }
         let claims = searches.iter().map(|it| it.best().fitness.objective());
         let mut worst = f64::INFINITY;
         // Whether J of what was found here is known.
@@ -222,7 +234,9 @@ fn worthwhile(answers: &[Answer], scenario: &Scenario) -> Vec<usize> {
 }
 
 /// Searches at most.
-const MOST_ROUNDS: usize = 2;
+const MOST_ROUNDS: usize = 3;
+/// Descents of the last stage: where several shares are used up at once J has a kink, in which a simplex shrinks early.
+const DESCENTS: usize = 2;
 /// The price of a violation, in the J of the answers that fail.
 const PRICE: f64 = 100.0;
 /// A violation up to this is near.

@@ -1,6 +1,8 @@
 //! Problems on which a search can go wrong: regions apart, windows, a lance that nearly fills its bore, many settings,
 //! a least J that fails. How often it does on all of them: `cargo run --release --example suite -- target/suite.csv`.
 
+use std::path::Path;
+
 use peenpose::control::Control;
 use peenpose::solve::{Answer, Status, solve};
 
@@ -70,6 +72,24 @@ fn searches_find_regions_apart_thin_bands_and_what_passes() {
     let (all, good, untrue) = searched(&names, 101..102);
     assert_eq!(all, names.len());
     assert!(good >= 4 && untrue == 0, "{good} of {all}, {untrue} untrue");
+}
+
+/// Where the shares of hits off target and on the floor are used up at once J has a kink along a flat valley. A simplex
+/// that shrank there left J 14 % too high, and a near miss stayed one.
+#[test]
+fn what_passes_is_found_where_two_shares_are_used_up_at_once() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/search/t_slot.yaml");
+    let mut scenario = scenario(&path).unwrap();
+    for seed in [4, 8] {
+        scenario.problem.seed = seed;
+        let solution = solve(&scenario, &Control::default());
+        let best = &solution.answers[0];
+        let objective = best.evaluation.as_ref().unwrap().terms.total();
+        assert!(best.passes() && objective < 0.85, "{seed}: {objective}");
+        // The least J that 14 seeds have found is 0.803.
+        let is_best = objective < 0.803 * 1.02;
+        assert!(is_best || solution.status != Status::Converged, "{seed}");
+    }
 }
 
 #[test]
