@@ -161,7 +161,8 @@ impl Template {
             missing,
         } = splice;
         // Texts of several lines end in the next one.
-        let end = start + self.text[start..end].trim_end().len();
+        let old = self.text.get(start..end);
+        let end = old.map_or(end, |it| start + it.trim_end().len());
         let (before, after) = (&self.text[..start], &self.text[end..]);
         let texts = match missing {
             Missing::Nothing { behind } => {

@@ -138,14 +138,12 @@ impl Sought<'_> {
         let mut searches = descent.best();
         // The fewer the shots, the farther the search stays below what is allowed.
         let more = shots * RISE;
-        let mut before = None;
         let mut is_settled = true;
         if searches[leader].best().fitness.penalty() <= 0.0 && more <= control.most_shots {
             let samples = descent.sampler.draw(more);
             let evaluator = descent
                 .sampler
                 .evaluator(&scenario, &samples, effort, control);
-            before = Some(searches[leader].clone());
             let stage = Stage {
                 descents: DESCENTS,
                 ..Stage::beyond(more)
@@ -155,8 +153,9 @@ impl Sought<'_> {
         }
         let mut new = figures.of(&searches);
         // What is farther down may fail on validation shots where what the stage began with passes.
+        let mut before = searches[leader].clone();
         if !new[leader].passes()
-            && let Some(before) = before
+            && before.go_back()
             && let Some(answer) = figures.of(std::slice::from_ref(&before)).pop()
             && tie::is_better(&answer, &new[leader])
         {

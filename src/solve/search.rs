@@ -109,11 +109,14 @@ impl Search {
         })
     }
 
-    /// Goes back to what the last stage began with: what that has found was only better on its own shots.
-    pub fn go_back(&mut self) {
-        if let Some(before) = self.before.take() {
-            self.groups = vec![vec![before]];
-        }
+    /// Goes back to what the last stage began with: what that has found was only better on its own shots. Whether there
+    /// was a stage.
+    pub fn go_back(&mut self) -> bool {
+        let Some(before) = self.before.take() else {
+            return false;
+        };
+        self.groups = vec![vec![before]];
+        true
     }
 
     /// By how much J of the settings that the last stage began with is above the least that it found, both on the
