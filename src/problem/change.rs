@@ -127,19 +127,17 @@ impl Template {
         let mut splices = Vec::with_capacity(changes.len());
         for change in changes {
             let steps = joined(steps(&change.key)?);
-            match put(&mut wanted, &steps, change.node().ok()?).ok()? {
-                Splice {
-                    at,
-                    missing: Missing::Nothing { .. },
-                } => splices.push((at, &change.value)),
-                _ => return None,
+            let splice = put(&mut wanted, &steps, change.node().ok()?).ok()?;
+            if !matches!(splice.missing, Missing::Nothing { .. }) {
+                return None;
             }
+            splices.extend(self.exchanges(&splice, &change.value).into_iter().next());
         }
         splices.sort_unstable();
         let (mut text, mut done) = (String::with_capacity(self.text.len()), 0);
         for ([start, end], value) in splices {
             text += self.text.get(done..start)?;
-            text += value;
+            text += &value;
             done = end;
         }
         text += self.text.get(done..)?;
@@ -156,40 +154,10 @@ impl Template {
         let mut wanted = self.root.clone();
         let splice =
             put(&mut wanted, &joined(steps), change.node()?).map_err(|reason| refuse(&reason))?;
-        let Splice {
-            at: [start, end],
-            missing,
-        } = splice;
-        // Texts of several lines end in the next one.
-        let old = self.text.get(start..end);
-        let end = old.map_or(end, |it| start + it.trim_end().len());
-        let (before, after) = (&self.text[..start], &self.text[end..]);
-        let texts = match missing {
-            Missing::Nothing { behind } => {
-                let mut texts = vec![format!("{before}{value}{after}")];
-                let colon = |behind: usize| Some(behind + self.text[behind..].find(':')? + 1);
-                if let Some(colon) = behind.and_then(colon) {
-                    let (before, rest) = self.text.split_at(colon);
-                    texts.push(format!("{before} {value}{rest}"));
-                    // Comments on the key stay there.
-                    let lines = self.text.get(colon..start);
-                    let comments = lines.and_then(|it| Some(it.rsplit_once('\n')?.0));
-                    let comments = comments.unwrap_or_default().trim_end();
-                    texts.push(format!("{before} {value}{comments}{after}"));
-                }
-                texts
-            }
-            Missing::InBraces { names, is_empty } => {
-                let comma = if is_empty { "" } else { "," };
-                vec![format!("{before} {}{comma}{after}", nested(&names, value))]
-            }
-            Missing::OnLines { names, indent } => {
-                let (names, indent) = (nested(&names, value), " ".repeat(indent));
-                vec![format!("{before}{names}\n{indent}{after}")]
-            }
-        };
         // What is written there must mean what was meant, and nothing else may have changed.
-        let meant = texts.into_iter().find_map(|text| {
+        let exchanges = self.exchanges(&splice, value);
+        let meant = exchanges.into_iter().find_map(|([start, end], new)| {
+            let text = format!("{}{new}{}", &self.text[..start], &self.text[end..]);
             let root = yaml::parse(&text).ok()?;
             let is_meant = root.value.means(&wanted.value);
             is_meant.then_some(Self { text, root })
@@ -199,6 +167,40 @@ impl Template {
                 "cannot be changed as it stands in the file; write its group on lines of its own, without anchors",
             )
         })
+    }
+
+    /// What a value may replace, and with what; the first that means what it should counts.
+    fn exchanges(&self, splice: &Splice, value: &str) -> Vec<([usize; 2], String)> {
+        let [start, end] = splice.at;
+        // Texts of several lines end in the next one.
+        let old = self.text.get(start..end);
+        let end = old.map_or(end, |it| start + it.trim_end().len());
+        let new = match &splice.missing {
+            Missing::Nothing { behind } => {
+                let here = ([start, end], value.to_owned());
+                let colon = behind.and_then(|it| Some(it + self.text[it..].find(':')? + 1));
+                let Some(colon) = colon else {
+                    return vec![here];
+                };
+                // Where a list begins in the column of its key, no other value may stand. Its place is that of its
+                // first item; other lists are where their first dash is. Comments on the key stay there.
+                let lines = self.text.get(colon..start);
+                return match lines.and_then(|it| it.rsplit_once('\n')) {
+                    Some((comments, dash)) if !dash.trim_start().is_empty() => {
+                        vec![([colon, end], format!(" {value}{}", comments.trim_end()))]
+                    }
+                    _ => vec![here, ([colon; 2], format!(" {value}"))],
+                };
+            }
+            Missing::InBraces { names, is_empty } => {
+                let comma = if *is_empty { "" } else { "," };
+                format!(" {}{comma}", nested(names, value))
+            }
+            Missing::OnLines { names, indent } => {
+                format!("{}\n{}", nested(names, value), " ".repeat(*indent))
+            }
+        };
+        vec![([start, end], new)]
     }
 }
 
