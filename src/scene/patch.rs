@@ -201,6 +201,12 @@ impl Frame {
             across: along.cross(&normal),
         })
     }
+
+    /// Whether the directions are those of another frame but for so much.
+    pub fn is_turned_as(&self, other: &Self, within: f64) -> bool {
+        let [normal, along] = [self.normal - other.normal, self.along - other.along];
+        normal.norm() < within && along.norm() < within
+    }
 }
 
 /// The point of a surface nearest to its centre, which is off it where it is curved; `None` where another one is about as near, as

@@ -59,6 +59,35 @@ fn one_setting_held_along_the_keyway_passes_wherever_the_nozzle_stands() {
     }
 }
 
+/// What a nozzle sweeps is one convex body then, and its distance is found at once; else many places of the stroke are
+/// looked at.
+#[test]
+fn along_a_fillet_and_a_flat_of_facets_the_nozzle_moves_straight_on() {
+    let sweep = |name: &str, along: &str| {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("problems")
+            .join(name);
+        let change = |key: &str, value: &str| Change::new(key, value).unwrap();
+        let changes = [
+            change("target.within", "{ min: [-9, 3, 5], max: [9, 19, 48] }"),
+            change("stroke", &format!("{{ along: {along} }}")),
+        ];
+        let study = Study::open_changed(&file, &changes);
+        study.unwrap_or_else(|it| panic!("{it}")).scenario().sweep
+    };
+    let is_half = |sweep: Option<nalgebra::Vector3<f64>>, metres: f64| {
+        sweep.is_some_and(|it| (it - nalgebra::Vector3::z() * metres).norm() < 1e-12)
+    };
+    // A point of the fillet in four digits.
+    let fillet = "{ from: [6.0405, 4.694, 8], to: [6.0405, 4.694, 42] }";
+    assert!(is_half(sweep("firtree.yaml", fillet), 17e-3));
+    let floor = "{ from: [1.234, 18.3, 20], to: [1.234, 18.3, 44] }";
+    assert!(is_half(sweep("keyway-blind.yaml", floor), 12e-3));
+    // Round the fillet it turns.
+    let round = "{ from: [6.0405, 4.694, 25], to: [5.4566, 6.1954, 25] }";
+    assert_eq!(sweep("firtree.yaml", round), None);
+}
+
 #[test]
 fn the_objective_of_a_stroke_is_the_mean_over_its_places() {
     let study = study("keyway-stroke.yaml");

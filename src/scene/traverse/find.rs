@@ -99,6 +99,16 @@ impl Surface<'_> {
             }
             all.push(pair[1]);
         }
+        // Places on one plane, or along one cylinder, differ by rounding in their directions: a nozzle that stays as it
+        // is turned sweeps what is convex.
+        for next in 1..all.len() {
+            if all[next].is_turned_as(&all[next - 1], FLAT) {
+                all[next] = Frame {
+                    aim: all[next].aim,
+                    ..all[next - 1]
+                };
+            }
+        }
         let mut travelled = 0.0;
         let mut before = all[0].aim;
         let knots = all.into_iter().map(|frame| {
