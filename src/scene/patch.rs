@@ -202,7 +202,7 @@ impl Frame {
         })
     }
 
-    /// Whether the directions are those of another frame but for so much.
+    /// Whether no direction differs from that of another frame by as much as `within`, as a difference of unit vectors.
     pub fn is_turned_as(&self, other: &Self, within: f64) -> bool {
         let [normal, along] = [self.normal - other.normal, self.along - other.along];
         normal.norm() < within && along.norm() < within
