@@ -202,8 +202,13 @@ impl Frame {
         })
     }
 
-    /// Whether no direction differs from that of another frame by as much as `within`, as a difference of unit vectors.
-    pub fn is_turned_as(&self, other: &Self, within: f64) -> bool {
+    /// Whether the directions are those of another frame.
+    pub fn is_turned_as(&self, other: &Self) -> bool {
+        self.normal == other.normal && self.along == other.along
+    }
+
+    /// The same where both of them differ by less than `within`, as unit vectors.
+    pub fn is_nearly_turned_as(&self, other: &Self, within: f64) -> bool {
         let [normal, along] = [self.normal - other.normal, self.along - other.along];
         normal.norm() < within && along.norm() < within
     }

@@ -210,8 +210,7 @@ impl Traverse {
             Way::Around { is_round, .. } => *is_round,
             Way::Knots(knots) => knots.iter().all(|knot| {
                 let beside = (knot.frame.aim - from.aim).cross(&half).norm();
-                let is_alike = knot.frame.normal == from.normal && knot.frame.along == from.along;
-                is_alike && beside <= FLAT * half.norm_squared()
+                knot.frame.is_turned_as(&from) && beside <= FLAT * half.norm_squared()
             }),
         };
         is_straight.then_some(half)
@@ -241,8 +240,7 @@ impl Traverse {
             let mut corners = self.corners().into_iter();
             corners.any(|corner| places[0] + FLAT < corner && corner + FLAT < places[1])
         };
-        let is_alike = from.normal == to.normal && from.along == to.along;
-        (is_alike && !has_corner()).then(|| (to.aim - from.aim) / 2.0)
+        (from.is_turned_as(&to) && !has_corner()).then(|| (to.aim - from.aim) / 2.0)
     }
 
     /// No point so far from the aim point that moves with it, m, moves by more than this between two places, m.
@@ -309,8 +307,7 @@ fn turn_between(a: &Frame, b: &Frame) -> Option<f64> {
         let angle = a.angle(b).min(SHARPEST);
         f64::max(LOOSE * angle, 2.0 * tan(angle / 2.0))
     };
-    let is_same = a.normal == b.normal && a.along == b.along;
-    (!is_same).then(|| fastest(&a.normal, &b.normal) + fastest(&a.along, &b.along))
+    (!a.is_turned_as(b)).then(|| fastest(&a.normal, &b.normal) + fastest(&a.along, &b.along))
 }
 
 /// Room for what making both directions of a frame square to each other adds.

@@ -153,9 +153,8 @@ impl Sought<'_> {
         }
         let mut new = figures.of(&searches);
         // What is farther down may fail on validation shots where what the stage began with passes.
-        let mut before = searches[leader].clone();
         if !new[leader].passes()
-            && before.go_back()
+            && let Some(before) = searches[leader].gone_back()
             && let Some(answer) = figures.of(std::slice::from_ref(&before)).pop()
             && tie::is_better(&answer, &new[leader])
         {

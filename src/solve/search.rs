@@ -109,14 +109,22 @@ impl Search {
         })
     }
 
-    /// Goes back to what the last stage began with: what that has found was only better on its own shots. Whether there
-    /// was a stage.
-    pub fn go_back(&mut self) -> bool {
-        let Some(before) = self.before.take() else {
-            return false;
-        };
-        self.groups = vec![vec![before]];
-        true
+    /// The search with what the last stage began with, where there was one: what that has found may be better on its
+    /// own shots alone.
+    pub fn gone_back(&self) -> Option<Self> {
+        Some(Self {
+            space: self.space.clone(),
+            groups: vec![vec![self.before.clone()?]],
+            before: None,
+            optimality_gap: self.optimality_gap,
+        })
+    }
+
+    /// Goes back to what the last stage began with.
+    pub fn go_back(&mut self) {
+        if let Some(before) = self.gone_back() {
+            *self = before;
+        }
     }
 
     /// By how much J of the settings that the last stage began with is above the least that it found, both on the

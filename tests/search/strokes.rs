@@ -1,6 +1,6 @@
 //! Strokes: one setting along a whole feature, or as few segments as there can be.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use peenpose::control::Control;
 use peenpose::jet::Pose;
@@ -11,9 +11,14 @@ use peenpose::record::{Record, StatusRecord};
 use peenpose::solve::Answer;
 use peenpose::study::{Extras, Study};
 
-fn study(name: &str) -> Study {
+/// The file of a shipped problem.
+fn shipped(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
-    Study::open(&folder.join(name)).unwrap_or_else(|rejection| panic!("{rejection}"))
+    folder.join(name)
+}
+
+fn study(name: &str) -> Study {
+    Study::open(&shipped(name)).unwrap_or_else(|rejection| panic!("{rejection}"))
 }
 
 fn solved(study: &Study) -> Record {
@@ -64,15 +69,12 @@ fn one_setting_held_along_the_keyway_passes_wherever_the_nozzle_stands() {
 #[test]
 fn along_a_fillet_and_a_flat_of_facets_the_nozzle_moves_straight_on() {
     let sweep = |name: &str, along: &str| {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("problems")
-            .join(name);
         let change = |key: &str, value: &str| Change::new(key, value).unwrap();
         let changes = [
             change("target.within", "{ min: [-9, 3, 5], max: [9, 19, 48] }"),
             change("stroke", &format!("{{ along: {along} }}")),
         ];
-        let study = Study::open_changed(&file, &changes);
+        let study = Study::open_changed(&shipped(name), &changes);
         study.unwrap_or_else(|it| panic!("{it}")).scenario().sweep
     };
     let is_half = |sweep: Option<nalgebra::Vector3<f64>>, metres: f64| {
@@ -156,10 +158,10 @@ fn what_no_setting_passes_is_cut_into_segments_of_one_contact() {
 
 #[test]
 fn a_stroke_along_which_the_nozzle_fits_nowhere_says_so() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems");
-    let text = std::fs::read_to_string(folder.join("keyway-100.yaml")).unwrap();
+    let file = shipped("keyway-100.yaml");
+    let text = std::fs::read_to_string(&file).unwrap();
     let text = text.replace("clearance: 2 mm", "clearance: 300 mm");
-    let study = Study::from_text(&text, &folder.join("keyway-100.yaml")).unwrap();
+    let study = Study::from_text(&text, &file).unwrap();
     let record = solved(&study);
     assert_eq!(record.status, StatusRecord::NoFeasiblePose);
     assert!(!record.passes() && record.stroke.is_none());
@@ -204,7 +206,7 @@ fn a_part_that_turns_brings_every_place_before_a_nozzle_that_keeps_its_attitude(
 /// is passed on the way there counts.
 #[test]
 fn a_run_out_ends_where_another_surface_receives_too_much() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway-stroke.yaml");
+    let file = shipped("keyway-stroke.yaml");
     let evaluated = |changes: &[[&str; 2]]| {
         let changes: Vec<Change> = changes
             .iter()

@@ -102,7 +102,7 @@ impl Surface<'_> {
         // Places on one plane, or along one cylinder, differ by rounding in their directions: a nozzle that stays as it
         // is turned sweeps what is convex.
         for next in 1..all.len() {
-            if all[next].is_turned_as(&all[next - 1], FLAT) {
+            if all[next].is_nearly_turned_as(&all[next - 1], FLAT) {
                 all[next] = Frame {
                     aim: all[next].aim,
                     ..all[next - 1]
