@@ -4,6 +4,7 @@
 //! ray cannot be told to ignore the facet that it starts from. So the test of a triangle is ours,
 //! and so is the tree for rays, which are most of the work; distances take parry's.
 
+mod bounding_box;
 mod crossing;
 mod many;
 mod meshlet;
@@ -21,6 +22,7 @@ use super::LIFT;
 use super::bvh8::Bvh8;
 use super::mesh::Mesh;
 use super::triangle_packet::TrianglePacket;
+use bounding_box::BoundingBox;
 use touch::Touchable;
 
 pub(super) use many::{cross, touch};
@@ -30,6 +32,7 @@ pub(super) use meshlet::Meshlet;
 #[derive(Clone)]
 pub struct TriangleMesh {
     tree: Bvh8,
+    bounding_box: BoundingBox,
     /// The triangles of each of its leaves.
     bundles: Vec<TrianglePacket>,
     /// What spheres need besides, made when the first one comes.
@@ -64,6 +67,7 @@ impl TriangleMesh {
                 .map(|leaf| TrianglePacket::new(leaf, corners, plane::normal))
                 .collect(),
             tree,
+            bounding_box: BoundingBox::of(&mesh, slack),
             corners: mesh.triangles.iter().map(|t| t.corners).collect(),
             surfaces: mesh
                 .triangles

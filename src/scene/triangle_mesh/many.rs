@@ -29,11 +29,12 @@ struct Flight {
 /// of the mesh in the scene. Normals are those on the fronts.
 ///
 /// The same as [`TriangleMesh::first_crossing`] of each ray. (With AVX-512 it takes longer.)
-#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
+#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma+popcnt"))]
 pub fn cross(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
+    let reached = facets.bounding_box.reached(rays, hits);
     for first in (0..rays.count).step_by(GROUP) {
         let mut flights = ArrayVec::<Flight, GROUP>::new();
-        for index in first..rays.count.min(first + GROUP) {
+        for index in (first..rays.count.min(first + GROUP)).filter(|&it| reached[it]) {
             let ray = rays.at(index);
             flights.push(Flight {
                 index,
@@ -63,9 +64,10 @@ pub fn cross(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
 }
 
 /// Takes the first contacts of spheres in place of rays, likewise.
-#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
+#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma+popcnt"))]
 pub fn touch(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
-    for index in 0..rays.count {
+    let reached = facets.bounding_box.reached(rays, hits);
+    for index in (0..rays.count).filter(|&it| reached[it]) {
         let (leaving, on_it) = leaving(rays, index, part);
         let limit = hits.distance[index];
         let radius = rays.radius[index];
