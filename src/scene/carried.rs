@@ -5,7 +5,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::shape::{Segment, SupportMap};
 
 use super::Scene;
-use super::swept::Aims;
+use super::swept::{Aims, SweptBody};
 use super::triangle_mesh::TriangleMesh;
 
 /// All places of one piece within the tolerance of the nozzle's settings.
@@ -45,8 +45,8 @@ impl SupportMap for SweptPiece<'_> {
     }
 }
 
-impl SweptPiece<'_> {
-    /// A point in the middle of all.
+impl SweptBody for SweptPiece<'_> {
+    /// A point.
     fn middle(&self) -> Segment {
         let centre = self.corners.iter().sum::<Vector3<f64>>() / self.corners.len() as f64;
         let aims = &self.way.aims;
@@ -56,6 +56,10 @@ impl SweptPiece<'_> {
         let middle = aims.centre.coords + each.sum::<Vector3<f64>>() / self.way.axes.len() as f64;
         Segment::new(middle.into(), middle.into())
     }
+
+    fn height(&self, toward: Vector) -> f64 {
+        self.local_support_point(toward).dot(toward)
+    }
 }
 
 impl Scene {
@@ -64,7 +68,7 @@ impl Scene {
     pub fn distance_to_carried(&self, way: &CarriedWay, limit: f64) -> Option<(f64, u32)> {
         let nearest_to = |corners: &[Vector3<f64>], limit: f64| {
             let piece = SweptPiece { way, corners };
-            self.distance_to_convex(&piece, piece.middle(), limit)
+            self.distance_to_convex(&piece, limit)
         };
         let mut nearest: Option<(f64, u32)> = None;
         for pieces in self.carried() {

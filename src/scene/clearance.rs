@@ -61,7 +61,7 @@ impl TriangleMesh {
             |node, _| point.gap(node),
             |leaf, best| {
                 let meshlet = self.meshlet(leaf);
-                if self.least_distance(meshlet, &point) >= best {
+                if self.least_distance(meshlet, &point, best) >= best {
                     return None;
                 }
                 let triangles = meshlet.triangles().iter().copied();
@@ -90,25 +90,26 @@ impl TriangleMesh {
         limit: f64,
     ) -> Option<(f64, u32)> {
         let line = Segment::new(from.coords.into(), to.coords.into());
-        self.nearest_triangle(limit, &Convex::of(line), |triangle, _| {
+        self.nearest_triangle(limit, &Convex::of(line), |triangle, _, _| {
             segment_triangle(&line, triangle)
         })
     }
 
-    /// The least distance of something convex from a triangle, by `distance`, which may stop at the limit that it is
-    /// given, and the index of that one; `None` when everything is farther than `limit`.
+    /// The least distance of something convex from a triangle, by `distance`, which is told nearly the shortest way there
+    /// and may stop at the limit that it is given, and the index of that one; `None` when everything is farther than `limit`.
     pub(super) fn nearest_triangle<H: Fn(Vector) -> f64>(
         &self,
         limit: f64,
         convex: &Convex<H>,
-        distance: impl Fn(&Triangle, f64) -> f64,
+        distance: impl Fn(&Triangle, Vector, f64) -> f64,
     ) -> Option<(f64, u32)> {
         let nearer = |nearest: Neighbour, index: u32| {
             let triangle = self.triangle(index);
-            if convex.is_beyond(&triangle, nearest.distance) {
+            let way = convex.way_to(&triangle);
+            if convex.is_beyond(&triangle, way, nearest.distance) {
                 return nearest;
             }
-            let distance = distance(&triangle, nearest.distance);
+            let distance = distance(&triangle, way, nearest.distance);
             if distance < nearest.distance {
                 let triangle = index;
                 Neighbour { distance, triangle }
@@ -119,7 +120,7 @@ impl TriangleMesh {
         // Of many meshlets that are about as far one triangle each shows well how far the nearest one is at most.
         let reached = RefCell::new(Vec::new());
         let first_look = |leaf, limit| {
-            let bound = self.least_distance(self.meshlet(leaf), convex);
+            let bound = self.least_distance(self.meshlet(leaf), convex, limit);
             if bound >= limit {
                 return None;
             }
@@ -141,8 +142,19 @@ impl TriangleMesh {
         (found.distance < limit).then_some((found.distance, found.triangle))
     }
 
-    /// How far (m) a meshlet is at least from something convex: a plane across the way between both tells.
-    fn least_distance<H: Fn(Vector) -> f64>(&self, meshlet: &Meshlet, convex: &Convex<H>) -> f64 {
+    /// How far (m) a meshlet is at least from something convex: its own plane tells that it is beyond `limit`, or else
+    /// one across the way between both.
+    fn least_distance<H: Fn(Vector) -> f64>(
+        &self,
+        meshlet: &Meshlet,
+        convex: &Convex<H>,
+        limit: f64,
+    ) -> f64 {
+        let (toward, height) = meshlet.plane_from(convex.line.a);
+        let bound = height - (convex.height)(toward);
+        if bound >= limit {
+            return bound;
+        }
         let way = convex.way_to(&self.triangle(meshlet.middle()));
         let Some(toward) = way.try_normalize() else {
             return 0.0;
@@ -186,10 +198,9 @@ impl<H: Fn(Vector) -> f64> Convex<H> {
         apart.max(Vector::ZERO).length()
     }
 
-    /// Whether a plane across the way from its line to a triangle proves that this is at least `limit` away: one look
+    /// Whether a plane across the way to a triangle proves that this is at least `limit` away: one look
     /// at how far it reaches along a direction, where a distance takes many.
-    fn is_beyond(&self, triangle: &Triangle, limit: f64) -> bool {
-        let way = self.way_to(triangle);
+    fn is_beyond(&self, triangle: &Triangle, way: Vector, limit: f64) -> bool {
         let apart = way.length();
         if apart <= limit {
             return false;

@@ -8,7 +8,7 @@
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::gjk::{self, CsoPoint, GJKResult, VoronoiSimplex};
-use parry3d_f64::shape::{Segment, SupportMap};
+use parry3d_f64::shape::{Segment, SupportMap, Triangle};
 use wide::f64x4;
 
 use super::Scene;
@@ -112,6 +112,20 @@ impl Directions {
         sum.sum::<Vector3<f64>>().normalize()
     }
 
+    /// The largest `height`, given how far each goes ahead in a direction.
+    #[inline(always)]
+    fn highest(&self, toward: &Vector3<f64>, height: impl Fn(f64x4) -> f64x4) -> f64 {
+        let [x, y, z] = [toward.x, toward.y, toward.z].map(f64x4::splat);
+        let heights = self
+            .lanes
+            .iter()
+            .map(|[a, b, c]| height(*a * x + *b * y + *c * z));
+        let most = heights.fold(f64x4::splat(f64::NEG_INFINITY), f64x4::fast_max);
+        most.to_array()
+            .into_iter()
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The first one of those for which `height` is largest, given how far each goes ahead in a direction.
     fn farthest(&self, toward: &Vector3<f64>, height: impl Fn(f64x4) -> f64x4) -> Vector3<f64> {
         let [x, y, z] = [toward.x, toward.y, toward.z].map(f64x4::splat);
@@ -134,28 +148,21 @@ impl Directions {
 impl SupportMap for Swept {
     fn local_support_point(&self, dir: Vector) -> Vector {
         let toward: Vector3<f64> = dir.into();
-        let [near, far] = self.aims.standoff.map(f64x4::splat);
-        let back = |ahead: f64x4| ahead.simd_gt(f64x4::ZERO).select(near, far) * ahead;
-        // How far the core of a jet reaches that goes so far ahead.
-        let jet = match self.core {
-            Core::Exit
-            | Core::Line {
-                direction: Some(_), ..
-            } => self.directions.farthest(&toward, |ahead| -back(ahead)),
-            Core::Line { length, .. } => self.directions.farthest(&toward, |ahead| {
-                (-ahead * length).fast_max(f64x4::ZERO) - back(ahead)
-            }),
-            Core::Disc { radius } => self.directions.farthest(&toward, |ahead| {
-                let across = f64x4::splat(toward.norm_squared()) - ahead * ahead;
-                across.fast_max(f64x4::ZERO).sqrt() * radius - back(ahead)
-            }),
-        };
+        let jet = self.directions.farthest(&toward, self.heights(&toward));
         (self.farthest_point(&jet, &toward) + self.aims.farthest(&toward)).into()
     }
 }
 
-impl Swept {
-    /// The core somewhere in the middle of all.
+/// Something convex that parts keep a distance from.
+pub(super) trait SweptBody: SupportMap {
+    /// A line somewhere in the middle of it.
+    fn middle(&self) -> Segment;
+
+    /// How far it reaches in a direction, m: less work than the point where it does.
+    fn height(&self, toward: Vector) -> f64;
+}
+
+impl SweptBody for Swept {
     fn middle(&self) -> Segment {
         let jet = self.directions.mean();
         let exit = self.aims.centre.coords - jet * self.aims.middle_standoff();
@@ -164,6 +171,45 @@ impl Swept {
             Core::Exit | Core::Disc { .. } => exit,
         };
         Segment::new(exit.into(), end.into())
+    }
+
+    fn height(&self, toward: Vector) -> f64 {
+        let toward: Vector3<f64> = toward.into();
+        let beyond = match self.core {
+            Core::Line {
+                length,
+                direction: Some(direction),
+            } => (direction.dot(&toward) * length).max(0.0),
+            _ => 0.0,
+        };
+        let highest = self.directions.highest(&toward, self.heights(&toward));
+        highest + beyond + self.aims.farthest(&toward).dot(&toward)
+    }
+}
+
+impl Swept {
+    /// How far the cores of jets reach in a direction from where they are aimed, given how far each jet goes ahead in
+    /// it; a line in a fixed direction from its exit.
+    #[inline(always)]
+    fn heights(&self, toward: &Vector3<f64>) -> impl Fn(f64x4) -> f64x4 {
+        let [near, far] = self.aims.standoff.map(f64x4::splat);
+        let back = move |ahead: f64x4| ahead.simd_gt(f64x4::ZERO).select(near, far) * ahead;
+        let square = f64x4::splat(toward.norm_squared());
+        let (length, disc) = match self.core {
+            Core::Exit
+            | Core::Line {
+                direction: Some(_), ..
+            } => (0.0, None),
+            Core::Line { length, .. } => (length, None),
+            Core::Disc { radius } => (0.0, Some(radius)),
+        };
+        move |ahead| {
+            let reach = match disc {
+                Some(radius) => (square - ahead * ahead).fast_max(f64x4::ZERO).sqrt() * radius,
+                None => (-ahead * length).fast_max(f64x4::ZERO),
+            };
+            reach - back(ahead)
+        }
     }
 
     /// The point of the core of a jet that is farthest in a direction, from where it is aimed.
@@ -193,20 +239,19 @@ impl Scene {
     /// Distance between all places of a nozzle's core and the nearest surface of the parts that stand in
     /// the scene, and that surface; 0 where they meet, `None` when everything is farther than `limit`.
     pub fn distance_to_swept(&self, swept: &Swept, limit: f64) -> Option<(f64, u32)> {
-        self.distance_to_convex(swept, swept.middle(), limit)
+        self.distance_to_convex(swept, limit)
     }
 
-    /// The same for anything convex with a line in its middle.
+    /// The same for anything convex.
     pub(super) fn distance_to_convex(
         &self,
-        convex: &impl SupportMap,
-        line: Segment,
+        convex: &impl SweptBody,
         limit: f64,
     ) -> Option<(f64, u32)> {
         let mut nearest: Option<(f64, u32)> = None;
         for part in self.parts.iter().filter(|part| !part.on_nozzle) {
             let bound = nearest.map_or(limit, |(gap, _)| gap);
-            let found = part.facets.distance_to_convex(convex, line, bound);
+            let found = part.facets.distance_to_convex(convex, bound);
             if let Some((distance, triangle)) = found {
                 nearest = Some((distance, part.facets.surface(triangle)));
             }
@@ -216,16 +261,10 @@ impl Scene {
 }
 
 impl TriangleMesh {
-    /// Distance between something convex with a line in its middle and the nearest triangle, and that triangle; 0 where
-    /// they meet, `None` where everything is farther than `limit`.
-    fn distance_to_convex(
-        &self,
-        swept: &impl SupportMap,
-        line: Segment,
-        limit: f64,
-    ) -> Option<(f64, u32)> {
+    /// Distance between something convex and the nearest triangle, and that triangle; 0 where they meet, `None` where everything is farther than `limit`.
+    fn distance_to_convex(&self, swept: &impl SweptBody, limit: f64) -> Option<(f64, u32)> {
         let axes = [Vector::X, Vector::Y, Vector::Z];
-        let reach = |sign: f64| axes.map(|axis| swept.local_support_point(axis * sign).dot(axis));
+        let reach = |sign: f64| axes.map(|axis| sign * swept.height(axis * sign));
         let (low, high) = (
             Vector::from_array(reach(-1.0)),
             Vector::from_array(reach(1.0)),
@@ -233,25 +272,21 @@ impl TriangleMesh {
         let convex = Convex {
             low,
             high,
-            line,
-            height: |toward: Vector| swept.local_support_point(toward).dot(toward),
+            line: swept.middle(),
+            height: |toward| swept.height(toward),
         };
-        self.nearest_triangle(limit, &convex, |triangle, limit| {
-            distance(swept, triangle, limit)
+        self.nearest_triangle(limit, &convex, |triangle, way, limit| {
+            distance(swept, triangle, way, limit)
         })
     }
 }
 
-/// Distance between what is swept and a triangle, as far as it is below a limit.
-fn distance(swept: &impl SupportMap, triangle: &parry3d_f64::shape::Triangle, limit: f64) -> f64 {
+/// Distance between what is swept and a triangle, as far as it is below a limit; the search starts along a way between
+/// them.
+fn distance(swept: &impl SupportMap, triangle: &Triangle, way: Vector, limit: f64) -> f64 {
     let there = Pose::IDENTITY;
     let mut simplex = VoronoiSimplex::new();
-    let towards = triangle.a - swept.local_support_point(Vector::X);
-    let start = if towards == Vector::ZERO {
-        Vector::X
-    } else {
-        towards
-    };
+    let start = if way == Vector::ZERO { Vector::X } else { way };
     simplex.reset(CsoPoint::from_shapes(&there, swept, triangle, start));
     let found = gjk::closest_points(&there, swept, triangle, limit, true, &mut simplex);
     match found {

@@ -16,6 +16,10 @@ pub(in crate::scene) struct Meshlet {
     triangles: Vec<u32>,
     /// Corner points of them, each once, m.
     corners: Vec<Vector>,
+    /// Nearly their normal; 0 where they have none.
+    normal: Vector,
+    /// The least and the largest height of a corner along that, m.
+    heights: [f64; 2],
 }
 
 impl Meshlet {
@@ -49,6 +53,16 @@ impl Meshlet {
     /// Its box, loosened by `slack` (m).
     pub fn bounds(&self, slack: f64) -> Aabb {
         Aabb::from_points(self.corners.iter().copied()).loosened(slack)
+    }
+
+    /// Nearly its normal, away from a point, and how far along that its nearest point is, m.
+    pub fn plane_from(&self, point: Vector) -> (Vector, f64) {
+        let [low, high] = self.heights;
+        if 2.0 * point.dot(self.normal) < low + high {
+            (self.normal, low)
+        } else {
+            (-self.normal, -high)
+        }
     }
 
     /// How far along a direction its nearest point is, m.
@@ -100,9 +114,17 @@ impl Group {
                 once.push(point);
             }
         }
+        let normal = self.normals.iter().sum::<Vector3<f64>>();
+        let normal: Vector = normal.try_normalize(0.0).unwrap_or_default().into();
+        let heights = once.iter().map(|corner| corner.dot(normal));
+        let heights = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+            [low.min(height), high.max(height)]
+        });
         Meshlet {
             triangles: self.triangles,
             corners: once,
+            normal,
+            heights,
         }
     }
 }
