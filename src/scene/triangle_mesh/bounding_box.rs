@@ -27,7 +27,7 @@ impl BoundingBox {
     #[inline(always)]
     pub fn reached(&self, rays: &Rays, hits: &Hits) -> [bool; LANES] {
         let mut reached = [false; LANES];
-        for index in 0..padded(rays.count) {
+        for (index, reached) in reached.iter_mut().take(padded(rays.count)).enumerate() {
             let radius = if rays.are_spheres {
                 rays.radius[index]
             } else {
@@ -44,7 +44,7 @@ impl BoundingBox {
                 first = larger(smaller(low, high), first);
                 last = smaller(larger(low, high), last);
             }
-            reached[index] = first <= last;
+            *reached = first <= last;
         }
         reached
     }
