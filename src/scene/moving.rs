@@ -1,5 +1,6 @@
 //! Rays and the parts that move with the nozzle.
 
+use arrayvec::ArrayVec;
 use multiversion::multiversion;
 
 use super::lanes::{LANES, components, padded, put};
@@ -25,22 +26,34 @@ pub(super) fn cross(
     nozzle_frames: &NozzleFrames,
     hits: &mut Hits,
 ) {
-    let there = rays_there(rays, nozzle_frames);
+    let mut there = rays_there(rays, nozzle_frames);
+    // Most shots have left the nozzle behind.
+    let reached = part.reached(&there, hits);
+    let near: ArrayVec<usize, LANES> = (0..rays.count).filter(|&i| reached[i]).collect();
+    if near.is_empty() {
+        return;
+    }
+    there.keep(&near);
     let mut met = Hits {
-        distance: hits.distance,
         hit_ids: HitIds {
             part: [NO_PART; LANES],
             ..HitIds::none()
         },
         ..Hits::none()
     };
+    for (k, &i) in near.iter().enumerate() {
+        met.distance[k] = hits.distance[i];
+    }
     part.cross(index, &there, &mut met);
-    for i in (0..rays.count).filter(|&i| met.hit_ids.part[i] == index) {
-        let normal = nozzle_frames.at(i).vector_back(components(&met.normal, i));
-        hits.distance[i] = met.distance[i];
-        hits.above[i] = met.above[i];
-        hits.surface[i] = met.surface[i];
-        hits.hit_ids.set(i, met.hit_ids.at(i));
+    for (k, &i) in near.iter().enumerate() {
+        if met.hit_ids.part[k] != index {
+            continue;
+        }
+        let normal = nozzle_frames.at(i).vector_back(components(&met.normal, k));
+        hits.distance[i] = met.distance[k];
+        hits.above[i] = met.above[k];
+        hits.surface[i] = met.surface[k];
+        hits.hit_ids.set(i, met.hit_ids.at(k));
         put(&mut hits.normal, i, normal);
     }
 }

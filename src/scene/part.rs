@@ -6,6 +6,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::carried::Pieces;
 use super::geometry::Geometry;
+use super::lanes::LANES;
 use super::mesh::{Shell, Shells};
 use super::parry_rays::ParryMesh;
 use super::prism::Prism;
@@ -234,6 +235,14 @@ impl BuiltPart {
         }
     }
 
+    /// Of each ray whether it comes to the box round the part before it meets what it has hit so far.
+    #[inline(always)]
+    pub fn reached(&self, rays: &Rays, hits: &Hits) -> [bool; LANES] {
+        // Cylinders stand out over their chords.
+        let bulge = if self.prism.is_some() { BULGE } else { 0.0 };
+        self.facets.reached(bulge, rays, hits)
+    }
+
     /// Takes the first crossings that are nearer than what the rays have hit so far; `index` is
     /// that of this part. Normals are those on the fronts.
     #[inline(always)]
@@ -250,3 +259,6 @@ impl BuiltPart {
         }
     }
 }
+
+/// Chords turn by a degree at most: by less than this share of their length arcs stand out over them.
+const BULGE: f64 = 0.01;

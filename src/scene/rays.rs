@@ -94,6 +94,20 @@ impl Rays {
         }
     }
 
+    /// Leaves out all but some of them, which are given in order.
+    pub(super) fn keep(&mut self, which: &[usize]) {
+        self.count = which.len();
+        for (to, &from) in which.iter().enumerate() {
+            for lane in self.origin.iter_mut().chain(&mut self.direction) {
+                lane[to] = lane[from];
+            }
+            self.radius[to] = self.radius[from];
+            if let Some(leaving) = &mut self.leaving {
+                leaving.set(to, leaving.at(from));
+            }
+        }
+    }
+
     /// One of them.
     pub fn at(&self, index: usize) -> Ray {
         Ray {

@@ -20,7 +20,9 @@ use rayon::prelude::*;
 
 use super::LIFT;
 use super::bvh8::Bvh8;
+use super::lanes::LANES;
 use super::mesh::Mesh;
+use super::rays::{Hits, Rays};
 use super::triangle_packet::TrianglePacket;
 use bounding_box::BoundingBox;
 use touch::Touchable;
@@ -109,6 +111,13 @@ impl TriangleMesh {
     /// The unit normal on the front of a triangle.
     pub fn normal(&self, index: u32) -> Vector3<f64> {
         plane::normal(&self.corners(index))
+    }
+
+    /// Of each ray whether it comes to the box of the mesh, grown by a share of its longest side, before it meets what it
+    /// has hit so far.
+    #[inline(always)]
+    pub(super) fn reached(&self, bulge: f64, rays: &Rays, hits: &Hits) -> [bool; LANES] {
+        self.bounding_box.grown(bulge).reached(rays, hits)
     }
 
     /// The surface of a triangle.

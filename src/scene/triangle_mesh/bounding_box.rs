@@ -11,15 +11,22 @@ use crate::scene::rays::{Hits, Rays};
 pub(super) struct BoundingBox {
     low: Point3<f64>,
     high: Point3<f64>,
-    /// Nearer than this is on it, m.
-    slack: f64,
+    /// By how much shots may miss it, m.
+    margin: f64,
 }
 
 impl BoundingBox {
     /// Of a mesh, loosened by `slack` (m).
     pub fn of(mesh: &Mesh, slack: f64) -> Self {
         let (low, high) = mesh.bounds().unwrap_or_default();
-        Self { low, high, slack }
+        let margin = 2.0 * slack;
+        Self { low, high, margin }
+    }
+
+    /// The same with more room all round, by a share of its longest side.
+    pub fn grown(&self, share: f64) -> Self {
+        let margin = self.margin + share * (self.high - self.low).max();
+        Self { margin, ..*self }
     }
 
     /// Of each ray whether it comes to the box before it meets what it has hit so far: shots that have a size as soon as
@@ -36,7 +43,7 @@ impl BoundingBox {
             let (mut first, mut last) = (0.0, hits.distance[index]);
             for axis in 0..3 {
                 let origin = rays.origin[axis][index];
-                let margin = radius + 2.0 * self.slack + origin.abs() * ROUNDING;
+                let margin = radius + self.margin + origin.abs() * ROUNDING;
                 let inverse = 1.0 / rays.direction[axis][index];
                 let low = (self.low[axis] - margin - origin) * inverse;
                 let high = (self.high[axis] + margin - origin) * inverse;
