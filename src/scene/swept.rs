@@ -261,7 +261,8 @@ impl Scene {
 }
 
 impl TriangleMesh {
-    /// Distance between something convex and the nearest triangle, and that triangle; 0 where they meet, `None` where everything is farther than `limit`.
+    /// Distance between something convex and the nearest triangle, and that triangle; 0 where they meet, `None` where
+    /// everything is farther than `limit`.
     fn distance_to_convex(&self, swept: &impl SweptBody, limit: f64) -> Option<(f64, u32)> {
         let axes = [Vector::X, Vector::Y, Vector::Z];
         let reach = |sign: f64| axes.map(|axis| sign * swept.height(axis * sign));
