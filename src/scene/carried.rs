@@ -5,7 +5,8 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::shape::{Segment, SupportMap};
 
 use super::Scene;
-use super::swept::{Aims, SweptBody};
+use super::convex_body::ConvexBody;
+use super::swept::Aims;
 use super::triangle_mesh::TriangleMesh;
 
 /// All places of one piece within the tolerance of the nozzle's settings.
@@ -45,7 +46,7 @@ impl SupportMap for SweptPiece<'_> {
     }
 }
 
-impl SweptBody for SweptPiece<'_> {
+impl ConvexBody for SweptPiece<'_> {
     /// A point.
     fn middle(&self) -> Segment {
         let centre = self.corners.iter().sum::<Vector3<f64>>() / self.corners.len() as f64;
@@ -55,10 +56,6 @@ impl SweptBody for SweptPiece<'_> {
         let each = each.map(|axes| axes[0] * there.x + axes[1] * there.y + axes[2] * there.z);
         let middle = aims.centre.coords + each.sum::<Vector3<f64>>() / self.way.axes.len() as f64;
         Segment::new(middle.into(), middle.into())
-    }
-
-    fn height(&self, toward: Vector) -> f64 {
-        self.local_support_point(toward).dot(toward)
     }
 }
 

@@ -7,6 +7,7 @@ mod build;
 mod bvh8;
 pub(crate) mod carried;
 mod clearance;
+mod convex_body;
 mod cut;
 mod departure;
 mod free_side;

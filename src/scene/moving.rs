@@ -45,10 +45,8 @@ pub(super) fn cross(
         met.distance[k] = hits.distance[i];
     }
     part.cross(index, &there, &mut met);
-    for (k, &i) in near.iter().enumerate() {
-        if met.hit_ids.part[k] != index {
-            continue;
-        }
+    let each = near.iter().enumerate();
+    for (k, &i) in each.filter(|&(k, _)| met.hit_ids.part[k] == index) {
         let normal = nozzle_frames.at(i).vector_back(components(&met.normal, k));
         hits.distance[i] = met.distance[k];
         hits.above[i] = met.above[k];

@@ -5,15 +5,16 @@
 //! all of them: exact along the walls of a bore, and too large towards the aim point by no more than a
 //! direction's patch bulges.
 
+mod directions;
+
 use nalgebra::{Point3, Vector3};
-use parry3d_f64::math::{Pose, Vector};
-use parry3d_f64::query::gjk::{self, CsoPoint, GJKResult, VoronoiSimplex};
-use parry3d_f64::shape::{Segment, SupportMap, Triangle};
+use parry3d_f64::math::Vector;
+use parry3d_f64::shape::{Segment, SupportMap};
 use wide::f64x4;
 
 use super::Scene;
-use super::clearance::Convex;
-use super::triangle_mesh::TriangleMesh;
+use super::convex_body::ConvexBody;
+pub use directions::Directions;
 
 /// What of the nozzle must not touch a wall, round the exit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,65 +87,6 @@ pub struct Swept {
     pub core: Core,
 }
 
-/// Unit vectors, four to a lane: most of the work of a distance is to find the one that reaches farthest.
-#[derive(Clone, Debug)]
-pub struct Directions {
-    /// Coordinates of four at a time; the last one fills up what is left.
-    lanes: Vec<[f64x4; 3]>,
-}
-
-impl Directions {
-    /// Of at least one unit vector.
-    pub fn new(directions: &[Vector3<f64>]) -> Self {
-        let lane = |four: &[Vector3<f64>]| {
-            let at = |index: usize| four[index.min(four.len() - 1)];
-            [0, 1, 2].map(|axis| f64x4::from([0, 1, 2, 3].map(|index| at(index)[axis])))
-        };
-        Self {
-            lanes: directions.chunks(4).map(lane).collect(),
-        }
-    }
-
-    /// The unit vector in the middle of them.
-    fn mean(&self) -> Vector3<f64> {
-        let lanes = self.lanes.iter();
-        let sum = lanes.map(|lane| Vector3::from(lane.map(|it| it.reduce_add())));
-        sum.sum::<Vector3<f64>>().normalize()
-    }
-
-    /// The largest `height`, given how far each goes ahead in a direction.
-    #[inline(always)]
-    fn highest(&self, toward: &Vector3<f64>, height: impl Fn(f64x4) -> f64x4) -> f64 {
-        let [x, y, z] = [toward.x, toward.y, toward.z].map(f64x4::splat);
-        let heights = self
-            .lanes
-            .iter()
-            .map(|[a, b, c]| height(*a * x + *b * y + *c * z));
-        let most = heights.fold(f64x4::splat(f64::NEG_INFINITY), f64x4::fast_max);
-        most.to_array()
-            .into_iter()
-            .fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// The first one of those for which `height` is largest, given how far each goes ahead in a direction.
-    fn farthest(&self, toward: &Vector3<f64>, height: impl Fn(f64x4) -> f64x4) -> Vector3<f64> {
-        let [x, y, z] = [toward.x, toward.y, toward.z].map(f64x4::splat);
-        let heights = |[a, b, c]: &[f64x4; 3]| height(*a * x + *b * y + *c * z);
-        let (mut most, mut lanes) = (f64x4::splat(f64::NEG_INFINITY), [f64x4::ZERO; 3]);
-        for lane in &self.lanes {
-            let here = heights(lane);
-            let is_more = here.simd_gt(most);
-            most = is_more.select(here, most);
-            for (kept, lane) in lanes.iter_mut().zip(lane) {
-                *kept = is_more.select(*lane, *kept);
-            }
-        }
-        let most = most.to_array();
-        let index = (1..4).fold(0, |best, it| if most[it] > most[best] { it } else { best });
-        Vector3::from(lanes.map(|lane| lane.to_array()[index]))
-    }
-}
-
 impl SupportMap for Swept {
     fn local_support_point(&self, dir: Vector) -> Vector {
         let toward: Vector3<f64> = dir.into();
@@ -153,16 +95,7 @@ impl SupportMap for Swept {
     }
 }
 
-/// Something convex that parts keep a distance from.
-pub(super) trait SweptBody: SupportMap {
-    /// A line somewhere in the middle of it.
-    fn middle(&self) -> Segment;
-
-    /// How far it reaches in a direction, m: less work than the point where it does.
-    fn height(&self, toward: Vector) -> f64;
-}
-
-impl SweptBody for Swept {
+impl ConvexBody for Swept {
     fn middle(&self) -> Segment {
         let jet = self.directions.mean();
         let exit = self.aims.centre.coords - jet * self.aims.middle_standoff();
@@ -241,195 +174,7 @@ impl Scene {
     pub fn distance_to_swept(&self, swept: &Swept, limit: f64) -> Option<(f64, u32)> {
         self.distance_to_convex(swept, limit)
     }
-
-    /// The same for anything convex.
-    pub(super) fn distance_to_convex(
-        &self,
-        convex: &impl SweptBody,
-        limit: f64,
-    ) -> Option<(f64, u32)> {
-        let mut nearest: Option<(f64, u32)> = None;
-        for part in self.parts.iter().filter(|part| !part.on_nozzle) {
-            let bound = nearest.map_or(limit, |(gap, _)| gap);
-            let found = part.facets.distance_to_convex(convex, bound);
-            if let Some((distance, triangle)) = found {
-                nearest = Some((distance, part.facets.surface(triangle)));
-            }
-        }
-        nearest
-    }
-}
-
-impl TriangleMesh {
-    /// Distance between something convex and the nearest triangle, and that triangle; 0 where they meet, `None` where
-    /// everything is farther than `limit`.
-    fn distance_to_convex(&self, swept: &impl SweptBody, limit: f64) -> Option<(f64, u32)> {
-        let axes = [Vector::X, Vector::Y, Vector::Z];
-        let reach = |sign: f64| axes.map(|axis| sign * swept.height(axis * sign));
-        let (low, high) = (
-            Vector::from_array(reach(-1.0)),
-            Vector::from_array(reach(1.0)),
-        );
-        let convex = Convex {
-            low,
-            high,
-            line: swept.middle(),
-            height: |toward| swept.height(toward),
-        };
-        self.nearest_triangle(limit, &convex, |triangle, way, limit| {
-            distance(swept, triangle, way, limit)
-        })
-    }
-}
-
-/// Distance between what is swept and a triangle, as far as it is below a limit; the search starts along a way between
-/// them.
-fn distance(swept: &impl SupportMap, triangle: &Triangle, way: Vector, limit: f64) -> f64 {
-    let there = Pose::IDENTITY;
-    let mut simplex = VoronoiSimplex::new();
-    let start = if way == Vector::ZERO { Vector::X } else { way };
-    simplex.reset(CsoPoint::from_shapes(&there, swept, triangle, start));
-    let found = gjk::closest_points(&there, swept, triangle, limit, true, &mut simplex);
-    match found {
-        GJKResult::ClosestPoints(a, b, _) => (a - b).length(),
-        GJKResult::NoIntersection(_) => f64::INFINITY,
-        GJKResult::Intersection | GJKResult::Proximity(_) => 0.0,
-    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::problem::part::{Part, Place, Shape};
-    use crate::scene::Walls;
-
-    fn block() -> Scene {
-        let part = Part {
-            name: "block".into(),
-            shape: Shape::Box {
-                min: Point3::new(-1.0, -1.0, -1.0),
-                max: Point3::new(1.0, 1.0, 0.0),
-            },
-            place: Place::default(),
-            on_nozzle: false,
-            cut: Vec::new(),
-        };
-        Scene::build(&[part], Walls::Exact).expect("it is sound")
-    }
-
-    fn swept(core: Core, direction: Vector3<f64>, shifts: [f64; 3]) -> Swept {
-        let [x, y, z] = shifts;
-        Swept {
-            aims: Aims {
-                centre: Point3::origin(),
-                shifts: [
-                    Vector3::x() * x,
-                    Vector3::y() * y,
-                    Vector3::z() * z,
-                    Vector3::zeros(),
-                ],
-                standoff: [2.0, 3.0],
-            },
-            directions: Directions::new(&[direction.normalize()]),
-            core,
-        }
-    }
-
-    #[test]
-    fn distances_are_those_of_the_nearest_place() {
-        let scene = block();
-        let down = -Vector3::z();
-        for (core, direction, shifts, expected) in [
-            (Core::Exit, down, [0.0; 3], 2.0),
-            (Core::Exit, down, [0.0, 0.0, 0.5], 1.5),
-            (Core::Disc { radius: 0.3 }, down, [0.0; 3], 2.0),
-            // Upright beside the block: the rim is nearest.
-            (
-                Core::Disc { radius: 0.3 },
-                -Vector3::x(),
-                [0.1, 0.0, 0.0],
-                0.9_f64,
-            ),
-            (
-                Core::Line {
-                    length: 1.5,
-                    direction: Some(down),
-                },
-                down,
-                [0.0; 3],
-                0.5,
-            ),
-            (
-                Core::Line {
-                    length: 9.0,
-                    direction: None,
-                },
-                down,
-                [0.0; 3],
-                2.0,
-            ),
-        ] {
-            let swept = swept(core, direction, shifts);
-            let (found, _) = scene.distance_to_swept(&swept, 9.0).expect("it is near");
-            assert!(
-                (found - expected).abs() < 1e-9,
-                "{core:?}: {found} {expected}"
-            );
-        }
-    }
-
-    /// The nearest of many places on a grid is never nearer, and hardly farther.
-    #[test]
-    fn the_hull_is_as_near_as_the_nearest_of_many_places() {
-        let scene = block();
-        let tilt = |a: f64, b: f64| Vector3::new(a.sin() * b.cos(), a.sin() * b.sin(), -a.cos());
-        let step = |k: i32, half: f64| half * f64::from(k) / 8.0;
-        for (polar, turn) in [(0.4, 0.3), (0.9, 2.0), (1.4, 4.0)] {
-            let mut directions = Vec::new();
-            for i in -2..=2 {
-                for j in -2..=2 {
-                    directions.push(tilt(
-                        polar + 0.035 * f64::from(i) / 2.0,
-                        turn + 0.035 * f64::from(j) / 2.0,
-                    ));
-                }
-            }
-            let swept = Swept {
-                aims: Aims {
-                    centre: Point3::new(1.05, 0.0, 0.1),
-                    shifts: [
-                        Vector3::x() * 0.02,
-                        Vector3::y() * 0.02,
-                        Vector3::zeros(),
-                        Vector3::zeros(),
-                    ],
-                    standoff: [0.9, 1.1],
-                },
-                directions: Directions::new(&directions),
-                core: Core::Line {
-                    length: 1.0,
-                    direction: Some(Vector3::new(-0.6, 0.0, 0.8)),
-                },
-            };
-            let (found, _) = scene.distance_to_swept(&swept, 9.0).expect("it is near");
-            let mut least = f64::INFINITY;
-            for i in -8..=8 {
-                for j in -8..=8 {
-                    let jet = tilt(polar + step(i, 0.035), turn + step(j, 0.035));
-                    for standoff in [0.9, 0.95, 1.0, 1.05, 1.1] {
-                        for (x, y) in [(-0.02, -0.02), (-0.02, 0.02), (0.02, -0.02), (0.02, 0.02)] {
-                            let from = swept.aims.centre + Vector3::new(x, y, 0.0) - jet * standoff;
-                            let to = from + Vector3::new(-0.6, 0.0, 0.8);
-                            let facets = &scene.parts[0].facets;
-                            let near = facets.distance_to_segment(&from, &to, 9.0);
-                            least = least.min(near.expect("it is near").0);
-                        }
-                    }
-                }
-            }
-            let bulge = 1.1 * 0.035 * 0.035;
-            assert!(found < least + 0.1 * bulge, "{found} {least}");
-            assert!(found > least - bulge, "{found} {least}");
-        }
-    }
-}
+mod tests;

@@ -311,6 +311,42 @@ fn many_rays_meet_what_each_of_them_meets() {
     }
 }
 
+/// The facets of a pin stay inside it, and it is its exact wall that rays meet.
+#[test]
+fn rays_meet_a_round_pin_on_the_nozzle_beyond_its_facets() {
+    let shape = Shape::Bore {
+        diameter: 2.0,
+        length: 3.0,
+        ends: Ends::default(),
+        free: None,
+    };
+    let mut pin = part("pin", shape, true);
+    // The middle of a chord is where it is widest.
+    pin.place.rotation =
+        nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, 0.5_f64.to_radians());
+    let scene = Scene::build(&[pin], Walls::Exact).expect("it is sound");
+    let frame = NozzleFrame::new([Vector3::x(), Vector3::y(), Vector3::z()], Point3::origin());
+    for (radius, beside, meets) in [
+        (0.0, 1.0 - 1e-5, true),
+        (0.0, 1.0 + 1e-5, false),
+        (0.05, 1.05 - 1e-5, true),
+        (0.05, 1.05 + 1e-5, false),
+    ] {
+        let mut rays = Rays::none();
+        rays.count = 1;
+        rays.are_spheres = radius > 0.0;
+        rays.radius[0] = radius;
+        put(&mut rays.origin, 0, [beside, -4.0, 1.5]);
+        put(&mut rays.direction, 0, [0.0, 1.0, 0.0]);
+        let mut nozzle_frames = NozzleFrames::none();
+        nozzle_frames.set(0, &frame);
+        rays.nozzle_frames = Some(Box::new(nozzle_frames));
+        let mut hits = Hits::none();
+        scene.first_hits(&rays, &mut hits);
+        assert_eq!(hits.distance[0].is_finite(), meets, "{radius} {beside}");
+    }
+}
+
 /// Where a ray starts on a second wall already, it is put on the side that it comes from.
 #[test]
 fn hits_are_a_lift_above_their_surface_or_as_high_as_the_ray_starts() {

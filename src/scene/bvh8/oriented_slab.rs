@@ -9,7 +9,7 @@ use super::bars::Bars;
 use super::split::Bounds;
 use super::tolerances::TOLERANCES;
 use super::{Node, WIDTH};
-use crate::scene::lanes::{larger, smaller};
+use crate::scene::lanes::extremes;
 
 /// Slabs are worth a look up to this share of their boxes in width.
 const WIDEST_SHARE: f64 = 0.5;
@@ -55,14 +55,6 @@ impl OrientedSlab {
             high: (high + margin) as f32,
         })
     }
-}
-
-/// The smallest and the largest.
-pub(super) fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let none = (f64::INFINITY, f64::NEG_INFINITY);
-    values.fold(none, |(low, high), value| {
-        (smaller(value, low), larger(value, high))
-    })
 }
 
 pub(super) fn areas(triangles: impl Iterator<Item = [Vector3<f64>; 3]>) -> Vector3<f64> {

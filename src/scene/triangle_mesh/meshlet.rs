@@ -9,6 +9,7 @@ use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::Vector;
 
 use super::plane;
+use crate::scene::lanes::extremes;
 
 /// A group of triangles that lie nearly in one plane.
 #[derive(Clone)]
@@ -19,7 +20,7 @@ pub(in crate::scene) struct Meshlet {
     /// Nearly their normal; 0 where they have none.
     normal: Vector,
     /// The least and the largest height of a corner along that, m.
-    heights: [f64; 2],
+    heights: (f64, f64),
 }
 
 impl Meshlet {
@@ -57,7 +58,7 @@ impl Meshlet {
 
     /// Nearly its normal, away from a point, and how far along that its nearest point is, m.
     pub fn plane_from(&self, point: Vector) -> (Vector, f64) {
-        let [low, high] = self.heights;
+        let (low, high) = self.heights;
         if 2.0 * point.dot(self.normal) < low + high {
             (self.normal, low)
         } else {
@@ -116,15 +117,11 @@ impl Group {
         }
         let normal = self.normals.iter().sum::<Vector3<f64>>();
         let normal: Vector = normal.try_normalize(0.0).unwrap_or_default().into();
-        let heights = once.iter().map(|corner| corner.dot(normal));
-        let heights = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
-            [low.min(height), high.max(height)]
-        });
         Meshlet {
             triangles: self.triangles,
+            heights: extremes(once.iter().map(|corner| corner.dot(normal))),
             corners: once,
             normal,
-            heights,
         }
     }
 }
