@@ -29,7 +29,7 @@ struct Flight {
 /// of the mesh in the scene. Normals are those on the fronts.
 ///
 /// The same as [`TriangleMesh::first_crossing`] of each ray. (With AVX-512 it takes longer.)
-#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma+popcnt"))]
+#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
 pub fn cross(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
     let reached = facets.bounding_box.reached(rays, hits);
     for first in (0..rays.count).step_by(GROUP) {
@@ -64,7 +64,7 @@ pub fn cross(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
 }
 
 /// Takes the first contacts of spheres in place of rays, likewise.
-#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma+popcnt"))]
+#[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
 pub fn touch(facets: &TriangleMesh, part: u32, rays: &Rays, hits: &mut Hits) {
     let reached = facets.bounding_box.reached(rays, hits);
     for index in (0..rays.count).filter(|&it| reached[it]) {
