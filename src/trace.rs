@@ -108,22 +108,15 @@ impl<'a> Tracer<'a> {
         self.aim.shot(&self.frame_of(sample), sample)
     }
 
-    /// Fires shots in packets for an observer; `end_packet` gets the shots of each packet and the number of rays
-    /// that they took together.
-    pub(crate) fn fire<W: Observer>(
-        &self,
-        shots: &[ShotSample],
-        observer: &mut W,
-        mut end_packet: impl FnMut(&mut W, &[ShotSample], usize),
-    ) {
+    /// Fires shots in packets for an observer.
+    pub(crate) fn fire<W: Observer + ?Sized>(&self, shots: &[ShotSample], observer: &mut W) {
         if shots.is_empty() {
             return;
         }
         let mut packet = RayPacket::none();
         for shots in shots.chunks(LANES) {
             fetch(shots);
-            let rays = fire(self, &mut packet, shots, None, observer);
-            end_packet(observer, shots, rays);
+            fire(self, &mut packet, shots, None, observer);
         }
     }
 

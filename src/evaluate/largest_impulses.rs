@@ -6,7 +6,7 @@ use crate::objective::{ObjectiveAccumulator, Tally, Terms};
 use crate::problem::setting::{Range, Settings};
 use crate::scenario::Scenario;
 use crate::scene::lanes::LANES;
-use crate::trace::{End, Observer, RayPacket, Tracer};
+use crate::trace::{Observer, RayPacket, Tracer};
 use crate::verdict::Verdict;
 
 /// The impacts of some shots, per unit of launch speed.
@@ -36,10 +36,7 @@ impl LargestImpulses {
             touched: Vec::new(),
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
-        tracer.fire(shots, &mut accumulator, |accumulator, shots, rays| {
-            accumulator.objective.end_packet(shots, rays);
-            accumulator.end_packet();
-        });
+        tracer.fire(shots, &mut accumulator as &mut dyn Observer);
         Self {
             tally: accumulator.objective.finish(),
             sticking: accumulator.sticking,
@@ -152,16 +149,6 @@ struct LargestAccumulator {
     touched: Vec<usize>,
 }
 
-impl LargestAccumulator {
-    fn end_packet(&mut self) {
-        let surfaces = self.largest.len();
-        for place in self.touched.drain(..) {
-            self.largest[place % surfaces].push(self.in_packet[place]);
-            self.in_packet[place] = 0.0;
-        }
-    }
-}
-
 impl Observer for LargestAccumulator {
     fn impacts(&mut self, packet: &RayPacket) {
         self.objective.impacts(packet);
@@ -181,5 +168,12 @@ impl Observer for LargestAccumulator {
         }
     }
 
-    fn ends(&mut self, _: usize, _: End, _: usize) {}
+    fn packet_ends(&mut self, shots: &[ShotSample], rays: usize) {
+        self.objective.packet_ends(shots, rays);
+        let surfaces = self.largest.len();
+        for place in self.touched.drain(..) {
+            self.largest[place % surfaces].push(self.in_packet[place]);
+            self.in_packet[place] = 0.0;
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::impulses::Impulses;
-use crate::jet::Replicate;
+use crate::jet::{Replicate, ShotSample};
 use crate::objective::{ObjectiveAccumulator, Tally};
 use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
@@ -58,11 +58,7 @@ impl ReplicateStats {
             seen_over: Marks::new(scenario.surfaces.len()),
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
-        tracer.fire(shots, &mut accumulator, |accumulator, shots, rays| {
-            accumulator.objective.end_packet(shots, rays);
-            accumulator.seen.clear();
-            accumulator.seen_over.clear();
-        });
+        tracer.fire(shots, &mut accumulator);
         Self {
             tally: accumulator.objective.finish(),
             boundary: Tally::trace(
@@ -135,6 +131,12 @@ impl Observer for ReplicateAccumulator<'_> {
 
     fn ends(&mut self, _: usize, end: End, _: usize) {
         *self.ends.entry(end).or_insert(0) += 1;
+    }
+
+    fn packet_ends(&mut self, shots: &[ShotSample], rays: usize) {
+        self.objective.packet_ends(shots, rays);
+        self.seen.clear();
+        self.seen_over.clear();
     }
 }
 

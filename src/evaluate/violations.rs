@@ -7,7 +7,7 @@ use crate::problem::goal::TangentialImpulse;
 use crate::problem::setting::Settings;
 use crate::scenario::{Scenario, SurfaceLimits};
 use crate::scene::lanes::LANES;
-use crate::trace::{End, Observer, RayPacket, Tracer};
+use crate::trace::{Observer, RayPacket, Tracer};
 
 /// The importance density of some settings, and the rays that its pilot runs took. Violations are misses,
 /// tangential impulses over their limit and impacts on secondary surfaces, each with its part in J.
@@ -99,18 +99,8 @@ impl ViolationAccumulator {
             rays: 0,
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
-        tracer.fire(shots, &mut accumulator, Self::end_packet);
+        tracer.fire(shots, &mut accumulator as &mut dyn Observer);
         accumulator
-    }
-
-    fn end_packet(&mut self, shots: &[ShotSample], rays: usize) {
-        self.rays += rays;
-        for i in 0..shots.len() {
-            let miss = if self.on_target[i] { 0.0 } else { self.miss };
-            self.violation.push(self.in_packet[i] + miss);
-        }
-        self.in_packet = [0.0; LANES];
-        self.on_target = [false; LANES];
     }
 }
 
@@ -133,5 +123,13 @@ impl Observer for ViolationAccumulator {
         }
     }
 
-    fn ends(&mut self, _: usize, _: End, _: usize) {}
+    fn packet_ends(&mut self, shots: &[ShotSample], rays: usize) {
+        self.rays += rays;
+        for i in 0..shots.len() {
+            let miss = if self.on_target[i] { 0.0 } else { self.miss };
+            self.violation.push(self.in_packet[i] + miss);
+        }
+        self.in_packet = [0.0; LANES];
+        self.on_target = [false; LANES];
+    }
 }

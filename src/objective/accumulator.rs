@@ -7,7 +7,7 @@ use crate::problem::setting::Settings;
 use crate::scenario::Scenario;
 use crate::scene::lanes::{LANES, Lane, WIDEST, components, larger, padded};
 use crate::scene::patch::Patch;
-use crate::trace::{End, Observer, RayPacket, Tracer, mask};
+use crate::trace::{Observer, RayPacket, Tracer, mask};
 
 /// Builds a [`Tally`] from packets of shots.
 pub(crate) struct ObjectiveAccumulator {
@@ -99,23 +99,6 @@ impl ObjectiveAccumulator {
         self.on_target[index] != 0.0
     }
 
-    /// Closes a packet of `shots` that took `rays` rays together.
-    pub fn end_packet(&mut self, shots: &[ShotSample], rays: usize) {
-        self.tally.shots += shots.len();
-        self.tally.rays += rays;
-        let (mut all, mut missed, mut worst) = (0.0, 0.0, 0.0_f64);
-        for (shot, hit) in shots.iter().zip(&mut self.hit_target) {
-            let miss = if *hit { 0.0 } else { shot.weight };
-            all += shot.weight;
-            missed += miss;
-            worst = worst.max(miss);
-            *hit = false;
-        }
-        self.tally.weight += all;
-        self.tally.missed += missed;
-        self.tally.worst_miss = self.tally.worst_miss.max(worst);
-    }
-
     /// The tally of all packets.
     pub fn finish(self) -> Tally {
         self.tally
@@ -160,7 +143,7 @@ impl Tally {
         let mut objective =
             ObjectiveAccumulator::new(scenario, settings.contact, speed, shots.len());
         let tracer = Tracer::new(scenario, settings, speed);
-        tracer.fire(shots, &mut objective, ObjectiveAccumulator::end_packet);
+        tracer.fire(shots, &mut objective);
         objective.finish()
     }
 }
@@ -214,8 +197,21 @@ impl Observer for ObjectiveAccumulator {
         }
     }
 
-    #[inline(always)]
-    fn ends(&mut self, _: usize, _: End, _: usize) {}
+    fn packet_ends(&mut self, shots: &[ShotSample], rays: usize) {
+        self.tally.shots += shots.len();
+        self.tally.rays += rays;
+        let (mut all, mut missed, mut worst) = (0.0, 0.0, 0.0_f64);
+        for (shot, hit) in shots.iter().zip(&mut self.hit_target) {
+            let miss = if *hit { 0.0 } else { shot.weight };
+            all += shot.weight;
+            missed += miss;
+            worst = worst.max(miss);
+            *hit = false;
+        }
+        self.tally.weight += all;
+        self.tally.missed += missed;
+        self.tally.worst_miss = self.tally.worst_miss.max(worst);
+    }
 }
 
 /// The largest of the first `count` numbers, which are not negative.

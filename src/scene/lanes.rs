@@ -1,6 +1,9 @@
 //! Numbers side by side: each quantity of many rays in a row, so that the compiler works on several
 //! at once.
 
+use nalgebra::Vector3;
+use wide::f64x4;
+
 /// Most rays side by side.
 pub const LANES: usize = 128;
 
@@ -14,6 +17,16 @@ pub type Lane = [f64; LANES];
 #[inline(always)]
 pub fn padded(count: usize) -> usize {
     count.next_multiple_of(WIDEST).min(LANES)
+}
+
+/// The components of a vector, each four times.
+#[inline(always)]
+pub fn splat(vector: Vector3<f64>) -> [f64x4; 3] {
+    [
+        f64x4::splat(vector.x),
+        f64x4::splat(vector.y),
+        f64x4::splat(vector.z),
+    ]
 }
 
 /// The components of one vector.

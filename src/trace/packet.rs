@@ -52,29 +52,36 @@ pub(crate) trait Observer {
     fn impacts(&mut self, packet: &RayPacket);
 
     /// A shot's path has ended after `rays` rays.
-    fn ends(&mut self, shot: usize, end: End, rays: usize);
+    fn ends(&mut self, _shot: usize, _end: End, _rays: usize) {}
+
+    /// The paths of all `shots` of the packet have ended, after `rays` rays together.
+    fn packet_ends(&mut self, shots: &[ShotSample], rays: usize);
 }
 
-/// Fires `shots` together, at most [`LANES`], from the exit or all from one start; returns the number of rays.
-pub(crate) fn fire<W: Observer>(
+/// Fires `shots` together, at most [`LANES`], from the exit or all from one start.
+///
+/// Observers that are asked in every evaluation are compiled into the tracing, for the instructions of the processor at
+/// hand; the others pass themselves as `dyn Observer`, as each costs as much to compile as the rest of tracing.
+pub(super) fn fire<W: Observer + ?Sized>(
     tracer: &Tracer,
     packet: &mut RayPacket,
     shots: &[ShotSample],
     start: Option<&Ray>,
     observer: &mut W,
-) -> usize {
-    if tracer.scenario.scene.has_exact_walls() {
+) {
+    let rays = if tracer.scenario.scene.has_exact_walls() {
         fire_at_walls(tracer, packet, shots, start, observer)
     } else {
         fire_at_facets(tracer, packet, shots, start, observer)
-    }
+    };
+    observer.packet_ends(shots, rays);
 }
 
 #[multiversion(targets(
     "x86_64+avx+avx2+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+bmi1+bmi2+fma",
     "x86_64+avx+avx2+bmi1+bmi2+fma"
 ))]
-fn fire_at_walls<W: Observer>(
+fn fire_at_walls<W: Observer + ?Sized>(
     tracer: &Tracer,
     packet: &mut RayPacket,
     shots: &[ShotSample],
@@ -87,7 +94,7 @@ fn fire_at_walls<W: Observer>(
 /// Without AVX-512, for which some processors slow down all that they do; the walk through a tree
 /// gains nothing from it.
 #[multiversion(targets("x86_64+avx+avx2+bmi1+bmi2+fma"))]
-fn fire_at_facets<W: Observer>(
+fn fire_at_facets<W: Observer + ?Sized>(
     tracer: &Tracer,
     packet: &mut RayPacket,
     shots: &[ShotSample],
@@ -160,7 +167,7 @@ impl RayPacket {
     }
 
     #[inline(always)]
-    fn fly<W: Observer>(
+    fn fly<W: Observer + ?Sized>(
         &mut self,
         tracer: &Tracer,
         shots: &[ShotSample],
@@ -199,7 +206,7 @@ impl RayPacket {
 
     /// Drops the shots whose paths have ended; the last of the others take their lanes.
     #[inline(always)]
-    fn end_paths<W: Observer>(&mut self, flights: u32, observer: &mut W) {
+    fn end_paths<W: Observer + ?Sized>(&mut self, flights: u32, observer: &mut W) {
         let goes_on = path_state::GOES_ON;
         let path_states = &self.impacts.path_state[..self.rays.count];
         if !any(path_states, |path_state| path_state != goes_on) {

@@ -52,9 +52,7 @@ impl Tracer<'_> {
     /// The paths of shots of the jet, in their order.
     pub fn paths(&self, shots: &[ShotSample]) -> Vec<Path> {
         let mut recorder = Recorder::new(&self.scenario.target);
-        self.fire(shots, &mut recorder, |recorder, shots, _| {
-            recorder.end_packet(shots.len());
-        });
+        self.fire(shots, &mut recorder as &mut dyn Observer);
         recorder.paths
     }
 
@@ -66,10 +64,7 @@ impl Tracer<'_> {
             in_packet: [None; LANES],
             hits: Vec::with_capacity(shots.len()),
         };
-        self.fire(shots, &mut first, |first, shots, _| {
-            first.hits.extend(&first.in_packet[..shots.len()]);
-            first.in_packet = [None; LANES];
-        });
+        self.fire(shots, &mut first as &mut dyn Observer);
         first.hits
     }
 
@@ -79,8 +74,8 @@ impl Tracer<'_> {
         let mut recorder = Recorder::new(&self.scenario.target);
         let mut packet = RayPacket::none();
         let shots = std::slice::from_ref(sample);
-        fire(self, &mut packet, shots, Some(&start), &mut recorder);
-        recorder.end_packet(1);
+        let observer: &mut dyn Observer = &mut recorder;
+        fire(self, &mut packet, shots, Some(&start), observer);
         recorder.paths.swap_remove(0)
     }
 
@@ -120,11 +115,6 @@ impl<'a> Recorder<'a> {
             paths: Vec::new(),
         }
     }
-
-    fn end_packet(&mut self, shots: usize) {
-        let none = std::iter::repeat_n(Path::NONE, shots);
-        self.paths.extend(self.in_packet.splice(..shots, none));
-    }
 }
 
 /// Records first hits on one surface, for which whole paths would be too much.
@@ -147,7 +137,10 @@ impl Observer for FirstHits<'_> {
         }
     }
 
-    fn ends(&mut self, _: usize, _: End, _: usize) {}
+    fn packet_ends(&mut self, shots: &[ShotSample], _: usize) {
+        self.hits.extend(&self.in_packet[..shots.len()]);
+        self.in_packet = [None; LANES];
+    }
 }
 
 impl Path {
@@ -170,6 +163,12 @@ impl Observer for Recorder<'_> {
     fn ends(&mut self, shot: usize, end: End, rays: usize) {
         let path = &mut self.in_packet[shot];
         (path.end, path.rays) = (end, rays);
+    }
+
+    fn packet_ends(&mut self, shots: &[ShotSample], _: usize) {
+        let none = std::iter::repeat_n(Path::NONE, shots.len());
+        self.paths
+            .extend(self.in_packet.splice(..shots.len(), none));
     }
 }
 

@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 use wide::f64x4;
 
+use crate::scene::lanes::splat;
+
 /// Unit vectors, four to a lane: most of the work of a distance is to find the one that reaches farthest.
 #[derive(Clone, Debug)]
 pub struct Directions {
@@ -62,7 +64,7 @@ impl Directions {
     /// How far they go ahead in a direction, and their coordinates.
     #[inline(always)]
     fn ahead(&self, toward: &Vector3<f64>) -> impl Iterator<Item = (f64x4, &[f64x4; 3])> {
-        let [x, y, z] = [toward.x, toward.y, toward.z].map(f64x4::splat);
+        let [x, y, z] = splat(*toward);
         let lanes = self.lanes.iter();
         lanes.map(move |lane| (lane[0] * x + lane[1] * y + lane[2] * z, lane))
     }

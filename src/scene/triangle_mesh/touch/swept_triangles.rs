@@ -6,6 +6,7 @@ use wide::f64x4;
 
 use super::contact::{FARTHEST, Sphere, SweptTriangle};
 use super::convex_edges::ConvexEdges;
+use crate::scene::lanes::splat;
 
 /// The planes of one to four triangles and of their edges.
 #[derive(Clone)]
@@ -43,10 +44,9 @@ pub(super) struct WideSphere {
 impl WideSphere {
     #[inline(always)]
     pub fn new(sphere: &Sphere) -> Self {
-        let (origin, direction) = (&sphere.ray.origin, &sphere.ray.direction);
         Self {
-            origin: [origin.x, origin.y, origin.z].map(f64x4::splat),
-            direction: [direction.x, direction.y, direction.z].map(f64x4::splat),
+            origin: splat(sphere.ray.origin.coords),
+            direction: splat(sphere.ray.direction),
             radius: f64x4::splat(sphere.radius),
             slack: f64x4::splat(sphere.slack),
             margin: f64x4::splat(sphere.widest_margin + sphere.slack),
