@@ -86,6 +86,16 @@ pub fn power(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// The smallest and the largest of some numbers; inf and -inf where there are none. NaN is left out. Of zeros with
+/// different signs the first one counts, where [`f64::min`] leaves the choice to the machine.
+pub(crate) fn extremes(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    numbers.fold(none, |(low, high), number| {
+        let low = if number < low { number } else { low };
+        (low, if number > high { number } else { high })
+    })
+}
+
 /// A number times itself.
 #[inline(always)]
 pub fn square(number: f64) -> f64 {

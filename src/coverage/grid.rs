@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::Density;
 use super::hits::FirstHit;
-use crate::elementary::square;
+use crate::elementary::{extremes, square};
 use crate::scenario::Scenario;
 use crate::scene::patch::{Frame, Triangle};
 
@@ -200,9 +200,9 @@ pub(super) fn areas(polygon: Polygon) -> Vec<(Place, f64)> {
 /// A face between cells that runs through a polygon, by its axis and its place there.
 fn face_through(polygon: &Polygon) -> Option<(usize, f64)> {
     (0..3).find_map(|axis| {
-        let along = || polygon.iter().map(|corner| corner[axis]);
-        let low = (along().fold(f64::INFINITY, f64::min) + ROUNDING).floor();
-        let high = (along().fold(f64::NEG_INFINITY, f64::max) - ROUNDING).ceil();
+        let (lowest, highest) = extremes(polygon.iter().map(|corner| corner[axis]));
+        let low = (lowest + ROUNDING).floor();
+        let high = (highest - ROUNDING).ceil();
         // The middle one, so that what is cut off is cut less often.
         (high - low > 1.0).then(|| (axis, (0.5 * (low + high)).floor()))
     })

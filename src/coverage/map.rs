@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::grid::{Cell, Cells, Polygon, areas};
 use super::hits::FirstHit;
+use crate::elementary::extremes;
 use crate::scene::patch::Triangle;
 use crate::scene::traverse::Traverse;
 
@@ -45,10 +46,9 @@ impl Unrolled {
             .filter_map(|triangle| flat(traverse, turn, triangle))
             .collect();
         let ends = |axis: usize| {
-            let along = || triangles.iter().flat_map(|(corners, _)| corners);
-            let along = || along().map(|corner| corner[axis]);
-            let low = along().fold(f64::INFINITY, f64::min);
-            [low, along().fold(f64::NEG_INFINITY, f64::max) - low]
+            let corners = triangles.iter().flat_map(|(corners, _)| corners);
+            let (low, high) = extremes(corners.map(|corner| corner[axis]));
+            [low, high - low]
         };
         let [mut x, y] = [ends(0), ends(1)];
         let is_closed = turn.is_some_and(|turn| x[1] >= turn * (1.0 - CLOSED));

@@ -26,7 +26,7 @@ pub fn importance_of(scenario: &Scenario, settings: &Settings) -> (ImportanceDen
         let accumulator = ViolationAccumulator::of(scenario, settings, &pilot_run.shots);
         importance =
             pilot_run.adapted(&importance, &rare(&accumulator.violation, &pilot_run.shots));
-        rays += accumulator.rays;
+        rays += accumulator.objective.finish().rays;
     }
     (importance, rays)
 }
@@ -68,11 +68,8 @@ struct ViolationAccumulator {
     miss: f64,
     /// Of each shot of the packet.
     in_packet: [f64; LANES],
-    /// Whether it has hit the target first.
-    on_target: [bool; LANES],
     /// Of each shot.
     violation: Vec<f64>,
-    rays: usize,
 }
 
 impl ViolationAccumulator {
@@ -94,9 +91,7 @@ impl ViolationAccumulator {
             tangential: goals.tangential_impulse,
             miss: goals.miss.weight,
             in_packet: [0.0; LANES],
-            on_target: [false; LANES],
             violation: Vec::with_capacity(shots.len()),
-            rays: 0,
         };
         let tracer = Tracer::new(scenario, settings, settings.speed);
         tracer.fire(shots, &mut accumulator as &mut dyn Observer);
@@ -113,7 +108,6 @@ impl Observer for ViolationAccumulator {
                 let cost = self.costs[packet.hits.surface[i] as usize];
                 self.in_packet[shot] += cost * square(packet.impacts.normal[i]);
             } else if packet.number[i] == 1.0 {
-                self.on_target[shot] = true;
                 let excess = |goal: TangentialImpulse| {
                     let excess = (packet.impacts.tangential[i] / goal.limit - 1.0).max(0.0);
                     goal.weight * excess * excess
@@ -124,12 +118,15 @@ impl Observer for ViolationAccumulator {
     }
 
     fn packet_ends(&mut self, shots: &[ShotSample], rays: usize) {
-        self.rays += rays;
         for i in 0..shots.len() {
-            let miss = if self.on_target[i] { 0.0 } else { self.miss };
+            let miss = if self.objective.has_hit_target(i) {
+                0.0
+            } else {
+                self.miss
+            };
             self.violation.push(self.in_packet[i] + miss);
         }
         self.in_packet = [0.0; LANES];
-        self.on_target = [false; LANES];
+        self.objective.packet_ends(shots, rays);
     }
 }

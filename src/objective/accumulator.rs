@@ -99,6 +99,11 @@ impl ObjectiveAccumulator {
         self.on_target[index] != 0.0
     }
 
+    /// Whether a shot of the packet in flight has hit the target first.
+    pub fn has_hit_target(&self, shot: usize) -> bool {
+        self.hit_target[shot]
+    }
+
     /// The tally of all packets.
     pub fn finish(self) -> Tally {
         self.tally

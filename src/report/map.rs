@@ -3,6 +3,7 @@
 use super::layout::Block;
 use super::number::{count, fixed, plain, significant};
 use super::sheet::setting::SETTINGS;
+use crate::elementary::extremes;
 use crate::record::{AnswerRecord, AxisRecord, MapRecord, MapTerm, QuestionRecord};
 
 /// Names of the files of a record's maps, without ending.
@@ -158,11 +159,8 @@ impl MapView<'_> {
             .collect();
         let fitting = self.map.cells.iter().filter(|cell| cell.terms.is_some());
         let ends = |axis: usize| {
-            let values = places.iter().map(|place| place[axis]);
-            [
-                values.clone().fold(f64::INFINITY, f64::min),
-                values.fold(f64::NEG_INFINITY, f64::max),
-            ]
+            let (low, high) = extremes(places.iter().map(|place| place[axis]));
+            [low, high]
         };
         let share = places.len() as f64 / fitting.count().max(1) as f64;
         (!places.is_empty()).then(|| (share, [ends(0), ends(1)]))

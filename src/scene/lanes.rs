@@ -55,14 +55,6 @@ pub fn smaller<R: PartialOrd>(a: R, b: R) -> R {
     if a < b { a } else { b }
 }
 
-/// The smallest and the largest.
-pub fn extremes(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
-    let none = (f64::INFINITY, f64::NEG_INFINITY);
-    numbers.fold(none, |(low, high), number| {
-        (smaller(number, low), larger(number, high))
-    })
-}
-
 /// Whether something holds for any of some numbers, which are all looked at.
 #[inline(always)]
 pub fn any(numbers: &[f64], holds: impl Fn(f64) -> bool) -> bool {

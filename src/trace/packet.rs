@@ -61,7 +61,7 @@ pub(crate) trait Observer {
 /// Fires `shots` together, at most [`LANES`], from the exit or all from one start.
 ///
 /// Observers that are asked in every evaluation are compiled into the tracing, for the instructions of the processor at
-/// hand; the others pass themselves as `dyn Observer`, as each costs as much to compile as the rest of tracing.
+/// hand; the others are passed as `dyn Observer`, as each type of its own is one more copy of all tracing to compile.
 pub(super) fn fire<W: Observer + ?Sized>(
     tracer: &Tracer,
     packet: &mut RayPacket,

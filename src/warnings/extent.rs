@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use crate::elementary::extremes;
 use crate::problem::equipment::{Body, Nozzle};
 use crate::problem::setting::{Range, Setting};
 use crate::problem::warning::{Warning, WarningCode, short};
@@ -198,9 +199,7 @@ fn aims(scenario: &Scenario) -> Vec<Warning> {
             let (pieces, _) = scenario.target.cut_out(&scenario.scene);
             let points = pieces.into_iter().flatten();
             let places = points.map(|point| axis.dot(&(point - frame.aim)));
-            let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| {
-                (ends.0.min(place), ends.1.max(place))
-            });
+            let (low, high) = extremes(places);
             let slack = 1e-6 * (high - low);
             (min > high + slack || max < low - slack).then(|| {
                 let message = format!(

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use nalgebra::{Point3, Vector3};
 
+use crate::elementary::extremes;
 use crate::report::faces::largest;
 use crate::scene::mesh::{Mesh, SmoothFaces};
 
@@ -21,11 +22,9 @@ pub(super) fn svg(mesh: &Mesh, faces: &SmoothFaces, most: usize) -> String {
     let flat = |point: &Point3<f64>| [point.coords.dot(&right), -point.coords.dot(&up)];
     let ends = |axis: usize| {
         let along = mesh.vertices.iter().map(|it| flat(it)[axis]);
-        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
-            [low.min(it), high.max(it)]
-        })
+        extremes(along)
     };
-    let ([left, end], [top, bottom]) = (ends(0), ends(1));
+    let ((left, end), (top, bottom)) = (ends(0), ends(1));
     let scale = (WIDTH - 2.0 * MARGIN) / (end - left).max(bottom - top).max(f64::MIN_POSITIVE);
     let place = |point: &Point3<f64>| {
         let [x, y] = flat(point);

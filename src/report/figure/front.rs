@@ -7,6 +7,7 @@ use plotters::style::text_anchor::HPos;
 use super::levels::Levels;
 use super::sheet::{self, Area, Drawn, Fault, Place, drawn, headline};
 use super::style::{FAINT, GHOST, GRID, HEADING, INK, LABEL, Look, bold, letters, look_of};
+use crate::elementary::extremes;
 use crate::record::{FrontRecord, Record};
 
 const SIZE: (u32, u32) = (1800, 1250);
@@ -33,9 +34,7 @@ impl Axis {
         let levels = Levels::of(values.iter().copied())?;
         let shown = values.iter().filter(|value| **value > 0.0);
         let scaled = shown.map(|value| levels.scaled(*value));
-        let (low, high) = scaled.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
+        let (low, high) = extremes(scaled);
         if low == high {
             let values = values.iter().copied().filter(|value| *value > 0.0);
             return Some(Self {

@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use crate::elementary::{ln, log10, power, whole_power};
+use crate::elementary::{extremes, ln, log10, power, whole_power};
 use crate::report::number::{decimals_for, fixed, plain};
 
 /// Round values, and a colour for each band between them.
@@ -25,8 +25,7 @@ impl Levels {
     /// Levels for some values; `None` when they are all the same.
     pub fn of(values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
         let finite = || values.clone().filter(|value| value.is_finite());
-        let highest = finite().fold(f64::NEG_INFINITY, f64::max);
-        let lowest = finite().fold(f64::INFINITY, f64::min);
+        let (lowest, highest) = extremes(finite());
         if lowest >= highest {
             return None;
         }

@@ -10,6 +10,7 @@ use super::panel::Panel;
 use super::scale::Scale;
 use super::sheet::{self, Area, Drawn, Fault, drawn, headline};
 use super::style::{INK, look_of};
+use crate::elementary::extremes;
 use crate::record::{DentedMapRecord, Record, StrokeRecord, VerdictRecord};
 use crate::report::number::{plain, share};
 use crate::report::sheet::subject::utilisation;
@@ -69,8 +70,7 @@ fn used(verdict: &VerdictRecord) -> f64 {
 
 fn curves(area: &Area, stroke: &StrokeRecord) -> Drawn {
     let places = stroke.stations.iter().map(|station| station.at_m * 1e3);
-    let from = places.clone().fold(f64::INFINITY, f64::min);
-    let to = places.fold(f64::NEG_INFINITY, f64::max);
+    let (from, to) = extremes(places);
     let all = stroke.stations.iter().flat_map(|station| &station.verdicts);
     let most = all.map(used).fold(LEAST_USED, f64::max).min(MOST_USED);
     let axes = [

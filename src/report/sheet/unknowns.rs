@@ -1,5 +1,6 @@
 //! What is not known exactly at the ends of its range: which of it moves the result most.
 
+use crate::elementary::extremes;
 use crate::record::{
     ContactRecord, OutcomeRecord, QuantityRecord, Record, UnknownRangeRecord, UnknownsRecord,
     VerdictRecord,
@@ -110,11 +111,7 @@ fn nearest_to_failing(effect: &OutcomeRecord, verdicts: &[VerdictRecord]) -> Str
 /// By how much J differs over the range.
 fn movement(range: &UnknownRangeRecord, nominal: &OutcomeRecord) -> f64 {
     let all = [&range.at_low, nominal, &range.at_high].map(|effect| effect.objective);
-    let (low, high) = all
-        .into_iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), j| {
-            (low.min(j), high.max(j))
-        });
+    let (low, high) = extremes(all.into_iter());
     high - low
 }
 

@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 
 use super::oriented_slab::{OrientedSlab, OrientedSlabs, areas};
 use super::split::Bounds;
-use crate::scene::lanes::{extremes, larger, smaller};
+use crate::elementary::extremes;
+use crate::scene::lanes::{larger, smaller};
 
 /// Bars are worth a look up to this share of their boxes in width: few triangles but needles lie in so
 /// narrow ones.

@@ -9,7 +9,7 @@ use super::bars::Bars;
 use super::split::Bounds;
 use super::tolerances::TOLERANCES;
 use super::{Node, WIDTH};
-use crate::scene::lanes::extremes;
+use crate::elementary::extremes;
 
 /// Slabs are worth a look up to this share of their boxes in width.
 const WIDEST_SHARE: f64 = 0.5;

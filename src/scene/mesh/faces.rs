@@ -12,6 +12,7 @@ use parry3d_f64::shape::Triangle as ParryTriangle;
 
 use super::Mesh;
 use super::groups::Groups;
+use crate::elementary::extremes;
 pub use form::Form;
 
 /// Neighbours whose normals differ by less than this are on one smooth face, rad.
@@ -116,14 +117,9 @@ impl Mesh {
 
     /// How wide a flat piece is across a direction in its plane, on average: its area over its length.
     fn width(&self, members: &[u32], along: &Vector3<f64>) -> f64 {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for triangle in members.iter().map(|&index| &self.triangles[index as usize]) {
-            for corner in self.corners(triangle) {
-                let place = corner.coords.dot(along);
-                low = place.min(low);
-                high = place.max(high);
-            }
-        }
+        let triangles = members.iter().map(|&index| &self.triangles[index as usize]);
+        let corners = triangles.flat_map(|it| self.corners(it));
+        let (low, high) = extremes(corners.map(|corner| corner.coords.dot(along)));
         self.area(members) / (high - low)
     }
 

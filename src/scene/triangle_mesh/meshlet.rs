@@ -9,7 +9,7 @@ use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::Vector;
 
 use super::plane;
-use crate::scene::lanes::extremes;
+use crate::elementary::extremes;
 
 /// A group of triangles that lie nearly in one plane.
 #[derive(Clone)]

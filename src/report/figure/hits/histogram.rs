@@ -4,6 +4,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 use super::{HISTOGRAM_HEIGHT, LEFT, ROOM, SIZE, TOP, WIDTH, limit_mark, tolerance_marks};
+use crate::elementary::extremes;
 use crate::record::{HitsRecord, Record};
 use crate::report::figure::axis::Axis;
 use crate::report::figure::marks::{self, Mark};
@@ -99,12 +100,7 @@ impl Histogram {
     pub fn draw(&self, area: &Area, index: usize) -> Drawn {
         let (left, top) = (LEFT[index], TOP[1]);
         let corners = [(left, top), (left + WIDTH + 90, top + HISTOGRAM_HEIGHT)];
-        let lowest = self.values.iter().copied().fold(f64::INFINITY, f64::min);
-        let highest = self
-            .values
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max);
+        let (lowest, highest) = extremes(self.values.iter().copied());
         let span = (highest - lowest).max(LEAST_SPAN * highest.abs()).max(1e-9);
         // Marks that are near are worth seeing.
         let near = |value: &f64| (lowest - span..=highest + span).contains(value);
