@@ -199,6 +199,29 @@ fn readme() {
     assert!(ran >= 4, "{ran}");
 }
 
+/// Beside a picture that is made again, the words are easily forgotten.
+#[test]
+fn the_readme_names_the_angles_of_its_pictures() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |file: &str| fs::read_to_string(root.join(file)).unwrap();
+    let angle = |picture: &str| -> f64 {
+        let svg = read(picture);
+        let (_, rest) = svg.split_once(">incidence ").unwrap();
+        rest.split_once('\u{b0}').unwrap().0.parse().unwrap()
+    };
+    let (best, steep) = (angle("docs/keyway.svg"), angle("docs/keyway-steep.svg"));
+    let readme = read("README.md");
+    for said in [
+        format!("the same nozzle {:.0}\u{b0} steeper", steep - best),
+        format!("floor at {best:.0} degrees"),
+        format!("At {steep:.0} degrees"),
+        format!("At {best:.0}\u{b0} every rebound"),
+        format!("At {steep:.0}\u{b0} half of the shots"),
+    ] {
+        assert!(readme.contains(&said), "{said}");
+    }
+}
+
 #[test]
 fn other_documents() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use peenpose::evidence::Evidence;
 use peenpose::problem::setting::Settings;
-use peenpose::record::{EvidenceRecord, Record};
+use peenpose::record::{EvidenceRecord, Record, SpotRecord};
 use peenpose::report::{page, sheet};
 
 use crate::common::shipped;
@@ -144,6 +144,40 @@ fn what_must_be_known_at_once_stands_before_everything_else() {
     assert!(places.is_sorted(), "{places:?}");
     let text = page(&kept::record("no_room")).unwrap();
     assert!(text.contains("verdict bad") && text.contains("What would cure it"));
+}
+
+#[test]
+fn the_head_of_a_page_says_what_that_of_the_sheet_says() {
+    let labels = [
+        ("  beware  ", "<dt>Beware<"),
+        ("  spot  ", "<dt>Spot<"),
+        ("  limited by  ", "<dt>Limited by<"),
+        ("  search  ", "<dt>Search<"),
+    ];
+    let with_spot = |mut record: Record| {
+        record.spot = Some(SpotRecord {
+            length_m: 1.7e-3,
+            width_m: 1.6e-3,
+            share_of_target: 0.036,
+        });
+        record
+    };
+    let records = kept::NAMES.map(kept::record);
+    let records = records.clone().into_iter().chain(records.map(with_spot));
+    let mut hold_on_spots_alone = 0;
+    for record in records {
+        let (sheet, page) = (sheet(&record), page(&record).unwrap());
+        let (head, _) = page.split_once("<nav").unwrap();
+        for (on_sheet, on_page) in labels {
+            let title = &record.problem.title;
+            let (said, shown) = (sheet.contains(on_sheet), head.contains(on_page));
+            assert_eq!(said, shown, "{title}: {on_page}");
+        }
+        let alone = "PASS holds there alone";
+        assert_eq!(sheet.contains(alone), head.contains(alone));
+        hold_on_spots_alone += usize::from(head.contains(alone));
+    }
+    assert!(hold_on_spots_alone > 0);
 }
 
 #[test]

@@ -138,10 +138,8 @@ struct Page<'a> {
 struct Head {
     passes: bool,
     verdict: Vec<String>,
-    /// What takes the ground from under all figures; empty where nothing does.
-    beware: String,
-    limited_by: String,
-    search: String,
+    /// What must be known besides, each with its label.
+    below_verdict: Vec<(&'static str, String)>,
     /// What the settings are: to be set, given, or the best that failed.
     settings_are: &'static str,
     cards: Vec<Card>,
@@ -177,9 +175,10 @@ impl Head {
         Self {
             passes: best.passes && best.feasible,
             verdict: typeset_all(sheet::headline::verdict(record)),
-            beware: typeset(sheet::headline::beware(record).unwrap_or_default()),
-            limited_by: typeset(&sheet::cause::headline(record)),
-            search: typeset(&sheet::headline::status(record)),
+            below_verdict: sheet::headline::below_verdict(record)
+                .into_iter()
+                .map(|(label, text)| (label, typeset(&text)))
+                .collect(),
             settings_are: match record.status {
                 StatusRecord::Evaluated => "Settings given",
                 StatusRecord::NoFeasiblePose => "Nearest miss",

@@ -16,23 +16,24 @@ pub fn block(record: &Record) -> Block {
     block.paragraph(&record.problem.title);
     block.paragraph(&record.problem.file);
     block.gap();
+    let mut hang = |label: &str, text: &str| block.hanging(&format!("{label:13}"), text);
     for (index, line) in verdict(record).iter().enumerate() {
-        let label = if index == 0 {
-            "verdict      "
-        } else {
-            "             "
-        };
-        block.hanging(label, line);
+        hang(if index == 0 { "verdict" } else { "" }, line);
     }
-    if let Some(reason) = beware(record) {
-        block.hanging("beware       ", reason);
+    for (label, text) in below_verdict(record) {
+        hang(label, &text);
     }
-    if let Some(spot) = spot(record) {
-        block.hanging("spot         ", &spot);
-    }
-    block.hanging("limited by   ", &cause::headline(record));
-    block.hanging("search       ", &status(record));
     block
+}
+
+/// What must be known besides the overall verdict, each with its label.
+pub fn below_verdict(record: &Record) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    lines.extend(beware(record).map(|reason| ("beware", reason.to_owned())));
+    lines.extend(spot(record).map(|spot| ("spot", spot)));
+    lines.push(("limited by", cause::headline(record)));
+    lines.push(("search", status(record)));
+    lines
 }
 
 /// The overall verdict; what fails stands on lines of its own, worst first.
@@ -79,7 +80,7 @@ pub fn verdict(record: &Record) -> Vec<String> {
 }
 
 /// What takes the ground from under all figures: shots that meet each other in flight.
-pub fn beware(record: &Record) -> Option<&str> {
+fn beware(record: &Record) -> Option<&str> {
     let mut notes = record.notes.iter();
     let note = notes.find(|note| note.name == STRONG_INTERFERENCE)?;
     Some(&note.text)
