@@ -1,8 +1,10 @@
 //! Whether settings pass: one verdict for each goal and each secondary surface.
 
 mod interval;
+mod share_estimate;
 mod stations;
 
+pub(crate) use share_estimate::{Asked, ShareEstimate};
 pub use stations::StationVerdicts;
 
 use serde::{Deserialize, Serialize};
@@ -47,10 +49,22 @@ pub struct Verdict {
     pub place: Option<f64>,
 }
 
-/// Standard errors by which a search stays below what is allowed,
-const MARGIN: f64 = 1.5;
-/// but no lower than this part of it.
-const LEAST_PART: f64 = 0.5;
+/// Of what shots do, and which share of them may: the goals, then every surface that has a limit. In the run-out of a
+/// stroke the goals of the target do not count.
+pub(crate) fn allowed_shares(scenario: &Scenario) -> impl Iterator<Item = (Subject, f64)> {
+    let goals = &scenario.problem.goals;
+    let tangential = goals.tangential_impulse;
+    let of_target = [
+        Some((Subject::Miss, goals.miss.share)),
+        Some((Subject::NormalImpulse, goals.normal_impulse.share)),
+        tangential.map(|goal| (Subject::TangentialImpulse, goal.share)),
+    ];
+    let counts = !scenario.in_run_out;
+    let of_target = of_target.into_iter().flatten().filter(move |_| counts);
+    let surfaces = scenario.surfaces.iter().enumerate();
+    let limited = surfaces.filter(|(_, limits)| limits.allow.is_some() && !limits.deflector);
+    of_target.chain(limited.map(|(index, limits)| (Subject::Surface(index as u32), limits.share)))
+}
 
 impl Verdict {
     /// All verdicts on an evaluation: the goals, then every surface that has a limit.
@@ -58,59 +72,25 @@ impl Verdict {
         Self::on(scenario, &ViolationCounts::of(evaluation))
     }
 
-    /// The same on what was counted. In the run-out of a stroke the goals of the target do not count.
+    /// The same on what was counted.
     pub fn on(scenario: &Scenario, counts: &ViolationCounts) -> Vec<Self> {
-        let mut verdicts = match scenario.in_run_out {
-            true => Vec::new(),
-            false => Self::on_target(scenario, counts),
-        };
-        for (index, (limits, &over)) in scenario.surfaces.iter().zip(&counts.over).enumerate() {
-            if limits.allow.is_some() && !limits.deflector {
-                verdicts.push(Self {
-                    subject: Subject::Surface(index as u32),
-                    broken: over,
-                    counted: counts.shots,
-                    allowed: limits.share,
-                    is_exact: counts.is_exact,
-                    place: None,
-                });
+        let verdict = |(subject, allowed)| {
+            let (broken, counted) = match subject {
+                Subject::NormalImpulse => (counts.off_target, counts.hits),
+                Subject::TangentialImpulse => (counts.over_limit, counts.hits),
+                Subject::Surface(index) => (counts.over[index as usize], counts.shots),
+                _ => (counts.shots - counts.hits, counts.shots),
+            };
+            Self {
+                subject,
+                broken,
+                counted,
+                allowed,
+                is_exact: counts.is_exact,
+                place: None,
             }
-        }
-        verdicts
-    }
-
-    fn on_target(scenario: &Scenario, counts: &ViolationCounts) -> Vec<Self> {
-        let goals = &scenario.problem.goals;
-        let is_exact = counts.is_exact;
-        let mut verdicts = vec![
-            Self {
-                subject: Subject::Miss,
-                broken: counts.shots - counts.hits,
-                counted: counts.shots,
-                allowed: goals.miss.share,
-                is_exact,
-                place: None,
-            },
-            Self {
-                subject: Subject::NormalImpulse,
-                broken: counts.off_target,
-                counted: counts.hits,
-                allowed: goals.normal_impulse.share,
-                is_exact,
-                place: None,
-            },
-        ];
-        if let Some(goal) = goals.tangential_impulse {
-            verdicts.push(Self {
-                subject: Subject::TangentialImpulse,
-                broken: counts.over_limit,
-                counted: counts.hits,
-                allowed: goal.share,
-                is_exact,
-                place: None,
-            });
-        }
-        verdicts
+        };
+        allowed_shares(scenario).map(verdict).collect()
     }
 
     /// The verdicts on the nozzle, from why its settings are infeasible, if they are: one that is inside the
@@ -171,6 +151,14 @@ impl Verdict {
         }
     }
 
+    /// Standard error of the share, relative to it; 0 where no shot breaks the goal.
+    pub(crate) fn relative_error(&self) -> f64 {
+        if self.is_exact || self.broken == 0 {
+            return 0.0;
+        }
+        ((1.0 - self.share()) / self.broken as f64).sqrt()
+    }
+
     /// Whether the interval lies on one side of what is allowed.
     pub fn is_certain(&self) -> bool {
         let [low, high] = self.interval();
@@ -180,27 +168,6 @@ impl Verdict {
     /// Whether more shots of the same kind would not turn it: they had to be three standard errors off.
     pub fn is_beyond_doubt(&self) -> bool {
         self.is_exact || self.count().is_far_from(self.allowed)
-    }
-
-    /// The share over a part `slack` of what is allowed, less what the share of so few shots may be off: a finite
-    /// number, above 1 where that does not pass.
-    pub(crate) fn violation_on_few_shots(&self, slack: f64) -> f64 {
-        let share = if self.counted == 0 { 1.0 } else { self.share() };
-        let allowed = self.allowed * slack;
-        let counted = self.counted.max(1) as f64;
-        let error = if self.is_exact {
-            0.0
-        } else {
-            (allowed * (1.0 - allowed) / counted).sqrt()
-        };
-        let least = (allowed - MARGIN * error).max(allowed * LEAST_PART);
-        if least > 0.0 {
-            share / least
-        } else if share > 0.0 {
-            1.0 + share * counted
-        } else {
-            0.0
-        }
     }
 
     /// The share over what is allowed, finite: above 1 where it fails.

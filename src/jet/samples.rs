@@ -75,6 +75,29 @@ impl Samples {
         Self::mixed(problem, stream, count, &Mixture::new(parts, importance))
     }
 
+    /// Shots that tell which shares of them break goals and limits: every fourth is drawn with an importance density, so
+    /// that of rare violations more are seen and shares of many shots stay nearly as certain; all are of the jet where
+    /// there is no density.
+    pub fn for_shares(
+        problem: &Problem,
+        stream: Stream,
+        count: usize,
+        importance: Option<&ImportanceDensity>,
+    ) -> Self {
+        let mixture = match importance {
+            Some(importance) => {
+                let parts = Parts {
+                    jet: 3,
+                    by_importance: 1,
+                    ..Parts::NONE
+                };
+                Mixture::new(parts, importance)
+            }
+            None => Mixture::new(Parts::JET_ALONE, &ImportanceDensity::NONE),
+        };
+        Self::mixed(problem, stream, count, &mixture)
+    }
+
     fn mixed(problem: &Problem, stream: Stream, count: usize, mixture: &Mixture) -> Self {
         if problem.has_one_ray() {
             return Self::new(problem, stream, 1);

@@ -48,6 +48,18 @@ impl Answer {
         Some(evaluation.terms.total())
     }
 
+    /// Standard error of the largest violation, relative to it.
+    pub(super) fn error_of_violation(&self) -> f64 {
+        let verdicts = self.verdicts.iter();
+        let worst = verdicts.max_by(|a, b| a.violation().total_cmp(&b.violation()));
+        worst.map_or(0.0, Verdict::relative_error)
+    }
+
+    /// Whether what it violates most is known to some accuracy, relative to it; what passes violates nothing.
+    pub(super) fn violation_is_known(&self, accuracy: f64) -> bool {
+        self.passes() || self.error_of_violation() <= accuracy
+    }
+
     pub(super) fn standard_error(&self) -> f64 {
         self.evaluation
             .as_ref()

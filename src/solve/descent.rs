@@ -106,7 +106,8 @@ impl<'a> Descent<'a> {
         Agreement::of(&self.searches[contact], &self.scenario.problem)
     }
 
-    /// Adds groups to the search of a contact until its finalists agree, or there are too many of them.
+    /// Adds groups to the search of a contact until its finalists agree, or there are too many of them: then they are
+    /// recombined. What comes of that is not independent of them, and confirms nothing.
     pub fn confirmed(&mut self, contact: usize) -> Agreement {
         let mut agreement = self.agreement(contact);
         let mut number = GROUPS;
@@ -114,7 +115,11 @@ impl<'a> Descent<'a> {
             let fails = self.searches[contact].best().fitness.penalty() > 0.0;
             let most = if fails { MOST_THAT_FAIL } else { MOST_GROUPS };
             let end = most.min(number + agreement.missing);
-            if agreement.is_reached || end <= number || self.control.is_stopped() {
+            if agreement.is_reached || self.control.is_stopped() {
+                return agreement;
+            }
+            if end <= number {
+                self.recombine(contact);
                 return agreement;
             }
             let groups: Vec<Search> = (number..end)
@@ -127,6 +132,13 @@ impl<'a> Descent<'a> {
             number = end;
             agreement = self.agreement(contact);
         }
+    }
+
+    fn recombine(&mut self, contact: usize) {
+        let samples = self.sampler.draw(self.shots);
+        let sampler = &self.sampler;
+        let evaluator = sampler.evaluator(self.scenario, &samples, self.effort, self.control);
+        self.searches[contact].recombine(&evaluator, &Stage::beyond(self.shots));
     }
 
     /// Takes another group of a contact through the stages: on shots of its own, so that it does not end where theirs

@@ -212,7 +212,14 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
     let status = match answers.first() {
         _ if control.is_stopped() => Status::Interrupted,
         Some(best) if best.evaluation.is_none() => Status::NoFeasiblePose,
-        Some(_) if open.is_empty() && agreement.is_reached && !still_gains => Status::Converged,
+        Some(best)
+            if open.is_empty()
+                && agreement.is_reached
+                && !still_gains
+                && best.violation_is_known(problem.accuracy) =>
+        {
+            Status::Converged
+        }
         _ => Status::BestFound,
     };
     Solution {

@@ -55,7 +55,7 @@ impl Sought<'_> {
         agreements: &mut [Option<Agreement>],
         figures: &mut Figures,
     ) {
-        let mut slack = 1.0;
+        let (mut slack, mut price) = (1.0, PRICE);
         let first = self.searched.ends_and_middle().into_iter();
         let mut watched: Vec<Station> = first.map(|it| self.searched.station(it)).collect();
         for _ in 0..self.most_rounds() {
@@ -65,18 +65,21 @@ impl Sought<'_> {
             }
             let is_new = self.watch_worst(&failing, answers, &mut watched);
             let penalty = Penalty {
-                price: PRICE * scale(answers, &failing),
+                price: price * scale(answers, &failing),
                 slack,
                 watched: watched.clone(),
             };
-            let worst = self.round(&failing, penalty, answers, agreements, figures);
+            let Round { worst, passed } =
+                self.round(&failing, penalty, answers, agreements, figures);
             let unseen = self.watch_worst(&failing, answers, &mut watched);
             if worst <= 1.0 || (worst > NEAR && !unseen && !is_new) {
                 break;
             }
-            // Near misses pass with a little more room.
-            if worst <= NEAR && !unseen {
-                slack *= ROOM / worst;
+            // Near misses pass with a little more room, or where violations outweigh what they gain in J.
+            match passed {
+                _ if worst > NEAR || unseen => {}
+                true => slack *= ROOM / worst,
+                false => price *= DEARER,
             }
         }
     }
@@ -110,7 +113,7 @@ impl Sought<'_> {
         watched.len() > before
     }
 
-    /// One search; returns the least violation that it has found.
+    /// One search.
     fn round(
         &self,
         failing: &[usize],
@@ -118,12 +121,12 @@ impl Sought<'_> {
         answers: &mut [Answer],
         agreements: &mut [Option<Agreement>],
         figures: &mut Figures,
-    ) -> f64 {
+    ) -> Round {
         let (effort, control) = (self.effort, self.control);
         let mut scenario = self.searched.clone();
         let contacts = failing.iter().map(|&index| answers[index].settings.contact);
         scenario.problem.ranges.contact = contacts.collect();
-        let sampler = Sampler::of_the_jet(&scenario, penalty);
+        let sampler = Sampler::penalised(&scenario, penalty);
         let mut descent = Descent::run(&scenario, sampler, effort, control);
         let shots = descent.shots;
         let samples = descent.sampler.draw(shots);
@@ -136,10 +139,11 @@ impl Sought<'_> {
         let leader = descent.leading();
         let of_leader = descent.confirmed(leader);
         let mut searches = descent.best();
+        let passed = searches[leader].best().fitness.penalty() <= 0.0;
         // The fewer the shots, the farther the search stays below what is allowed.
         let more = shots * RISE;
         let mut is_settled = true;
-        if searches[leader].best().fitness.penalty() <= 0.0 && more <= control.most_shots {
+        if passed && more <= control.most_shots {
             let samples = descent.sampler.draw(more);
             let evaluator = descent
                 .sampler
@@ -148,7 +152,8 @@ impl Sought<'_> {
                 descents: DESCENTS,
                 ..Stage::beyond(more)
             };
-            searches[leader].refine(&evaluator, &stage);
+            searches[leader] = descent.searches[leader].clone();
+            searches[leader].refine_together(&evaluator, &stage);
             is_settled = !still_gains(&searches[leader], &self.asked.problem);
         }
         let mut new = figures.of(&searches);
@@ -161,14 +166,25 @@ impl Sought<'_> {
             (new[leader], searches[leader]) = (answer, before);
         }
         let claims = searches.iter().map(|it| it.best().fitness.objective());
+        // What is not better than all that pass, by more than the accuracy, is worth no other search.
+        let all = answers.iter().chain(&new);
+        let least = least_objective(all.filter(|it| it.passes()));
+        let worthwhile = least * (1.0 - self.asked.problem.accuracy);
         let mut worst = f64::INFINITY;
         // Whether J of what was found here is known.
         let mut known = vec![None; failing.len()];
         for (place, (answer, claimed)) in new.into_iter().zip(claims).enumerate() {
-            worst = worst.min(answer.largest_violation());
+            if answer
+                .objective()
+                .is_none_or(|objective| objective < worthwhile)
+            {
+                worst = worst.min(answer.largest_violation());
+            }
             let old = &mut answers[failing[place]];
             if tie::is_better(&answer, old) {
-                known[place] = Some(is_known(claimed, &answer, self.asked.problem.accuracy));
+                let accuracy = self.asked.problem.accuracy;
+                let bound = error_by_bound(old, &answer);
+                known[place] = Some(is_known(claimed, &answer, bound, accuracy));
                 let least = old.least_objective.or(old.objective());
                 *old = Answer {
                     least_objective: least,
@@ -192,31 +208,50 @@ impl Sought<'_> {
                 ..found
             });
         }
-        worst
+        Round { worst, passed }
     }
+}
+
+/// What a search has found.
+struct Round {
+    /// The least violation of the answers that are worth another search; infinite without any.
+    worst: f64,
+    /// Whether its best candidate passes on its own shots.
+    passed: bool,
 }
 
 /// What J is measured by.
 fn scale(answers: &[Answer], which: &[usize]) -> f64 {
-    let objectives = which.iter().filter_map(|&index| answers[index].objective());
-    let least = objectives.fold(f64::INFINITY, f64::min);
+    let least = least_objective(which.iter().map(|&index| &answers[index]));
     if least > 0.0 { least } else { 1.0 }
 }
 
-/// Whether J on the shots of the search is J on validation shots, within the accuracy.
-fn is_known(claimed: Option<f64>, answer: &Answer, accuracy: f64) -> bool {
+/// Whether J on the shots of the search is J on validation shots, within the accuracy, and so is what J owes to the
+/// error of the bound that it stays below.
+fn is_known(claimed: Option<f64>, answer: &Answer, bound: f64, accuracy: f64) -> bool {
     let (Some(claimed), Some(found)) = (claimed, answer.objective()) else {
         return false;
     };
-    found - claimed <= accuracy * found + answer.standard_error()
+    bound <= accuracy * found && found - claimed <= accuracy * found + answer.standard_error()
+}
+
+/// What J of an answer that passes owes to the error of the share that bounds it: as much as J costs by that share
+/// between it and what fails.
+fn error_by_bound(failing: &Answer, passing: &Answer) -> f64 {
+    let (Some(least), Some(found)) = (failing.objective(), passing.objective()) else {
+        return 0.0;
+    };
+    let violation = passing.largest_violation();
+    let gap = failing.largest_violation() - violation;
+    if failing.passes() || gap <= 0.0 {
+        return 0.0;
+    }
+    (found - least).max(0.0) / gap * violation * passing.error_of_violation()
 }
 
 /// The answers that fail, as far as they could be recommended if they passed: their J is below that of what passes.
 fn worthwhile(answers: &[Answer], scenario: &Scenario) -> Vec<usize> {
-    let passing = answers.iter().filter(|answer| answer.passes());
-    let least = passing
-        .filter_map(Answer::objective)
-        .fold(f64::INFINITY, f64::min);
+    let least = least_objective(answers.iter().filter(|answer| answer.passes()));
     let has_choice = |answer: &&Answer| {
         let contact = answer.settings.contact;
         scenario.problem.ranges.is_free()
@@ -233,12 +268,19 @@ fn worthwhile(answers: &[Answer], scenario: &Scenario) -> Vec<usize> {
         .collect()
 }
 
+fn least_objective<'b>(answers: impl Iterator<Item = &'b Answer>) -> f64 {
+    let objectives = answers.filter_map(Answer::objective);
+    objectives.fold(f64::INFINITY, f64::min)
+}
+
 /// Searches at most.
 const MOST_ROUNDS: usize = 3;
 /// Descents of the last stage: where several shares are used up at once J has a kink, in which a simplex shrinks early.
 const DESCENTS: usize = 2;
 /// The price of a violation, in the J of the answers that fail.
 const PRICE: f64 = 100.0;
+/// Factor on it where a violation is worth it.
+const DEARER: f64 = 30.0;
 /// A violation up to this is near.
 const NEAR: f64 = 1.5;
 /// What is left of the allowed share for the next search.

@@ -179,10 +179,53 @@ pub fn polish(
     leading.swap_remove(0)
 }
 
+/// The best point found downhill from a simplex of candidates that were found apart, best first: where all of them have
+/// stopped in the same long valley, its length is that of the simplex.
+pub fn recombined(
+    space: &Space,
+    evaluator: &Evaluator,
+    found: &[Candidate],
+    size: f64,
+    accuracy: f64,
+) -> Candidate {
+    let best = &found[0];
+    if space.dimensions() == 0 || evaluator.is_stopped() {
+        return best.clone();
+    }
+    let local = Local {
+        space,
+        evaluator,
+        coordinates: &Coordinates::near(space, &best.point),
+    };
+    let corner = |candidate: &Candidate| {
+        let point = space.near(&best.point, &candidate.point);
+        let at = local.coordinates.of(&point);
+        let candidate = Candidate {
+            point,
+            ..candidate.clone()
+        };
+        Probe::of(local.coordinates, at, candidate)
+    };
+    let count = space.dimensions() + 1;
+    let mut corners: Vec<Probe> = found.iter().take(count).map(corner).collect();
+    let missing = count - corners.len();
+    if missing > 0 {
+        let others = first_simplex(local, best, size).into_iter().skip(1);
+        corners.extend(others.take(missing));
+    }
+    let scale = best.fitness.rank().max(f64::MIN_POSITIVE);
+    descend_from(local, corners, accuracy * scale).swap_remove(0)
+}
+
 /// The best points found downhill from `start`, the very best one first.
 fn descend(local: Local, start: Candidate, size: f64, accuracy: f64) -> Vec<Candidate> {
     let scale = start.fitness.rank().max(f64::MIN_POSITIVE);
     let corners = first_simplex(local, &start, size);
+    descend_from(local, corners, accuracy * scale)
+}
+
+/// The same from a simplex, until J at its corners differs by less than `least`.
+fn descend_from(local: Local, corners: Vec<Probe>, least: f64) -> Vec<Candidate> {
     let mut leading: Vec<Candidate> = corners.iter().map(|it| it.candidate.clone()).collect();
     leading.sort_by(Candidate::by_rank);
     let descent = Descent {
@@ -191,7 +234,7 @@ fn descend(local: Local, start: Candidate, size: f64, accuracy: f64) -> Vec<Cand
         leading: RefCell::new(leading),
     };
     let simplex = corners.iter().map(|corner| Point(corner.at.clone()));
-    if let Ok(solver) = NelderMead::new(simplex.collect()).with_sd_tolerance(accuracy * scale) {
+    if let Ok(solver) = NelderMead::new(simplex.collect()).with_sd_tolerance(least) {
         let most = ITERATIONS_PER_DIMENSION * local.space.dimensions() as u64;
         let executor = Executor::new(&descent, solver).configure(|state| state.max_iters(most));
         // The best points are kept by the cost function; how the run ended does not matter.

@@ -20,7 +20,7 @@ pub(super) struct Sampler<'a> {
     scenario: &'a Scenario,
     /// The importance density, once there is one.
     importance: Option<ImportanceDensity>,
-    /// What violations cost; their shares are those of the jet's own shots.
+    /// What violations cost, by their shares.
     penalty: Option<Penalty>,
 }
 
@@ -33,8 +33,8 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Draws shots of the jet alone, of which violations beyond what is allowed cost a penalty.
-    pub fn of_the_jet(scenario: &'a Scenario, penalty: Penalty) -> Self {
+    /// The same where violations beyond what is allowed cost a penalty.
+    pub fn penalised(scenario: &'a Scenario, penalty: Penalty) -> Self {
         Self {
             penalty: Some(penalty),
             ..Self::new(scenario)
@@ -63,7 +63,7 @@ impl<'a> Sampler<'a> {
 
     /// Adapts the importance density to the violations of the leading candidate.
     pub fn adapt(&mut self, searches: &[Search], effort: &Effort, control: &Control) {
-        if !control.shortcuts.importance || self.penalty.is_some() {
+        if !control.shortcuts.importance {
             return;
         }
         let leader = leader(searches).filter(|it| it.fitness.objective().is_some());
@@ -93,19 +93,18 @@ impl<'a> Sampler<'a> {
     fn draw_from(&self, stream: Stream, shots: usize) -> Samples {
         let problem = &self.scenario.problem;
         match &self.penalty {
-            Some(_) if problem.has_one_ray() => Samples::new(problem, stream, 1),
-            Some(_) => Samples::new(problem, stream, shots),
+            Some(_) => Samples::for_shares(problem, stream, shots, self.importance()),
             None => Samples::with_importance(problem, stream, shots, self.importance()),
         }
     }
 
-    /// Whether what violates least does so by more than twice what is allowed: more shots would not change that.
+    /// Whether what violates least does so by far more than is allowed: more shots would not change that.
     pub fn is_far_from_passing(&self, searches: &[Search]) -> bool {
         let leader = leader(searches);
         self.penalty
             .as_ref()
             .zip(leader)
-            .is_some_and(|(penalty, leader)| leader.fitness.penalty() > penalty.price)
+            .is_some_and(|(penalty, leader)| leader.fitness.penalty() > FAR * penalty.price)
     }
 
     /// Whether J of the leading candidate is much the same on other samples of this size.
@@ -138,5 +137,7 @@ fn leader(searches: &[Search]) -> Option<&Candidate> {
     searches.get(leading(searches)).map(Search::best)
 }
 
+/// Violations beyond 1 from which on they are far: on few shots they are up to twice what they are on many.
+const FAR: f64 = 3.0;
 /// Samples for the variance of J.
 const SAMPLES: u32 = 8;

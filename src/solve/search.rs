@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use rayon::prelude::*;
 
 use super::evaluator::Evaluator;
-use super::polish::Candidate;
+use super::polish::{Candidate, recombined};
 use super::screening::screened;
 use super::space::Space;
 use super::stage::Stage;
@@ -91,6 +91,29 @@ impl Search {
         let start = Candidate::at(&self.space, evaluator, &point);
         let found = stage.descent(&self.space, evaluator, start);
         self.groups.push(vec![found]);
+    }
+
+    /// Goes on from all finalists together, which have not agreed; what is better than each of them joins them.
+    pub fn recombine(&mut self, evaluator: &Evaluator, stage: &Stage) {
+        let mut found: Vec<Candidate> = self.finalists().cloned().collect();
+        found.sort_by(Candidate::by_rank);
+        let settled = stage.settled * evaluator.accuracy();
+        let start = recombined(&self.space, evaluator, &found, stage.size, settled);
+        let end = stage.descent(&self.space, evaluator, start);
+        if end.fitness.rank() < found[0].fitness.rank() {
+            self.groups.push(vec![end]);
+        }
+    }
+
+    /// Goes on with more shots from all finalists together, of which another one may be the best there.
+    pub fn refine_together(&mut self, evaluator: &Evaluator, stage: &Stage) {
+        let finalists: Vec<&Candidate> = self.finalists().collect();
+        let anew = |it: &Candidate| vec![Candidate::at(&self.space, evaluator, &it.point)];
+        self.groups = finalists.into_par_iter().map(anew).collect();
+        let before = self.best().clone();
+        self.recombine(evaluator, stage);
+        let best = self.best().clone();
+        self.end_stage(Some(before), vec![vec![best]]);
     }
 
     /// Leaves out all candidates but the best one.
@@ -318,6 +341,24 @@ mod tests {
         let on_bound = rank(&search);
         search.refine(&evaluator, &STAGES_SET_EXACTLY[2]);
         assert!(rank(&search) < 0.98 * on_bound, "{}", rank(&search));
+    }
+
+    #[test]
+    fn finalists_that_do_not_agree_go_on_together() {
+        on_common_shots(|evaluator, search| {
+            let mut dry = search(DRY, 58.0);
+            for degrees in [60.0, 62.0, 64.0] {
+                dry.join(search(DRY, degrees));
+            }
+            let before = rank(&dry);
+            dry.recombine(evaluator, STAGE);
+            assert!(rank(&dry) < 0.9 * before, "{before} {}", rank(&dry));
+            assert_eq!(dry.finalists().count(), 5);
+            // More shots begin with the best of them, and leave one.
+            let best = dry.best().settings;
+            dry.refine_together(evaluator, STAGE);
+            assert!(dry.began_with(&best) && dry.finalists().count() == 1);
+        });
     }
 
     #[test]

@@ -114,6 +114,16 @@ impl Space {
         pairs.map(|(axis, &x)| axis.within(x)).collect()
     }
 
+    /// The same point, on the turn of periodic axes that is nearest to another one.
+    pub fn near(&self, other: &[f64], point: &[f64]) -> Vec<f64> {
+        let pairs = self.axes.iter().zip(point.iter().zip(other));
+        let along = pairs.map(|(axis, (x, other))| match axis.periodic {
+            true => x - (x - other).round(),
+            false => *x,
+        });
+        along.collect()
+    }
+
     /// The point of some settings.
     pub fn point(&self, settings: &Settings) -> Vec<f64> {
         let coordinate = |axis: &Axis| axis.coordinate(axis.setting.of(settings));

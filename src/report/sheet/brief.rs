@@ -25,14 +25,16 @@ pub fn brief(record: &Record) -> String {
 }
 
 fn next_step(record: &Record) -> &'static str {
-    match record.status {
-        StatusRecord::NoFeasiblePose => "`--full` says what is in the way and what would make room",
-        StatusRecord::BestFound | StatusRecord::Interrupted => {
+    match (record.status, record.passes()) {
+        (StatusRecord::NoFeasiblePose, _) => {
+            "`--full` says what is in the way and what would make room"
+        }
+        (StatusRecord::Interrupted, _) | (StatusRecord::BestFound, true) => {
             "`--full` shows the whole sheet; another run with `--checkpoint DIR` goes on from where it ends"
         }
-        _ if record.passes() => {
+        (_, true) => {
             "`--full` shows the proof; `--out DIR` writes report.html, the pose for a robot and all tables"
         }
-        _ => "`--full` says what limits it and what would help",
+        (_, false) => "`--full` says what limits it and what would help",
     }
 }

@@ -189,7 +189,11 @@ const WHOLE: f64 = 0.5;
 /// How the search ended.
 pub fn status(record: &Record) -> String {
     let accuracy = share_asked(record.problem.accuracy);
+    let passes = record.passes();
     match record.status {
+        StatusRecord::Converged if !passes => {
+            format!("converged to {accuracy} of the least violation")
+        }
         StatusRecord::Converged => match error_beyond(record) {
             None => format!("converged to {accuracy} of the score J (lower is better)"),
             Some(error) => format!(
@@ -202,10 +206,13 @@ pub fn status(record: &Record) -> String {
                 "BEST FOUND: independent searches end {} % apart, {accuracy} is asked for; better settings may exist",
                 significant(spread * 100.0, 2)
             ),
-            _ => format!(
-                "BEST FOUND: the search ended before {accuracy} of the score J was certain; better settings may \
-                 exist"
-            ),
+            _ => {
+                let what = if passes { "score J" } else { "least violation" };
+                format!(
+                    "BEST FOUND: the search ended before {accuracy} of the {what} was certain; better settings may \
+                     exist"
+                )
+            }
         },
         StatusRecord::NoFeasiblePose => "the nozzle fits at no pose that was tried".into(),
         StatusRecord::Interrupted => {

@@ -1,0 +1,98 @@
+//! What the few shots of a search say about a share.
+
+/// The share of shots that break a goal, from shots with importance weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ShareEstimate {
+    /// The share itself; 1 where there was nothing to count.
+    share: f64,
+    /// As many shots of the jet alone would tell it as well.
+    shots: f64,
+    /// What a goal asks for.
+    asked: Asked,
+}
+
+/// What a goal asks of a share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Asked {
+    /// Share that may break the goal.
+    pub allowed: f64,
+    /// Whether all shots are the same, so that the share has no error.
+    pub is_exact: bool,
+}
+
+/// Standard errors by which a search stays below what is allowed,
+const MARGIN: f64 = 1.5;
+/// but no lower than this part of it.
+const LEAST_PART: f64 = 0.5;
+
+impl ShareEstimate {
+    /// From shots that have what a goal bounds, relative to its bound, and a weight; and from the sum of the weights of
+    /// all shots that count. A mean weight of one in ten among those that break the goal tells as much as ten times as
+    /// many shots of the jet.
+    pub fn of(shots: impl Iterator<Item = (f64, f64)>, all: f64, asked: Asked) -> Self {
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for (_, weight) in shots.filter(|(value, _)| *value > 1.0) {
+            sum += weight;
+            squares += weight * weight;
+        }
+        let mean_weight = if sum > 0.0 { squares / sum } else { 1.0 };
+        Self {
+            share: if all > 0.0 { sum / all } else { 1.0 },
+            shots: (all / mean_weight).max(1.0),
+            asked,
+        }
+    }
+
+    /// The share over what a search may use up of the share that is allowed: that less what an estimate of it from so
+    /// few shots may be off. A finite number, above 1 where that does not pass.
+    pub fn violation(&self) -> f64 {
+        let Asked { allowed, is_exact } = self.asked;
+        let error = if is_exact {
+            0.0
+        } else {
+            (allowed * (1.0 - allowed) / self.shots).sqrt()
+        };
+        let least = (allowed - MARGIN * error).max(allowed * LEAST_PART);
+        if least > 0.0 {
+            self.share / least
+        } else if self.share > 0.0 {
+            1.0 + self.share * self.shots
+        } else {
+            0.0
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn estimate(shots: &[(f64, f64)], all: f64, allowed: f64, is_exact: bool) -> ShareEstimate {
+        ShareEstimate::of(shots.iter().copied(), all, Asked { allowed, is_exact })
+    }
+
+    #[test]
+    fn shots_of_little_weight_tell_a_share_as_well_as_many() {
+        let alike = estimate(&[(2.0, 1.0); 4], 4096.0, 0.001, false);
+        let weighted = estimate(&[(2.0, 0.1); 40], 4096.0, 0.001, false);
+        assert!((alike.share - weighted.share).abs() < 1e-15);
+        assert!((weighted.shots / alike.shots - 10.0).abs() < 1e-9);
+        // As much of what is allowed is left as it may be off, but no more than half.
+        assert_eq!(alike.violation(), 4.0 / 4096.0 / 0.0005);
+        let error = (0.001 * 0.999 / 40_960.0_f64).sqrt();
+        let expected = 4.0 / 4096.0 / (0.001 - 1.5 * error);
+        assert!((weighted.violation() - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_to_count_breaks_a_goal_and_nothing_allowed_is_broken_by_one() {
+        let violation = |shots: &[(f64, f64)], all, allowed, is_exact| {
+            estimate(shots, all, allowed, is_exact).violation()
+        };
+        assert!(violation(&[], 0.0, 0.05, false) > 1.0 && violation(&[], 0.0, 0.0, false) > 1.0);
+        assert_eq!(violation(&[], 128.0, 0.05, false), 0.0);
+        assert_eq!(violation(&[], 128.0, 0.0, false), 0.0);
+        assert_eq!(violation(&[(1.001, 1.0)], 1.0, 0.5, true), 2.0);
+        assert_eq!(violation(&[(1.001, 1.0)], 1.0, 0.0, true), 2.0);
+    }
+}
