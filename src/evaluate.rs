@@ -239,18 +239,19 @@ fn receipt<'a>(parts: impl Iterator<Item = &'a SurfaceSums>) -> SurfaceReceipt {
 }
 
 fn target_receipt(goals: &Goals, speed: f64, replicates: &[ReplicateStats]) -> TargetReceipt {
+    let all_hits = || replicates.iter().map(|stats| &stats.tally.hits);
     let at_speed = |of: fn(&Hits) -> &Vec<f64>| -> Vec<f64> {
-        let all = replicates.iter().flat_map(|stats| of(&stats.tally.hits));
+        let all = all_hits().flat_map(of);
         all.map(|impulse| impulse * speed).collect()
     };
-    let count = |of: fn(&Hits, &Goals, f64) -> usize| {
-        let each = replicates.iter();
-        each.map(|stats| of(&stats.tally.hits, goals, speed)).sum()
-    };
     TargetReceipt {
-        hits: replicates.iter().map(|r| r.tally.hits.len()).sum(),
-        off_target: count(Hits::off_target),
-        over_limit: count(Hits::over_limit),
+        hits: all_hits().map(Hits::len).sum(),
+        off_target: all_hits()
+            .map(|hits| hits.off_target(goals, speed).count())
+            .sum(),
+        over_limit: all_hits()
+            .map(|hits| hits.over_limit(goals, speed).count())
+            .sum(),
         sticking: replicates.iter().map(|r| r.sticking).sum(),
         normal_impulse: Spread::of(at_speed(|hits| &hits.normal)),
         tangential_impulse: Spread::of(at_speed(|hits| &hits.tangential)),

@@ -103,37 +103,25 @@ impl LargestImpulses {
             true => 0.0,
             false => weight - self.tally.missed,
         };
-        let weighted = |values: &[f64], relative: &dyn Fn(f64) -> f64, all: f64| {
-            let pairs = values.iter().zip(&hits.weight);
-            let shots = pairs.map(|(gain, weight)| (relative(gain * speed), *weight));
-            ShareEstimate::of(shots, all, asked)
-        };
         match subject {
-            Subject::NormalImpulse => {
-                let goal = &goals.normal_impulse;
-                let tolerance = goal.tolerance.max(f64::MIN_POSITIVE);
-                let off = |normal: f64| (normal / goal.target - 1.0).abs() / tolerance;
-                weighted(&hits.normal, &off, hit)
-            }
+            Subject::NormalImpulse => ShareEstimate::of(hits.off_target(goals, speed), hit, asked),
             Subject::TangentialImpulse => {
-                let limit = goals
-                    .tangential_impulse
-                    .map_or(f64::INFINITY, |goal| goal.limit);
-                weighted(&hits.tangential, &|tangential| tangential / limit, hit)
+                ShareEstimate::of(hits.over_limit(goals, speed), hit, asked)
             }
             Subject::Surface(index) => {
-                let allow = scenario.surfaces[index as usize]
-                    .allow
-                    .unwrap_or(f64::INFINITY);
-                let impacts = self.largest[index as usize].iter();
-                let shots = impacts.map(|it| (it.normal * speed / allow, it.weight));
-                ShareEstimate::of(shots, *weight, asked)
+                let over = self.over(scenario, index as usize, speed);
+                ShareEstimate::of(over, *weight, asked)
             }
-            _ => {
-                let missed = self.missed.iter().map(|weight| (f64::INFINITY, *weight));
-                ShareEstimate::of(missed, *weight, asked)
-            }
+            _ => ShareEstimate::of(self.missed.iter().copied(), *weight, asked),
         }
+    }
+
+    /// The weights of the shots with an impact over what a surface may take, at a launch speed, m/s.
+    fn over(&self, scenario: &Scenario, surface: usize, speed: f64) -> impl Iterator<Item = f64> {
+        let allow = scenario.surfaces[surface].allow.unwrap_or(f64::INFINITY);
+        let impacts = self.largest[surface].iter();
+        let over = impacts.filter(move |impact| impact.normal * speed > allow);
+        over.map(|impact| impact.weight)
     }
 
     /// The speed in `range` at which J and a cost that depends on it are least together: where that costs nothing the
@@ -174,23 +162,15 @@ impl LargestImpulses {
     pub fn counts(&self, scenario: &Scenario, speed: f64) -> ViolationCounts {
         let goals = &scenario.problem.goals;
         let hits = &self.tally.hits;
-        let mut over = vec![0; scenario.surfaces.len()];
-        for ((over, limits), largest) in over.iter_mut().zip(&scenario.surfaces).zip(&self.largest)
-        {
-            if let Some(allow) = limits.allow {
-                *over = largest
-                    .iter()
-                    .filter(|it| it.normal * speed > allow)
-                    .count();
-            }
-        }
+        let surfaces = 0..scenario.surfaces.len();
+        let over = surfaces.map(|surface| self.over(scenario, surface, speed).count());
         ViolationCounts {
             shots: self.tally.shots,
             is_exact: scenario.problem.has_one_ray(),
             hits: hits.len(),
-            off_target: hits.off_target(goals, speed),
-            over_limit: hits.over_limit(goals, speed),
-            over,
+            off_target: hits.off_target(goals, speed).count(),
+            over_limit: hits.over_limit(goals, speed).count(),
+            over: over.collect(),
         }
     }
 }

@@ -81,19 +81,26 @@ impl Hits {
         self.tangential.iter().copied().fold(0.0, f64::max)
     }
 
-    /// How many are off the wanted normal impulse by more than the tolerance at a launch speed,
-    /// m/s.
-    pub fn off_target(&self, goals: &Goals, speed: f64) -> usize {
-        let is_off = |gain: &&f64| goals.normal_impulse.is_off(**gain * speed);
-        self.normal.iter().filter(is_off).count()
+    /// The weights of those that are off the wanted normal impulse by more than the tolerance at a launch speed, m/s.
+    pub fn off_target(&self, goals: &Goals, speed: f64) -> impl Iterator<Item = f64> {
+        let goal = goals.normal_impulse;
+        self.weights_where(&self.normal, move |gain| goal.is_off(gain * speed))
     }
 
-    /// How many are over the tangential limit at a launch speed, m/s; none where there is no limit.
-    pub fn over_limit(&self, goals: &Goals, speed: f64) -> usize {
-        goals.tangential_impulse.map_or(0, |goal| {
-            let is_over = |gain: &&f64| **gain * speed > goal.limit;
-            self.tangential.iter().filter(is_over).count()
-        })
+    /// The weights of those over the tangential limit at a launch speed, m/s; none where there is no limit.
+    pub fn over_limit(&self, goals: &Goals, speed: f64) -> impl Iterator<Item = f64> {
+        let goal = goals.tangential_impulse;
+        let is_over = move |gain| goal.is_some_and(|goal| gain * speed > goal.limit);
+        self.weights_where(&self.tangential, is_over)
+    }
+
+    fn weights_where(
+        &self,
+        gains: &[f64],
+        breaks: impl Fn(f64) -> bool,
+    ) -> impl Iterator<Item = f64> {
+        let pairs = gains.iter().zip(&self.weight);
+        pairs.filter_map(move |(&gain, &weight)| breaks(gain).then_some(weight))
     }
 
     /// Whether there are none.

@@ -114,10 +114,10 @@ fn hits() -> Hits {
 #[test]
 fn hits_off_the_wanted_impulse_and_over_the_limit_are_counted() {
     // At 2 m/s normal impulses are 1, 0.5 and 0.75 where 1 is wanted, and tangential ones 0.25, 1 and 0.5.
-    assert_eq!(hits().off_target(&GOALS, 2.0), 2);
-    assert_eq!(hits().over_limit(&GOALS, 2.0), 0);
-    assert_eq!(hits().over_limit(&GOALS, 2.5), 1);
-    assert_eq!(hits().over_limit(&GOALS, 5.0), 2);
+    assert_eq!(hits().off_target(&GOALS, 2.0).count(), 2);
+    assert_eq!(hits().over_limit(&GOALS, 2.0).count(), 0);
+    assert_eq!(hits().over_limit(&GOALS, 2.5).count(), 1);
+    assert_eq!(hits().over_limit(&GOALS, 5.0).count(), 2);
     let only = |tolerance| Goals {
         normal_impulse: NormalImpulse {
             tolerance,
@@ -126,9 +126,9 @@ fn hits_off_the_wanted_impulse_and_over_the_limit_are_counted() {
         tangential_impulse: None,
         ..GOALS
     };
-    assert_eq!(hits().off_target(&only(0.25), 2.0), 1);
-    assert_eq!(hits().off_target(&only(0.5), 2.0), 0);
-    assert_eq!(hits().over_limit(&only(0.25), 100.0), 0);
+    assert_eq!(hits().off_target(&only(0.25), 2.0).count(), 1);
+    assert_eq!(hits().off_target(&only(0.5), 2.0).count(), 0);
+    assert_eq!(hits().over_limit(&only(0.25), 100.0).count(), 0);
     assert_eq!(hits().most_tangential(), 0.5);
     assert_eq!(Hits::default().most_tangential(), 0.0);
 }

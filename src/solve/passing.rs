@@ -11,7 +11,7 @@ use super::figures::Figures;
 use super::finalists::Agreement;
 use super::sampler::Sampler;
 use super::stage::Stage;
-use super::stopping_rule::still_gains;
+use super::stopping_rule::{least_found, still_gains};
 use super::{RISE, tie};
 use crate::control::Control;
 use crate::scenario::{Scenario, Station};
@@ -168,7 +168,7 @@ impl Sought<'_> {
         let claims = searches.iter().map(|it| it.best().fitness.objective());
         // What is not better than all that pass, by more than the accuracy, is worth no other search.
         let all = answers.iter().chain(&new);
-        let least = least_objective(all.filter(|it| it.passes()));
+        let least = least_found(all.filter(|it| it.passes()));
         let worthwhile = least * (1.0 - self.asked.problem.accuracy);
         let mut worst = f64::INFINITY;
         // Whether J of what was found here is known.
@@ -222,7 +222,7 @@ struct Round {
 
 /// What J is measured by.
 fn scale(answers: &[Answer], which: &[usize]) -> f64 {
-    let least = least_objective(which.iter().map(|&index| &answers[index]));
+    let least = least_found(which.iter().map(|&index| &answers[index]));
     if least > 0.0 { least } else { 1.0 }
 }
 
@@ -251,7 +251,7 @@ fn error_by_bound(failing: &Answer, passing: &Answer) -> f64 {
 
 /// The answers that fail, as far as they could be recommended if they passed: their J is below that of what passes.
 fn worthwhile(answers: &[Answer], scenario: &Scenario) -> Vec<usize> {
-    let least = least_objective(answers.iter().filter(|answer| answer.passes()));
+    let least = least_found(answers.iter().filter(|answer| answer.passes()));
     let has_choice = |answer: &&Answer| {
         let contact = answer.settings.contact;
         scenario.problem.ranges.is_free()
@@ -266,11 +266,6 @@ fn worthwhile(answers: &[Answer], scenario: &Scenario) -> Vec<usize> {
         .filter(|(_, answer)| could_win(answer) && has_choice(answer))
         .map(|(index, _)| index)
         .collect()
-}
-
-fn least_objective<'b>(answers: impl Iterator<Item = &'b Answer>) -> f64 {
-    let objectives = answers.filter_map(Answer::objective);
-    objectives.fold(f64::INFINITY, f64::min)
 }
 
 /// Searches at most.

@@ -102,8 +102,9 @@ pub(super) fn is_precise(objectives: &[f64], problem: &Problem) -> bool {
     deviation <= NOISY * wanted(mean, problem)
 }
 
-fn least_found(answers: &[Answer]) -> f64 {
-    let found = answers.iter().filter_map(Answer::objective);
+/// Least J of some answers; infinite where the nozzle fits for none.
+pub(super) fn least_found<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> f64 {
+    let found = answers.into_iter().filter_map(Answer::objective);
     found.fold(f64::INFINITY, f64::min)
 }
 

@@ -26,12 +26,11 @@ const MARGIN: f64 = 1.5;
 const LEAST_PART: f64 = 0.5;
 
 impl ShareEstimate {
-    /// From shots that have what a goal bounds, relative to its bound, and a weight; and from the sum of the weights of
-    /// all shots that count. A mean weight of one in ten among those that break the goal tells as much as ten times as
-    /// many shots of the jet.
-    pub fn of(shots: impl Iterator<Item = (f64, f64)>, all: f64, asked: Asked) -> Self {
+    /// From the weights of the shots that break the goal, and the sum of the weights of all that count. A mean weight of
+    /// one in ten among the former tells as much as ten times as many shots of the jet.
+    pub fn of(breaking: impl Iterator<Item = f64>, all: f64, asked: Asked) -> Self {
         let (mut sum, mut squares) = (0.0, 0.0);
-        for (_, weight) in shots.filter(|(value, _)| *value > 1.0) {
+        for weight in breaking {
             sum += weight;
             squares += weight * weight;
         }
@@ -67,14 +66,14 @@ impl ShareEstimate {
 mod tests {
     use super::*;
 
-    fn estimate(shots: &[(f64, f64)], all: f64, allowed: f64, is_exact: bool) -> ShareEstimate {
-        ShareEstimate::of(shots.iter().copied(), all, Asked { allowed, is_exact })
+    fn estimate(breaking: &[f64], all: f64, allowed: f64, is_exact: bool) -> ShareEstimate {
+        ShareEstimate::of(breaking.iter().copied(), all, Asked { allowed, is_exact })
     }
 
     #[test]
     fn shots_of_little_weight_tell_a_share_as_well_as_many() {
-        let alike = estimate(&[(2.0, 1.0); 4], 4096.0, 0.001, false);
-        let weighted = estimate(&[(2.0, 0.1); 40], 4096.0, 0.001, false);
+        let alike = estimate(&[1.0; 4], 4096.0, 0.001, false);
+        let weighted = estimate(&[0.1; 40], 4096.0, 0.001, false);
         assert!((alike.share - weighted.share).abs() < 1e-15);
         assert!((weighted.shots / alike.shots - 10.0).abs() < 1e-9);
         // As much of what is allowed is left as it may be off, but no more than half.
@@ -86,13 +85,13 @@ mod tests {
 
     #[test]
     fn nothing_to_count_breaks_a_goal_and_nothing_allowed_is_broken_by_one() {
-        let violation = |shots: &[(f64, f64)], all, allowed, is_exact| {
-            estimate(shots, all, allowed, is_exact).violation()
+        let violation = |breaking: &[f64], all, allowed, is_exact| {
+            estimate(breaking, all, allowed, is_exact).violation()
         };
         assert!(violation(&[], 0.0, 0.05, false) > 1.0 && violation(&[], 0.0, 0.0, false) > 1.0);
         assert_eq!(violation(&[], 128.0, 0.05, false), 0.0);
         assert_eq!(violation(&[], 128.0, 0.0, false), 0.0);
-        assert_eq!(violation(&[(1.001, 1.0)], 1.0, 0.5, true), 2.0);
-        assert_eq!(violation(&[(1.001, 1.0)], 1.0, 0.0, true), 2.0);
+        assert_eq!(violation(&[1.0], 1.0, 0.5, true), 2.0);
+        assert_eq!(violation(&[1.0], 1.0, 0.0, true), 2.0);
     }
 }
