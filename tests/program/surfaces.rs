@@ -25,8 +25,13 @@ fn faces_are_listed_and_drawn() {
         assert!(run.out.contains(words), "{words} is not in\n{}", run.out);
     }
     let svg = fs::read_to_string(picture).unwrap();
-    assert_eq!(svg.matches("<polygon").count(), 14_588);
-    assert_eq!(svg.matches("<text").count(), 12);
+    assert_eq!(svg.matches("<image").count(), 6);
+    // Whatever the number of triangles is, pixels are as many.
+    assert!(svg.len() < 500_000, "{} bytes", svg.len());
+    // The floor, walls and ends of the groove are seen where the hub is cut open, or through its mouth.
+    for number in 1..=12 {
+        assert!(svg.contains(&format!(">{number}</text>")), "no {number}");
+    }
     let few = peenpose(&["surfaces", file, "--most", "2"]);
     assert!(
         few.out.contains("10 smaller ones are not shown"),

@@ -50,11 +50,12 @@ pub fn run(args: &SurfacesArgs) -> Result<ExitCode, Failure> {
             let name = file
                 .file_name()
                 .ok_or_else(|| "--out: expected a file".to_owned())?;
-            let svg = Figure::of_faces(&mesh, &smooth, args.most);
+            let figure =
+                Figure::of_faces(&mesh, &smooth, args.most).map_err(|fault| fault.to_string())?;
             folder::write(
                 folder::folder_of(file),
                 &name.to_string_lossy(),
-                svg.svg.as_bytes(),
+                figure.svg.as_bytes(),
             )
         }
         None => Ok(()),

@@ -1,6 +1,6 @@
 //! Figures, drawn from a chart or a record alone: SVG with texts, and PNG with the embedded font.
 //!
-//! This module is the only one that knows plotters, resvg, png, and the crates for contours and colours.
+//! This module is the only one that knows plotters, resvg, png, base64, and the crates for contours and colours.
 
 mod axis;
 mod effect;
@@ -20,6 +20,7 @@ mod search;
 mod sheet;
 mod stroke;
 mod style;
+mod view;
 
 pub(super) use pose::curve_name;
 
@@ -55,11 +56,15 @@ impl Figure {
         drawn.into_iter().filter_map(Result::transpose).collect()
     }
 
-    /// The smooth faces of a mesh, the largest with their numbers.
-    pub fn of_faces(mesh: &Mesh, faces: &SmoothFaces, most: usize) -> Self {
-        Self {
-            name: "faces",
-            svg: faces::svg(mesh, faces, most),
+    /// The smooth faces of a mesh, the largest with their numbers, from two corners and cut open.
+    ///
+    /// # Errors
+    /// None is expected: figures are written into memory.
+    pub fn of_faces(mesh: &Mesh, faces: &SmoothFaces, most: usize) -> Result<Self, FigureFault> {
+        let name = "faces";
+        match faces::svg(mesh, faces, most) {
+            Ok(svg) => Ok(Self { name, svg }),
+            Err(fault) => Err(FigureFault::new(name, &fault)),
         }
     }
 

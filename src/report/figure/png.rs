@@ -32,21 +32,26 @@ pub fn png(svg: &str) -> Result<Vec<u8>, String> {
     let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the figure has no size")?;
     pixels.fill(Color::WHITE);
     resvg::render(&tree, Transform::identity(), &mut pixels.as_mut());
-    encoded(&pixels).map_err(|fault| fault.to_string())
+    let colours = pixels.pixels().iter();
+    let colours = colours.map(|it| [it.red(), it.green(), it.blue()]);
+    of_pixels(&colours.collect::<Vec<_>>(), size.width())
 }
 
-/// Pixels that nothing shines through, as the bytes of a file.
-fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
-    let colors = pixels.pixels().iter();
-    let bytes = colors.flat_map(|it| [it.red(), it.green(), it.blue()]);
-    let bytes: Vec<u8> = bytes.collect();
+/// The PNG of pixels, row by row, or why there is none.
+pub(super) fn of_pixels(pixels: &[[u8; 3]], width: u32) -> Result<Vec<u8>, String> {
+    let height = pixels.len() / width.max(1) as usize;
+    let height = u32::try_from(height).map_err(|fault| fault.to_string())?;
+    encoded(pixels.as_flattened(), (width, height)).map_err(|fault| fault.to_string())
+}
+
+fn encoded(bytes: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
+    let mut encoder = Encoder::new(&mut file, width, height);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     // Figures are lines on even colours, which filters make no smaller; more effort takes as long as the page.
     encoder.set_filter(Filter::NoFilter);
     encoder.set_deflate_compression(DeflateCompression::Level(3));
-    encoder.write_header()?.write_image_data(&bytes)?;
+    encoder.write_header()?.write_image_data(bytes)?;
     Ok(file)
 }
