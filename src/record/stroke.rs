@@ -1,5 +1,6 @@
 //! Strokes in a record.
 
+use nalgebra::Vector4;
 use serde::{Deserialize, Serialize};
 
 use super::answer::{PoseRecord, SettingsRecord, VerdictRecord, subject_name};
@@ -9,6 +10,9 @@ use crate::scenario::Scenario;
 use crate::solve::Answer;
 use crate::stroke::{Program, Spot};
 use crate::units::degrees;
+
+/// Attitudes whose quaternions have this much less than 1 in common are the same, within 1e-5 rad.
+const ALIKE: f64 = 1e-11;
 
 /// A stroke: where the nozzle travels, how fast, and what that gives.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -235,6 +239,21 @@ impl DentedMapRecord {
 }
 
 impl StrokeRecord {
+    /// Whether the nozzle or the part turns while settings are held.
+    pub fn turns_on_the_way(&self) -> bool {
+        let turns = |segment: &SegmentRecord| {
+            let held = |it: &&WaypointRecord| it.at_m >= segment.from_m && it.at_m <= segment.to_m;
+            let mut attitudes = self.waypoints.iter().filter(held).map(|it| {
+                let [x, y, z, w] = it.pose.quaternion_xyzw;
+                Vector4::new(x, y, z, w)
+            });
+            let first = attitudes.next();
+            // Either sign is the same attitude; waypoints are rounded.
+            first.is_some_and(|first| attitudes.any(|it| it.dot(&first).abs() < 1.0 - ALIKE))
+        };
+        self.turns != 0.0 || self.segments.iter().any(turns)
+    }
+
     /// The record of a program and of the answer behind it; `None` for a spot.
     pub(super) fn new(scenario: &Scenario, answer: &Answer, program: &Program) -> Option<Self> {
         let traverse = scenario.traverse.as_ref()?;

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use peenpose::control::Control;
 use peenpose::record::{Record, StrokeRecord, WaypointRecord};
 use peenpose::report::export::{Format, export};
-use peenpose::report::program;
+use peenpose::report::{program, sheet};
 use peenpose::study::{Extras, Study};
 
 /// The answers to two problems with their pictures, solved once for all tests.
@@ -271,4 +271,25 @@ fn dents_follow_from_a_reading_or_from_hardness() {
     assert_eq!((twice.wanted, twice.wanted_times), (0.98, 2.0));
     let ratio = stroke.feed_m_s.unwrap() / slower.feed_m_s.unwrap();
     assert!((ratio - 2.0).abs() < 1e-9, "{ratio}");
+}
+
+#[test]
+fn where_the_nozzle_turns_its_clearance_is_said_to_be_that_of_the_stations() {
+    let told = "at the stations of the stroke; between them no less than the 1.5 mm wanted";
+    let words = |record: &Record| {
+        let sheet = sheet(record);
+        let words: Vec<&str> = sheet.split_whitespace().collect();
+        words.join(" ")
+    };
+    assert!(words(illustrated("bore-turning.yaml")).contains(told));
+    // Along a straight line all of the way is one body.
+    let straight = illustrated("keyway-stroke.yaml");
+    assert!(!words(straight).contains("at the stations"));
+    // A nozzle that turns with a bent line turns on the way.
+    let mut bent = straight.clone();
+    let stroke = bent.stroke.as_mut().unwrap();
+    assert!(!stroke.turns_on_the_way());
+    let middle = stroke.waypoints.len() / 2;
+    stroke.waypoints[middle].pose.quaternion_xyzw = [0.0, 0.0, 0.0, 1.0];
+    assert!(stroke.turns_on_the_way());
 }

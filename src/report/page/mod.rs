@@ -229,7 +229,7 @@ impl Parts {
         let best = &record.best;
         Self {
             settings: Element::of_block(sheet::settings::settings(record)),
-            pose: Element::of(sheet::settings::pose(best, record.problem.lengths_in)),
+            pose: Element::of(sheet::settings::pose(record)),
             cures: Element::of(sheet::blocked::cures(record)),
             target: Element::of(sheet::received::target(record)),
             verdicts: Element::of(sheet::verdicts::block(best, &record.problem.goals)),

@@ -31,7 +31,7 @@ pub fn sheet(record: &Record) -> String {
     let blocks: [Option<Block>; 18] = [
         Some(headline::block(record)),
         Some(settings::settings(record)),
-        settings::pose(best, record.problem.lengths_in),
+        settings::pose(record),
         stroke::block(record),
         blocked::cures(record),
         received::target(record),

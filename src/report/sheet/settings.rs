@@ -2,7 +2,6 @@
 
 use super::origins::origins;
 use super::setting::{SETTINGS, Setting};
-use crate::problem::LengthUnit;
 use crate::record::{AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{coordinate, fixed, plain, share_asked, significant};
@@ -198,7 +197,8 @@ fn remarks(record: &Record) -> Vec<String> {
 }
 
 /// The pose for a robot, and the clearance.
-pub fn pose(best: &AnswerRecord, unit: LengthUnit) -> Option<Block> {
+pub fn pose(record: &Record) -> Option<Block> {
+    let (best, unit) = (&record.best, record.problem.lengths_in);
     let mut block = Block::titled("POSE IN THE COORDINATES OF THE FILE");
     let vector = |values: &[f64], text: &dyn Fn(f64) -> String| {
         let texts: Vec<String> = values
@@ -219,15 +219,21 @@ pub fn pose(best: &AnswerRecord, unit: LengthUnit) -> Option<Block> {
         "quaternion   {}   (x y z w; takes z to the jet axis)",
         vector(&pose.quaternion_xyzw, &pure)
     ));
-    block.hanging("clearance    ", &clearance(best));
+    let turning = record.stroke.as_ref().filter(|it| it.turns_on_the_way());
+    block.hanging("clearance    ", &clearance(best, turning.is_some()));
     Some(block)
 }
 
-fn clearance(best: &AnswerRecord) -> String {
-    let wanted = format!(
-        "at least {} mm wanted",
-        plain(best.clearance_wanted_m * 1e3)
-    );
+/// How near the nozzle comes to anything. Where it turns on its way, only what is wanted is known to be kept between
+/// the stations.
+fn clearance(best: &AnswerRecord, is_turning: bool) -> String {
+    let least = plain(best.clearance_wanted_m * 1e3);
+    let wanted = match is_turning && !best.is_too_near() && best.feasible {
+        true => format!(
+            "at the stations of the stroke; between them no less than the {least} mm wanted"
+        ),
+        false => format!("at least {least} mm wanted"),
+    };
     let gap = |gap: f64, surface: &str| {
         if gap >= 0.0 {
             format!("{} mm to {surface}", fixed(gap * 1e3, 2))
