@@ -57,7 +57,8 @@ impl Sought<'_> {
         let (mut slack, mut price) = (1.0, PRICE);
         let first = self.searched.ends_and_middle().into_iter();
         let mut watched: Vec<Station> = first.map(|it| self.searched.station(it)).collect();
-        for _ in 0..self.most_rounds() {
+        let (mut without_news, mut nearest) = (0, f64::INFINITY);
+        for _ in 0..MOST_ROUNDS {
             let failing = worthwhile(answers, self.asked);
             if failing.is_empty() || self.control.is_stopped() {
                 break;
@@ -77,19 +78,18 @@ impl Sought<'_> {
                 break;
             }
             // Near misses pass with a little more room, or where violations outweigh what they gain in J.
+            without_news += usize::from(!unseen);
+            let is_nearer = worst < nearest * (1.0 - self.asked.problem.accuracy);
+            let is_in_vain = !unseen && !passed && !is_nearer;
+            if is_in_vain || without_news == MOST_WITHOUT_NEWS {
+                break;
+            }
+            nearest = nearest.min(worst);
             match passed {
                 _ if worst > NEAR || unseen => {}
                 true => slack *= ROOM / worst,
                 false => price *= DEARER,
             }
-        }
-    }
-
-    /// A stroke may need to watch more and more stations.
-    fn most_rounds(&self) -> usize {
-        match self.searched.stations.is_empty() {
-            true => MOST_ROUNDS,
-            false => 2 * MOST_ROUNDS,
         }
     }
 
@@ -148,8 +148,10 @@ fn worthwhile(answers: &[Answer], scenario: &Scenario) -> Vec<usize> {
         .collect()
 }
 
-/// Searches at most.
-const MOST_ROUNDS: usize = 3;
+/// Searches at most: a stroke may need to watch more and more stations.
+const MOST_ROUNDS: usize = 6;
+/// Searches at most after which no other station fails most.
+const MOST_WITHOUT_NEWS: usize = 3;
 /// The price of a violation, in the J of the answers that fail.
 const PRICE: f64 = 100.0;
 /// Factor on it where a violation is worth it.

@@ -5,6 +5,7 @@
 //! intervals. Settings come from searches: of the whole stroke, of cells that nothing passes yet, and of neighbouring
 //! pieces together. What a piece need not change of the one before it stays.
 
+mod candidate;
 mod continuity;
 mod cut;
 mod rounding;
@@ -15,7 +16,8 @@ use crate::control::Control;
 use crate::problem::stroke::{Hold, Leg, place_in};
 use crate::scenario::Scenario;
 use crate::verdict::{StationVerdicts, Verdict};
-use cut::{Candidate, Cut};
+use candidate::Candidate;
+use cut::Cut;
 
 /// A piece of a stroke with settings of its own.
 #[derive(Clone, Debug)]

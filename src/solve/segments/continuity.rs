@@ -1,6 +1,7 @@
 //! Segments that keep what their neighbours have, where that is as good.
 
-use super::cut::{Candidate, Cut, Piece};
+use super::candidate::Candidate;
+use super::cut::{Cut, Piece};
 use crate::problem::setting::{Setting, Settings};
 
 impl Cut<'_> {

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::Segment;
+use super::candidate::{Candidate, are_alike};
 use super::rounding::{fits, rounded};
 use crate::control::Control;
 use crate::evaluate::{Evaluation, evaluate_adaptively};
@@ -14,29 +15,6 @@ use crate::scenario::{Scenario, Station};
 use crate::solve::answer::Answer;
 use crate::solve::{Status, Wanted, best_of};
 use crate::verdict::{StationVerdicts, Verdict};
-
-/// Settings, and at which cells they pass.
-#[derive(Clone)]
-pub struct Candidate {
-    pub settings: Settings,
-    /// The largest violation in each cell; at most 1 where all verdicts pass there.
-    violations: Vec<f64>,
-    pub status: Status,
-}
-
-impl Candidate {
-    fn passes(&self, cell: usize) -> bool {
-        self.violations[cell] <= 1.0
-    }
-
-    /// How far it passes from a cell on: the first cell at which it does not.
-    pub fn reach(&self, from: usize) -> usize {
-        let mut cells = from..self.violations.len();
-        cells
-            .find(|&cell| !self.passes(cell))
-            .unwrap_or(self.violations.len())
-    }
-}
 
 /// A stroke cut into cells.
 pub struct Cut<'a> {
@@ -195,7 +173,7 @@ impl<'a> Cut<'a> {
     }
 
     /// Searches the cells at which no candidate passes; where the contact is held all along, none of the contact that passes at most
-    /// of them: what another one passes is of no use to it.
+    /// of them: what another one passes is of no use to it. Where a search has found nothing for a cell, none is made for cells like it.
     pub fn fill(&mut self, candidates: &mut Vec<Candidate>) {
         let mut searched: Vec<(usize, Option<usize>)> = Vec::new();
         while !self.control.is_stopped() {
@@ -204,7 +182,10 @@ impl<'a> Cut<'a> {
             let Some((contact, open)) = open.min_by_key(|(_, open)| open.len()) else {
                 break;
             };
-            let is_new = |cell: &usize| !searched.contains(&(*cell, contact));
+            let is_new = |&cell: &usize| {
+                let mut before = searched.iter().filter(|(_, of)| *of == contact);
+                before.all(|&(other, _)| other != cell && !are_alike(candidates, [other, cell]))
+            };
             let Some(cell) = open.into_iter().find(is_new) else {
                 break;
             };
