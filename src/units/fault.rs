@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use super::dimension::plain_spelling;
 use super::tidy::tidy;
-use super::{Dimension, parse, plain_spelling};
+use super::{Dimension, parse};
 
 /// Why a text is not the quantity that was asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]

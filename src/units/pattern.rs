@@ -1,7 +1,8 @@
 //! What may be written, as a pattern for other programs.
 
+use super::Dimension;
+use super::dimension::Unit;
 use super::tidy::{MINUSES, NO_WIDTH, POINTS, SLASHES};
-use super::{Dimension, Unit};
 
 impl Dimension {
     /// A regular expression (ECMA-262, and Rust's) of what [`super::parse`] takes for it. The one thing it
@@ -31,7 +32,7 @@ fn blank() -> String {
     format!(r"[\s{no_width}]")
 }
 
-/// Every way to write a unit: the way back from [`super::plain_spelling`].
+/// Every way to write a unit: the way back from [`super::dimension::plain_spelling`].
 fn spellings((name, _): &Unit) -> String {
     let blank = blank();
     let (name, newton_second) = match name.strip_suffix("N.s") {

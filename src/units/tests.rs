@@ -226,8 +226,8 @@ proptest! {
         let text = format!("{value}{:gap$}{name}", "");
         let si = parse(dimension, &text).unwrap();
         let back = match scale {
-            Shift(places) => si * 10_f64.powi(-places),
-            Factor(factor) => si / factor,
+            Scale::Shift(places) => si * 10_f64.powi(-places),
+            Scale::Factor(factor) => si / factor,
         };
         // One rounding each for the scale, the product and the way back.
         prop_assert!((back - value).abs() <= 4.0 * f64::EPSILON * value.abs());
