@@ -88,10 +88,26 @@ fn what_passes_is_found_where_two_shares_are_used_up_at_once() {
         let best = &solution.answers[0];
         let objective = best.evaluation.as_ref().unwrap().terms.total();
         assert!(best.passes() && objective < 0.85, "{seed}: {objective}");
-        // The least J that 14 seeds have found is 0.803.
-        let is_best = objective < 0.803 * 1.02;
+        // The least J that 18 seeds have found is 0.800.
+        let is_best = objective < 0.800 * 1.02;
         assert!(is_best || solution.status != Status::Converged, "{seed}");
     }
+}
+
+/// On few shots this seed takes 83 % of an allowed share for all of it, which costs 2 % of J.
+#[test]
+fn an_allowed_share_is_used_up() {
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/gear-root-unit-weights.yaml");
+    let mut scenario = scenario(&path).unwrap();
+    scenario.problem.seed = 25;
+    let solution = solve(&scenario, &Control::default());
+    let best = &solution.answers[0];
+    let violation = best.largest_violation();
+    assert!(best.passes() && violation > 0.92, "{violation}");
+    // The least J that 60 seeds have found is 0.2899.
+    let objective = best.evaluation.as_ref().unwrap().terms.total();
+    assert!(objective < 0.2899 * 1.01, "{objective}");
 }
 
 /// What passes costs 25 times the J of settings that just fail: before violations outweighed that, two seeds of these three

@@ -10,6 +10,7 @@ use super::super::stage::Stage;
 use super::super::stopping_rule::{least_found, still_gains};
 use super::super::{RISE, tie};
 use super::{Penalty, Sought};
+use crate::elementary::ln;
 use crate::scenario::Scenario;
 
 /// A search that has ended, for the contacts of some answers.
@@ -73,8 +74,13 @@ impl<'a> Round<'a> {
         figures: &mut Figures,
     ) -> f64 {
         let mut searches = self.descent.best();
-        let is_settled = self.refine(&mut searches[self.leader]);
-        let new = self.answers(&mut searches, figures);
+        let mut is_settled = self.refine(&mut searches[self.leader]);
+        let mut new = self.answers(&mut searches, figures);
+        let before = &answers[self.which[self.leader]];
+        let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
+        if let Some(last) = self.use_up(before, search, answer, figures) {
+            is_settled = last;
+        }
         let worst = self.least_violation(&new, answers);
         let accuracy = self.sought.asked.problem.accuracy;
         // Whether J of what was found here is known.
@@ -131,6 +137,46 @@ impl<'a> Round<'a> {
         !still_gains(search, &self.sought.asked.problem)
     }
 
+    /// Goes on with more and more shots while shares that are left of what is allowed could be worth a part of the
+    /// accuracy in J: on few shots a search stays as far from what is allowed as these happen to say. Whether the last
+    /// stage gained no more, where there was one. More shots than those of the validation promise what nobody can check.
+    fn use_up(
+        &self,
+        failing: &Answer,
+        search: &mut Search,
+        answer: &mut Answer,
+        figures: &mut Figures,
+    ) -> Option<bool> {
+        let Sought {
+            asked,
+            effort,
+            control,
+            ..
+        } = *self.sought;
+        let worthwhile = WORTHWHILE * asked.problem.accuracy;
+        let mut shots = self.descent.shots * RISE;
+        let mut is_settled = None;
+        while answer.passes()
+            && worth_of_room(failing, answer) > worthwhile * answer.order()
+            && shots * RISE <= control.most_shots.min(control.validation_shots)
+            && !control.is_stopped()
+        {
+            shots *= RISE;
+            let sampler = &self.descent.sampler;
+            let samples = sampler.draw(shots);
+            let evaluator = sampler.evaluator(self.scenario, &samples, effort, control);
+            let mut next = search.clone();
+            next.refine_together(&evaluator, &Stage::beyond(shots));
+            is_settled = Some(!still_gains(&next, &asked.problem));
+            let found = figures.of(std::slice::from_ref(&next)).pop()?;
+            if !tie::is_better(&found, answer) {
+                break;
+            }
+            (*search, *answer) = (next, found);
+        }
+        is_settled
+    }
+
     /// What the best candidates are on validation shots. What is farther down may fail there where what the last stage
     /// began with passes: then the search goes back.
     fn answers(&self, searches: &mut [Search], figures: &mut Figures) -> Vec<Answer> {
@@ -168,19 +214,37 @@ fn is_known(claimed: Option<f64>, answer: &Answer, bound: f64, accuracy: f64) ->
     bound <= accuracy * found && found - claimed <= accuracy * found + answer.standard_error()
 }
 
-/// What J of an answer that passes owes to the error of the share that bounds it: as much as J costs by that share
-/// between it and what fails.
+/// What J of an answer that passes owes to the error of the share that bounds it.
 fn error_by_bound(failing: &Answer, passing: &Answer) -> f64 {
+    price_of_bound(failing, passing) * passing.error_of_violation()
+}
+
+/// By how much J of an answer that passes could be lower if all that is allowed were used up. Nothing, where more is
+/// left than few shots can be mistaken about: then something else bounds it.
+fn worth_of_room(failing: &Answer, passing: &Answer) -> f64 {
+    let violation = passing.largest_violation();
+    match violation < MISTAKEN {
+        true => 0.0,
+        false => -price_of_bound(failing, passing) * ln(violation),
+    }
+}
+
+/// What the share that bounds an answer costs in J, for the same part of it: as much as between that and what fails.
+/// Shares are tails of distributions, in whose logarithms J is nearly straight.
+fn price_of_bound(failing: &Answer, passing: &Answer) -> f64 {
     let (Some(least), Some(found)) = (failing.objective(), passing.objective()) else {
         return 0.0;
     };
-    let violation = passing.largest_violation();
-    let gap = failing.largest_violation() - violation;
-    if failing.passes() || gap <= 0.0 {
+    let violations = [failing, passing].map(Answer::largest_violation);
+    if failing.passes() || violations[1] <= 0.0 {
         return 0.0;
     }
-    (found - least).max(0.0) / gap * violation * passing.error_of_violation()
+    (found - least).max(0.0) / ln(violations[0] / violations[1])
 }
 
 /// Descents of the last stage: where several shares are used up at once J has a kink, in which a simplex shrinks early.
 const DESCENTS: usize = 2;
+/// A share of what is allowed that few shots do not take for all of it.
+const MISTAKEN: f64 = 0.7;
+/// Share of the accuracy that what is left may be worth: what it buys of J is known within a factor of two.
+const WORTHWHILE: f64 = 0.35;
