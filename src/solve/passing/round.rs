@@ -118,23 +118,29 @@ impl<'a> Round<'a> {
     /// Goes on with more shots where it passes: the fewer there are, the farther the search stays below what is
     /// allowed. Whether that gains no more.
     fn refine(&self, search: &mut Search) -> bool {
-        let Sought {
-            effort, control, ..
-        } = *self.sought;
         let shots = self.descent.shots * RISE;
-        if !self.passes() || shots > control.most_shots {
+        if !self.passes() || shots > self.sought.control.most_shots {
             return true;
         }
-        let sampler = &self.descent.sampler;
-        let samples = sampler.draw(shots);
-        let evaluator = sampler.evaluator(self.scenario, &samples, effort, control);
         let stage = Stage {
             descents: DESCENTS,
             ..Stage::beyond(shots)
         };
-        *search = self.descent.searches[self.leader].clone();
-        search.refine_together(&evaluator, &stage);
+        *search = self.refined(&self.descent.searches[self.leader], &stage);
         !still_gains(search, &self.sought.asked.problem)
+    }
+
+    /// A search after one more stage from its finalists.
+    fn refined(&self, search: &Search, stage: &Stage) -> Search {
+        let Sought {
+            effort, control, ..
+        } = *self.sought;
+        let sampler = &self.descent.sampler;
+        let samples = sampler.draw(stage.shots);
+        let evaluator = sampler.evaluator(self.scenario, &samples, effort, control);
+        let mut refined = search.clone();
+        refined.refine_together(&evaluator, stage);
+        refined
     }
 
     /// Goes on with more and more shots while shares that are left of what is allowed could be worth a part of the
@@ -147,12 +153,7 @@ impl<'a> Round<'a> {
         answer: &mut Answer,
         figures: &mut Figures,
     ) -> Option<bool> {
-        let Sought {
-            asked,
-            effort,
-            control,
-            ..
-        } = *self.sought;
+        let Sought { asked, control, .. } = *self.sought;
         let worthwhile = WORTHWHILE * asked.problem.accuracy;
         let mut shots = self.descent.shots * RISE;
         let mut is_settled = None;
@@ -162,11 +163,7 @@ impl<'a> Round<'a> {
             && !control.is_stopped()
         {
             shots *= RISE;
-            let sampler = &self.descent.sampler;
-            let samples = sampler.draw(shots);
-            let evaluator = sampler.evaluator(self.scenario, &samples, effort, control);
-            let mut next = search.clone();
-            next.refine_together(&evaluator, &Stage::beyond(shots));
+            let next = self.refined(search, &Stage::beyond(shots));
             is_settled = Some(!still_gains(&next, &asked.problem));
             let found = figures.of(std::slice::from_ref(&next)).pop()?;
             if !tie::is_better(&found, answer) {
