@@ -209,10 +209,7 @@ pub fn recombined(
     let count = space.dimensions() + 1;
     let mut corners: Vec<Probe> = found.iter().take(count).map(corner).collect();
     let missing = count - corners.len();
-    if missing > 0 {
-        let others = first_simplex(local, best, size).into_iter().skip(1);
-        corners.extend(others.take(missing));
-    }
+    corners.extend(first_edges(local, best, size).take(missing));
     let scale = best.fitness.rank().max(f64::MIN_POSITIVE);
     descend_from(local, corners, accuracy * scale).swap_remove(0)
 }
@@ -287,11 +284,22 @@ fn best_bound(space: &Space, evaluator: &Evaluator, start: Candidate) -> Candida
 /// settings differ a hundredfold in how far they may be turned, and a simplex that has to shrink
 /// into a narrow valley loses sight of the valley's length.
 fn first_simplex(local: Local, start: &Candidate, size: f64) -> Vec<Probe> {
-    let coordinates = local.coordinates;
-    let from = coordinates.of(&start.point);
-    let middle = coordinates.of(&vec![0.5; from.len()]);
+    let from = local.coordinates.of(&start.point);
+    let first = Probe::of(local.coordinates, from, start.clone());
+    let others = first_edges(local, start, size);
+    [first].into_iter().chain(others).collect()
+}
+
+/// The other ends of its edges from where it starts, one along each axis; evaluated as they are asked for.
+fn first_edges<'a>(
+    local: Local<'a>,
+    start: &Candidate,
+    size: f64,
+) -> impl Iterator<Item = Probe> + use<'a> {
+    let from = local.coordinates.of(&start.point);
+    let middle = local.coordinates.of(&vec![0.5; from.len()]);
     let rank = start.fitness.rank();
-    let corner = |axis: usize| {
+    (0..from.len()).map(move |axis| {
         // Inwards, so that a start on a bound does not make a flat simplex.
         let towards_middle = if from[axis] > middle[axis] { -1.0 } else { 1.0 };
         let mut edge = size;
@@ -307,10 +315,7 @@ fn first_simplex(local: Local, start: &Candidate, size: f64) -> Vec<Probe> {
             }
             edge *= if rise > FAR_TOO_STEEP { 0.25 } else { 0.5 };
         }
-    };
-    let mut simplex = vec![Probe::of(coordinates, from.clone(), start.clone())];
-    simplex.extend((0..from.len()).map(corner));
-    simplex
+    })
 }
 
 /// By what share J may rise along an edge of a first simplex.
