@@ -1,5 +1,6 @@
 //! The target of a stroke laid out flat, along the stroke and across it, in cells that end where it ends.
 
+use nalgebra::Point2;
 use rayon::prelude::*;
 
 use super::grid::{Cell, Cells, Polygon, areas};
@@ -167,8 +168,8 @@ fn flat(
             corner[0] -= turn * ((corner[0] - first) / turn).round();
         }
     }
-    let [a, b, c] = corners;
-    let here = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs() / 2.0;
+    let [a, b, c] = corners.map(Point2::from);
+    let here = (b - a).perp(&(c - a)).abs() / 2.0;
     let own = (triangle[1] - triangle[0])
         .cross(&(triangle[2] - triangle[0]))
         .norm()

@@ -158,22 +158,19 @@ fn places(seen: &[Option<Seen>]) -> BTreeMap<usize, [f64; 2]> {
         let (x, y) = (pixel % SIZE, pixel / SIZE);
         (1..SIZE - 1).contains(&x) && (1..SIZE - 1).contains(&y)
     };
+    let room_from = |room: &[u32], pixel: usize, beside: [usize; 2]| match beside
+        .iter()
+        .all(|&it| front(it) == front(pixel))
+    {
+        true => 1 + room[beside[0]].min(room[beside[1]]),
+        false => 0,
+    };
     for pixel in (0..seen.len()).filter(|&it| is_inside(it)) {
-        let beside = [pixel - 1, pixel - SIZE];
-        let is_same = beside.iter().all(|&it| front(it) == front(pixel));
-        room[pixel] = match is_same {
-            true => 1 + room[beside[0]].min(room[beside[1]]),
-            false => 0,
-        };
+        room[pixel] = room_from(&room, pixel, [pixel - 1, pixel - SIZE]);
     }
     let mut places: BTreeMap<u32, (u32, usize)> = BTreeMap::new();
     for pixel in (0..seen.len()).rev().filter(|&it| is_inside(it)) {
-        let beside = [pixel + 1, pixel + SIZE];
-        let is_same = beside.iter().all(|&it| front(it) == front(pixel));
-        room[pixel] = match is_same {
-            true => room[pixel].min(1 + room[beside[0]].min(room[beside[1]])),
-            false => 0,
-        };
+        room[pixel] = room[pixel].min(room_from(&room, pixel, [pixel + 1, pixel + SIZE]));
         if let Some(face) = front(pixel)
             && room[pixel] >= LEAST_ROOM
         {

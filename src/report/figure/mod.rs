@@ -61,11 +61,7 @@ impl Figure {
     /// # Errors
     /// None is expected: figures are written into memory.
     pub fn of_faces(mesh: &Mesh, faces: &SmoothFaces, most: usize) -> Result<Self, FigureFault> {
-        let name = "faces";
-        match faces::svg(mesh, faces, most) {
-            Ok(svg) => Ok(Self { name, svg }),
-            Err(fault) => Err(FigureFault::new(name, &fault)),
-        }
+        Self::drawn("faces", faces::svg(mesh, faces, most))
     }
 
     /// The figure of a map; `None` when it has no extent.
@@ -106,11 +102,17 @@ impl Figure {
         name: &'static str,
         svg: Option<Result<String, impl std::fmt::Display>>,
     ) -> Result<Option<Self>, FigureFault> {
-        svg.map(|svg| match svg {
+        svg.map(|svg| Self::drawn(name, svg)).transpose()
+    }
+
+    fn drawn(
+        name: &'static str,
+        svg: Result<String, impl std::fmt::Display>,
+    ) -> Result<Self, FigureFault> {
+        match svg {
             Ok(svg) => Ok(Self { name, svg }),
             Err(fault) => Err(FigureFault::new(name, &fault)),
-        })
-        .transpose()
+        }
     }
 
     /// The figure as PNG.

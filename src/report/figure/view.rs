@@ -1,6 +1,6 @@
 //! What of a mesh is seen from a direction, pixel by pixel.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point2, Point3, Vector3};
 
 use crate::elementary::extremes;
 use crate::scene::mesh::Mesh;
@@ -21,7 +21,7 @@ pub(super) struct View {
 
 /// A point of the picture: across, down, and towards the eye.
 struct Place {
-    at: [f64; 2],
+    at: Point2<f64>,
     depth: f64,
     y: f64,
 }
@@ -57,7 +57,7 @@ impl View {
     fn place(&self, point: &Point3<f64>) -> Place {
         let along = [point.coords.dot(&self.right), -point.coords.dot(&self.up)];
         Place {
-            at: [0, 1].map(|axis| (along[axis] - self.corner[axis]) * self.scale),
+            at: Point2::from([0, 1].map(|axis| (along[axis] - self.corner[axis]) * self.scale)),
             depth: point.coords.dot(&self.towards),
             y: point.y,
         }
@@ -94,18 +94,18 @@ impl View {
         let (rows, columns) = (pixels(1), pixels(0));
         for row in rows {
             for column in columns.clone() {
-                let at = [column as f64 + 0.5, row as f64 + 0.5];
+                let at = Point2::new(column as f64 + 0.5, row as f64 + 0.5);
                 let shares =
                     [cross(b, c, at), cross(c, a, at), cross(a, b, at)].map(|it| it / area);
-                let is_beside = shares.iter().any(|share| *share < 0.0);
+                if shares.iter().any(|share| *share < 0.0) {
+                    continue;
+                }
                 let mean = |of: fn(&Place) -> f64| {
                     let pairs = shares.iter().zip(corners);
                     pairs.map(|(share, corner)| share * of(corner)).sum::<f64>()
                 };
-                let is_cut_off = self
-                    .cut
-                    .is_some_and(|cut| (mean(|it| it.y) - cut) * self.towards.y > 0.0);
-                if !is_beside && !is_cut_off {
+                let is_nearer = |cut: f64| (mean(|it| it.y) - cut) * self.towards.y > 0.0;
+                if !self.cut.is_some_and(is_nearer) {
                     visit(row * self.size + column, mean(|it| it.depth));
                 }
             }
@@ -114,8 +114,8 @@ impl View {
 }
 
 /// Twice the area of a triangle, with its sign.
-fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+fn cross(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> f64 {
+    (b - a).perp(&(c - a))
 }
 
 #[cfg(test)]

@@ -2,7 +2,9 @@
 
 use super::origins::origins;
 use super::setting::{SETTINGS, Setting};
-use crate::record::{AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord};
+use crate::record::{
+    AnswerRecord, CalibrationRecord, ContactRecord, Record, StatusRecord, StrokeRecord,
+};
 use crate::report::layout::{Align, Block, Table};
 use crate::report::number::{coordinate, fixed, plain, share_asked, significant};
 
@@ -219,8 +221,9 @@ pub fn pose(record: &Record) -> Option<Block> {
         "quaternion   {}   (x y z w; takes z to the jet axis)",
         vector(&pose.quaternion_xyzw, &pure)
     ));
-    let turning = record.stroke.as_ref().filter(|it| it.turns_on_the_way());
-    block.hanging("clearance    ", &clearance(best, turning.is_some()));
+    let stroke = record.stroke.as_ref();
+    let is_turning = stroke.is_some_and(StrokeRecord::turns_on_the_way);
+    block.hanging("clearance    ", &clearance(best, is_turning));
     Some(block)
 }
 
