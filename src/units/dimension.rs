@@ -245,7 +245,7 @@ pub(super) fn plain_spelling(unit: &str) -> String {
         .collect();
     let mut plain = String::new();
     for word in signs.split(' ').filter(|word| !word.is_empty()) {
-        // A blank stands for a point, unless a sign is beside it.
+        // A blank means a point, unless a sign is beside it.
         let is_beside =
             plain.is_empty() || plain.ends_with(['/', '.']) || word.starts_with(['/', '.']);
         plain.push_str(if is_beside { "" } else { "." });
