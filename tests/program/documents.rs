@@ -222,6 +222,39 @@ fn the_readme_names_the_angles_of_its_pictures() {
     }
 }
 
+/// Rows that are measured again leave sums behind.
+#[test]
+fn sums_over_the_suite_are_those_of_its_table() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |file: &str| fs::read_to_string(root.join(file)).unwrap();
+    let (readme, benchmarks) = (read("README.md"), read("docs/benchmarks.md"));
+    let table = benchmarks.split("suite -->").nth(1).unwrap();
+    let rows = table.lines().filter(|row| row.starts_with("| ")).skip(1);
+    let numbers = |cell: &str| -> Vec<u32> {
+        let words = cell.split([' ', ',']);
+        words.filter_map(|word| word.parse().ok()).collect()
+    };
+    // Of each row as good and of how many; said to be converged and truly; errors that hold and of how many.
+    let mut sums = [0; 6];
+    for row in rows {
+        let cells: Vec<Vec<u32>> = row.split('|').map(numbers).collect();
+        let found = cells[3..6].concat();
+        assert_eq!(found.len(), sums.len(), "{row}");
+        for (sum, number) in sums.iter_mut().zip(found) {
+            *sum += number;
+        }
+    }
+    let [good, all, converged, truly, holds, _] = sums;
+    for said in [
+        format!("{good} of {all} answers as good as the best known"),
+        format!("where it said `converged`, {truly} of {converged}"),
+    ] {
+        assert!(readme.contains(&said), "{said}");
+    }
+    let said = format!("of {all} answers it does in {holds}.");
+    assert!(benchmarks.contains(&said), "{said}");
+}
+
 #[test]
 fn other_documents() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
