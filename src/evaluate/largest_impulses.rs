@@ -1,5 +1,7 @@
 //! Impulses of the shots of one pose, kept so that verdicts follow at any launch speed.
 
+use rayon::prelude::*;
+
 use super::ViolationCounts;
 use crate::jet::ShotSample;
 use crate::objective::{ObjectiveAccumulator, Tally, Terms};
@@ -30,8 +32,33 @@ struct Largest {
 }
 
 impl LargestImpulses {
-    /// Traces the shots of some settings.
+    /// Traces the shots of some settings, on all threads where they are many.
     pub fn of(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> Self {
+        let some = |shots: &[ShotSample]| Self::of_some(scenario, settings, shots);
+        if shots.len() <= MOST_ALONE {
+            return some(shots);
+        }
+        Self::join(shots.par_chunks(CHUNK).map(some).collect())
+    }
+
+    /// Those of several sets of shots together.
+    fn join(parts: Vec<Self>) -> Self {
+        let mut parts = parts.into_iter();
+        let mut all = parts.next().expect("many shots are several sets");
+        let mut tallies = vec![all.tally];
+        for part in parts {
+            tallies.push(part.tally);
+            all.sticking += part.sticking;
+            all.missed.extend(part.missed);
+            for (largest, more) in all.largest.iter_mut().zip(part.largest) {
+                largest.extend(more);
+            }
+        }
+        let tally = Tally::join(tallies);
+        Self { tally, ..all }
+    }
+
+    fn of_some(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> Self {
         let surfaces = scenario.surfaces.len();
         let mut accumulator = LargestAccumulator {
             objective: ObjectiveAccumulator::new(
@@ -78,16 +105,14 @@ impl LargestImpulses {
         self.tally.rays
     }
 
-    /// The largest share of shots that break a goal or a limit, over a share `slack` of what is allowed, at a launch
-    /// speed, m/s. As much of that is left as the share of so few shots may be off.
-    pub fn violation(&self, scenario: &Scenario, speed: f64, slack: f64) -> f64 {
+    /// The shares of shots that break goals and limits at a launch speed, m/s, in the order of
+    /// [`allowed_shares`].
+    pub fn shares(&self, scenario: &Scenario, speed: f64) -> impl Iterator<Item = ShareEstimate> {
         let is_exact = scenario.problem.has_one_ray();
-        let violations = allowed_shares(scenario).map(|(subject, allowed)| {
-            let allowed = allowed * slack;
+        allowed_shares(scenario).map(move |(subject, allowed)| {
             let asked = Asked { allowed, is_exact };
-            self.share(scenario, (subject, asked), speed).violation()
-        });
-        violations.fold(0.0, f64::max)
+            self.share(scenario, (subject, asked), speed)
+        })
     }
 
     /// The share of shots that break a goal or a limit at a launch speed, m/s.
@@ -175,6 +200,10 @@ impl LargestImpulses {
     }
 }
 
+/// One thread traces up to this many shots alone,
+const MOST_ALONE: usize = 2048;
+/// or this many of more at a time.
+const CHUNK: usize = 1024;
 /// Speeds on either side of that with the least J, and how far they go.
 const SPEEDS: u32 = 12;
 const FARTHEST_SPEED: f64 = 0.5;
@@ -268,7 +297,6 @@ mod tests {
             .surface_named("table.floor")
             .expect("it has one");
         let subjects = [Subject::Surface(floor), Subject::NormalImpulse];
-        // Where all may break a goal, nothing is left out for the error of the share.
         let asked = Asked {
             allowed: 1.0,
             is_exact: false,
@@ -276,7 +304,7 @@ mod tests {
         let share = |scenario: &Scenario, samples: &Samples, subject| {
             let impulses = LargestImpulses::of(scenario, &settings, &samples.shots);
             let share = impulses.share(scenario, (subject, asked), settings.speed);
-            share.violation()
+            share.utilisation()
         };
         let all = Samples::new(&scenario.problem, Stream::Search, 1 << 18);
         for (subject, gains) in subjects.into_iter().zip([0.9, 1.8]) {

@@ -82,6 +82,11 @@ impl Answer {
             && self.verdicts.iter().all(Verdict::passes)
     }
 
+    /// Whether more shots of the same kind would not turn a verdict.
+    pub(super) fn is_certain(&self) -> bool {
+        self.verdicts.iter().all(Verdict::is_certain)
+    }
+
     /// Answers from candidates, evaluated on validation shots.
     pub(super) fn of_all(
         scenario: &Scenario,

@@ -283,32 +283,20 @@ impl<'a> Evaluator<'a> {
 
     /// J and what violations cost, at the speed at which both together are least.
     fn evaluate_violations(&self, settings: &Settings, penalty: &Penalty) -> Evaluated {
-        let scales_out = self.scenario.speed_scales_out(settings.contact);
-        let impulses = LargestImpulses::of(self.scenario, settings, self.shots);
-        let watched = penalty.watched.iter().map(|station| {
-            let scenario = &station.scenario;
-            let impulses = LargestImpulses::of(scenario, settings, self.shots);
-            (scenario, impulses)
-        });
-        let watched: Vec<(&Scenario, LargestImpulses)> = watched.collect();
-        let cost = |speed: f64| {
-            let whole = impulses.violation(self.scenario, speed, penalty.slack);
-            let at_stations = watched.iter();
-            let worst = at_stations
-                .map(|(scenario, impulses)| impulses.violation(scenario, speed, penalty.slack))
-                .fold(whole, f64::max);
-            penalty.price * (worst - 1.0).max(0.0)
-        };
-        let range = self.scenario.problem.ranges.speed;
-        let speed = match scales_out {
-            true => impulses.best_speed(self.scenario, range, cost),
+        let scenarios = penalty.scenarios(self.scenario);
+        let impulses = scenarios.map(|it| LargestImpulses::of(it, settings, self.shots));
+        let impulses: Vec<LargestImpulses> = impulses.collect();
+        let cost = |speed: f64| penalty.cost(self.scenario, &impulses, speed);
+        let (whole, range) = (&impulses[0], self.scenario.problem.ranges.speed);
+        let speed = match self.scenario.speed_scales_out(settings.contact) {
+            true => whole.best_speed(self.scenario, range, cost),
             false => settings.speed,
         };
         Evaluated {
             speed,
-            fitness: Fitness::Feasible(impulses.terms(self.scenario, speed), cost(speed)),
+            fitness: Fitness::Feasible(whole.terms(self.scenario, speed), cost(speed)),
             partial: Vec::new(),
-            rays: impulses.rays() + watched.iter().map(|(_, it)| it.rays()).sum::<usize>(),
+            rays: impulses.iter().map(LargestImpulses::rays).sum(),
         }
     }
 

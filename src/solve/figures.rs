@@ -7,10 +7,10 @@ use super::search::Search;
 use super::stopping_rule::is_noisy;
 use super::tie::recommended;
 use crate::control::Control;
+use crate::evaluate::evaluate_adaptively;
 use crate::jet::{ValidationSample, purpose};
 use crate::problem::Problem;
 use crate::scenario::Scenario;
-use crate::verdict::Verdict;
 
 /// Evaluates the candidates of searches on validation shots.
 pub(super) struct Figures<'a> {
@@ -81,6 +81,23 @@ impl<'a> Figures<'a> {
         self.of(searches)
     }
 
+    /// Evaluates answers again on all shots that may be drawn, as all others from then on.
+    pub fn sharpen<'b>(&mut self, answers: impl Iterator<Item = &'b mut Answer>) {
+        let problem = &self.scenario.problem;
+        let most = self.control.validation_shots;
+        if problem.has_one_ray() || self.validation.shots() >= most || self.control.is_stopped() {
+            return;
+        }
+        self.validation = ValidationSample::new(problem, purpose::ANSWERS, most);
+        for answer in answers.filter(|it| it.evaluation.is_some()) {
+            let evaluation = evaluate_adaptively(self.scenario, &answer.settings, &self.validation);
+            *answer = Answer {
+                least_objective: answer.least_objective,
+                ..Answer::feasible(self.scenario, &answer.settings, evaluation, self.effort)
+            };
+        }
+    }
+
     /// The answers of any searches, on the same shots.
     pub fn of(&self, searches: &[Search]) -> Vec<Answer> {
         let candidates: Vec<&Candidate> = searches.iter().map(Search::best).collect();
@@ -108,5 +125,5 @@ const PATIENCE: f64 = 0.2;
 /// Whether it is uncertain if the answer that would be recommended passes.
 fn is_open(answers: &[Answer], problem: &Problem) -> bool {
     let best = recommended(answers, problem);
-    best.is_some_and(|best| !best.verdicts.iter().all(Verdict::is_certain))
+    best.is_some_and(|best| !best.is_certain())
 }

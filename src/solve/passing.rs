@@ -4,7 +4,11 @@
 //! violations beyond the allowed shares cost added to J: an exact penalty, so steep that what passes wins, and among
 //! that J.
 
+mod correction;
+mod penalty;
 mod round;
+
+pub(super) use penalty::Penalty;
 
 use super::answer::Answer;
 use super::evaluator::Effort;
@@ -14,28 +18,6 @@ use super::stopping_rule::least_found;
 use crate::control::Control;
 use crate::scenario::{Scenario, Station};
 use round::Round;
-
-/// What violations cost in a search.
-#[derive(Clone)]
-pub(super) struct Penalty {
-    /// J that a violation of 2, twice the share that is allowed, costs.
-    pub price: f64,
-    /// Share of what is allowed that the search allows.
-    pub slack: f64,
-    /// Stations of a stroke at which nothing may be violated either.
-    pub watched: Vec<Station>,
-}
-
-impl Penalty {
-    /// All that it depends on, for checkpoints.
-    pub fn numbers(&self) -> Vec<f64> {
-        let watched = self.watched.iter().map(|station| station.place);
-        [self.price, self.slack]
-            .into_iter()
-            .chain(watched)
-            .collect()
-    }
-}
 
 /// The search for what passes, of a problem as it is asked and as it is searched.
 pub(super) struct Sought<'a> {
@@ -68,6 +50,7 @@ impl Sought<'_> {
                 price: price * scale(answers, &failing),
                 slack,
                 watched: watched.clone(),
+                corrections: Vec::new(),
             };
             let scenario = self.with_contacts_of(&failing, answers);
             let round = Round::run(self, &scenario, &failing, answers, penalty);

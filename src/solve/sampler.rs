@@ -41,6 +41,11 @@ impl<'a> Sampler<'a> {
         }
     }
 
+    /// What violations cost.
+    pub fn penalty(&self) -> Option<&Penalty> {
+        self.penalty.as_ref()
+    }
+
     /// An evaluator on shots that were drawn here.
     pub fn evaluator<'b>(
         &self,

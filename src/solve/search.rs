@@ -132,21 +132,11 @@ impl Search {
         })
     }
 
-    /// The search with what the last stage began with, where there was one: what that has found may be better on its
-    /// own shots alone.
-    pub fn gone_back(&self) -> Option<Self> {
-        Some(Self {
-            space: self.space.clone(),
-            groups: vec![vec![self.before.clone()?]],
-            before: None,
-            optimality_gap: self.optimality_gap,
-        })
-    }
-
-    /// Goes back to what the last stage began with.
+    /// Goes back to what the last stage began with, where there was one: what that has found may be better on its own
+    /// shots alone.
     pub fn go_back(&mut self) {
-        if let Some(before) = self.gone_back() {
-            *self = before;
+        if let Some(before) = self.before.take() {
+            self.groups = vec![vec![before]];
         }
     }
 

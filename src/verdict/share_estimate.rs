@@ -42,20 +42,47 @@ impl ShareEstimate {
         }
     }
 
-    /// The share over what a search may use up of the share that is allowed: that less what an estimate of it from so
-    /// few shots may be off. A finite number, above 1 where that does not pass.
-    pub fn violation(&self) -> f64 {
+    /// The share over a part `slack` of what is allowed, less what an estimate of it from so few shots may be off. A
+    /// finite number, above 1 where that does not pass.
+    pub fn violation(&self, slack: f64) -> f64 {
+        self.over(self.share, self.usable(slack))
+    }
+
+    /// The share over what is allowed. A finite number, above 1 where that does not pass.
+    pub fn utilisation(&self) -> f64 {
+        self.over(self.share, self.asked.allowed)
+    }
+
+    /// What this share is to be multiplied by to be the one from more shots, and above it by as much as that may be
+    /// off. None where that is too far below what is allowed to matter, or where nothing breaks the goal here.
+    pub fn correction(&self, many: &Self) -> Option<f64> {
         let Asked { allowed, is_exact } = self.asked;
-        let error = if is_exact {
+        let matters = many.share > allowed * LEAST_PART && allowed > 0.0;
+        let known = many.share * allowed / many.usable(1.0);
+        (matters && self.share > 0.0 && !is_exact).then(|| known / self.share)
+    }
+
+    /// The share over what is allowed, after a correction.
+    pub fn corrected(&self, correction: f64) -> f64 {
+        self.over(self.share * correction, self.asked.allowed)
+    }
+
+    /// A part of what is allowed, less what a share of that size would be off from as many shots.
+    fn usable(&self, slack: f64) -> f64 {
+        let allowed = self.asked.allowed * slack;
+        let error = if self.asked.is_exact {
             0.0
         } else {
             (allowed * (1.0 - allowed) / self.shots).sqrt()
         };
-        let least = (allowed - MARGIN * error).max(allowed * LEAST_PART);
-        if least > 0.0 {
-            self.share / least
-        } else if self.share > 0.0 {
-            1.0 + self.share * self.shots
+        (allowed - MARGIN * error).max(allowed * LEAST_PART)
+    }
+
+    fn over(&self, share: f64, usable: f64) -> f64 {
+        if usable > 0.0 {
+            share / usable
+        } else if share > 0.0 {
+            1.0 + share * self.shots
         } else {
             0.0
         }
@@ -77,21 +104,38 @@ mod tests {
         assert!((alike.share - weighted.share).abs() < 1e-15);
         assert!((weighted.shots / alike.shots - 10.0).abs() < 1e-9);
         // As much of what is allowed is left as it may be off, but no more than half.
-        assert_eq!(alike.violation(), 4.0 / 4096.0 / 0.0005);
+        assert_eq!(alike.violation(1.0), 4.0 / 4096.0 / 0.0005);
         let error = (0.001 * 0.999 / 40_960.0_f64).sqrt();
         let expected = 4.0 / 4096.0 / (0.001 - 1.5 * error);
-        assert!((weighted.violation() - expected).abs() < 1e-12);
+        assert!((weighted.violation(1.0) - expected).abs() < 1e-12);
     }
 
     #[test]
     fn nothing_to_count_breaks_a_goal_and_nothing_allowed_is_broken_by_one() {
         let violation = |breaking: &[f64], all, allowed, is_exact| {
-            estimate(breaking, all, allowed, is_exact).violation()
+            estimate(breaking, all, allowed, is_exact).violation(1.0)
         };
         assert!(violation(&[], 0.0, 0.05, false) > 1.0 && violation(&[], 0.0, 0.0, false) > 1.0);
         assert_eq!(violation(&[], 128.0, 0.05, false), 0.0);
         assert_eq!(violation(&[], 128.0, 0.0, false), 0.0);
         assert_eq!(violation(&[1.0], 1.0, 0.5, true), 2.0);
         assert_eq!(violation(&[1.0], 1.0, 0.0, true), 2.0);
+    }
+
+    #[test]
+    fn a_share_on_few_shots_is_corrected_to_that_on_many_and_what_this_may_be_off() {
+        let (few, many) = (
+            estimate(&[1.0; 4], 4096.0, 0.001, false),
+            estimate(&[1.0; 80], 65_536.0, 0.001, false),
+        );
+        let correction = few.correction(&many).expect("it matters");
+        let error = (0.001 * 0.999 / 65_536.0_f64).sqrt();
+        let expected = many.share / (0.001 - 1.5 * error);
+        assert!((few.corrected(correction) - expected).abs() < 1e-12);
+        assert!((many.utilisation() - 80.0 / 65.536).abs() < 1e-12);
+        // What is far below what is allowed, or nothing here, needs none.
+        let little = estimate(&[1.0; 30], 65_536.0, 0.001, false);
+        assert_eq!(few.correction(&little), None);
+        assert_eq!(estimate(&[], 4096.0, 0.001, false).correction(&many), None);
     }
 }

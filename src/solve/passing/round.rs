@@ -9,6 +9,7 @@ use super::super::search::Search;
 use super::super::stage::Stage;
 use super::super::stopping_rule::{least_found, still_gains};
 use super::super::{RISE, tie};
+use super::correction::Corrector;
 use super::{Penalty, Sought};
 use crate::elementary::ln;
 use crate::scenario::Scenario;
@@ -74,13 +75,12 @@ impl<'a> Round<'a> {
         figures: &mut Figures,
     ) -> f64 {
         let mut searches = self.descent.best();
-        let mut is_settled = self.refine(&mut searches[self.leader]);
-        let mut new = self.answers(&mut searches, figures);
-        let before = &answers[self.which[self.leader]];
-        let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
-        if let Some(last) = self.use_up(before, search, answer, figures) {
-            is_settled = last;
+        let mut new = figures.of(&searches);
+        if self.passes() && !new[self.leader].is_certain() {
+            figures.sharpen(answers.iter_mut().chain(&mut new));
         }
+        let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
+        let is_settled = self.refine(search, answer, figures).unwrap_or(true);
         let worst = self.least_violation(&new, answers);
         let accuracy = self.sought.asked.problem.accuracy;
         // Whether J of what was found here is known.
@@ -115,78 +115,56 @@ impl<'a> Round<'a> {
         worst
     }
 
-    /// Goes on with more shots where it passes: the fewer there are, the farther the search stays below what is
-    /// allowed. Whether that gains no more.
-    fn refine(&self, search: &mut Search) -> bool {
-        let shots = self.descent.shots * RISE;
-        if !self.passes() || shots > self.sought.control.most_shots {
-            return true;
-        }
-        let stage = Stage {
-            descents: DESCENTS,
-            ..Stage::beyond(shots)
-        };
-        *search = self.refined(&self.descent.searches[self.leader], &stage);
-        !still_gains(search, &self.sought.asked.problem)
-    }
-
-    /// A search after one more stage from its finalists.
-    fn refined(&self, search: &Search, stage: &Stage) -> Search {
+    /// Goes on with more shots where it passes, on which shares are corrected by those on many: on few a search stays
+    /// as far from what is allowed as these may be off, or fails. Whether the stage that has found the answer, where
+    /// one has, gained no more.
+    fn refine(&self, search: &mut Search, answer: &mut Answer, figures: &Figures) -> Option<bool> {
         let Sought {
-            effort, control, ..
+            asked,
+            effort,
+            control,
+            ..
         } = *self.sought;
+        let shots = self.descent.shots * RISE;
+        if !self.passes() || shots > control.most_shots {
+            return None;
+        }
         let sampler = &self.descent.sampler;
-        let samples = sampler.draw(stage.shots);
-        let evaluator = sampler.evaluator(self.scenario, &samples, effort, control);
-        let mut refined = search.clone();
-        refined.refine_together(&evaluator, stage);
-        refined
-    }
-
-    /// Goes on with more and more shots while shares that are left of what is allowed could be worth a part of the
-    /// accuracy in J: on few shots a search stays as far from what is allowed as these happen to say. Whether the last
-    /// stage gained no more, where there was one. More shots than those of the validation promise what nobody can check.
-    fn use_up(
-        &self,
-        failing: &Answer,
-        search: &mut Search,
-        answer: &mut Answer,
-        figures: &mut Figures,
-    ) -> Option<bool> {
-        let Sought { asked, control, .. } = *self.sought;
-        let worthwhile = WORTHWHILE * asked.problem.accuracy;
-        let mut shots = self.descent.shots * RISE;
+        let few = sampler.draw(shots);
+        let many = control.validation_shots.max(shots);
+        let mut corrector = Corrector::new(self.scenario, effort, sampler, &few, many)?;
+        corrector.measure(&search.best().settings);
+        // Validation shots may let pass what the many do not.
+        let mut is_doubtful = corrector.fails();
+        let mut here = self.descent.searches[self.leader].clone();
+        let accuracy = asked.problem.accuracy;
+        let is_worthwhile =
+            |it: &Search| it.gain() > WORTHWHILE * accuracy * it.best().fitness.rank();
         let mut is_settled = None;
-        while answer.passes()
-            && worth_of_room(failing, answer) > worthwhile * answer.order()
-            && shots * RISE <= control.most_shots.min(control.validation_shots)
-            && !control.is_stopped()
-        {
-            shots *= RISE;
-            let next = self.refined(search, &Stage::beyond(shots));
-            is_settled = Some(!still_gains(&next, &asked.problem));
-            let found = figures.of(std::slice::from_ref(&next)).pop()?;
-            if !tie::is_better(&found, answer) {
+        for _ in 0..MOST_STAGES {
+            let sampler = Sampler::penalised(self.scenario, corrector.penalty());
+            let evaluator = sampler.evaluator(self.scenario, &few, effort, control);
+            here.refine_together(&evaluator, &Stage::beyond(shots));
+            if here.best().fitness.penalty() > 0.0 || control.is_stopped() {
                 break;
             }
-            (*search, *answer) = (next, found);
+            corrector.measure(&here.best().settings);
+            if corrector.fails() {
+                continue;
+            }
+            let found = figures.of(std::slice::from_ref(&here)).pop()?;
+            let (passes, gains) = (found.passes(), still_gains(&here, &asked.problem));
+            corrector.learn(&found);
+            let is_better = tie::is_better(&found, answer) || (passes && is_doubtful);
+            if is_better {
+                (*search, *answer) = (here.clone(), found);
+                (is_settled, is_doubtful) = (Some(!gains), false);
+            }
+            if passes && !(is_better && is_worthwhile(&here)) {
+                break;
+            }
         }
         is_settled
-    }
-
-    /// What the best candidates are on validation shots. What is farther down may fail there where what the last stage
-    /// began with passes: then the search goes back.
-    fn answers(&self, searches: &mut [Search], figures: &mut Figures) -> Vec<Answer> {
-        let mut new = figures.of(searches);
-        let leading = &mut new[self.leader];
-        if !leading.passes()
-            && let Some(before) = searches[self.leader].gone_back()
-            && let Some(answer) = figures.of(std::slice::from_ref(&before)).pop()
-            && tie::is_better(&answer, leading)
-        {
-            (*leading, searches[self.leader]) = (answer, before);
-        }
-        new
     }
 
     /// The least violation of new answers, as far as they are better than all that pass by more than the accuracy.
@@ -216,16 +194,6 @@ fn error_by_bound(failing: &Answer, passing: &Answer) -> f64 {
     price_of_bound(failing, passing) * passing.error_of_violation()
 }
 
-/// By how much J of an answer that passes could be lower if all that is allowed were used up. Nothing, where more is
-/// left than few shots can be mistaken about: then something else bounds it.
-fn worth_of_room(failing: &Answer, passing: &Answer) -> f64 {
-    let violation = passing.largest_violation();
-    match violation < MISTAKEN {
-        true => 0.0,
-        false => -price_of_bound(failing, passing) * ln(violation),
-    }
-}
-
 /// What the share that bounds an answer costs in J, for the same part of it: as much as between that and what fails.
 /// Shares are tails of distributions, in whose logarithms J is nearly straight.
 fn price_of_bound(failing: &Answer, passing: &Answer) -> f64 {
@@ -239,9 +207,7 @@ fn price_of_bound(failing: &Answer, passing: &Answer) -> f64 {
     (found - least).max(0.0) / ln(violations[0] / violations[1])
 }
 
-/// Descents of the last stage: where several shares are used up at once J has a kink, in which a simplex shrinks early.
-const DESCENTS: usize = 2;
-/// A share of what is allowed that few shots do not take for all of it.
-const MISTAKEN: f64 = 0.7;
-/// Share of the accuracy that what is left may be worth: what it buys of J is known within a factor of two.
+/// Share of the accuracy by which a stage has to lower J for another one.
 const WORTHWHILE: f64 = 0.35;
+/// Stages with shares that are corrected where the one before has ended.
+const MOST_STAGES: usize = 4;
