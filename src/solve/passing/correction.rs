@@ -9,6 +9,7 @@ use super::super::answer::Answer;
 use super::super::evaluator::Effort;
 use super::super::sampler::Sampler;
 use super::penalty::Penalty;
+use crate::control::Control;
 use crate::evaluate::LargestImpulses;
 use crate::jet::Samples;
 use crate::problem::setting::Settings;
@@ -36,20 +37,26 @@ struct Share {
 }
 
 impl<'a> Corrector<'a> {
-    /// For the few shots of a search, with as many as `many` of its sampler.
+    /// For the few shots of a search, with as many of its sampler as one may take, or those of a validation at each
+    /// station of a stroke.
     pub fn new(
         scenario: &'a Scenario,
         effort: &'a Effort,
+        control: &Control,
         sampler: &Sampler,
         few: &'a Samples,
-        many: usize,
     ) -> Option<Self> {
+        let penalty = sampler.penalty()?.clone();
+        let many = match penalty.watched.is_empty() {
+            true => control.most_shots,
+            false => control.validation_shots,
+        };
         Some(Self {
             scenario,
             effort,
-            penalty: sampler.penalty()?.clone(),
+            penalty,
             few,
-            many: sampler.draw_anew(0, many),
+            many: sampler.draw_anew(0, many.max(few.shots.len())),
             shares: Vec::new(),
             excess: Vec::new(),
         })

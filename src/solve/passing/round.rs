@@ -131,8 +131,7 @@ impl<'a> Round<'a> {
         }
         let sampler = &self.descent.sampler;
         let few = sampler.draw(shots);
-        let many = control.validation_shots.max(shots);
-        let mut corrector = Corrector::new(self.scenario, effort, sampler, &few, many)?;
+        let mut corrector = Corrector::new(self.scenario, effort, control, sampler, &few)?;
         corrector.measure(&search.best().settings);
         // Validation shots may let pass what the many do not.
         let mut is_doubtful = corrector.fails();
