@@ -76,11 +76,15 @@ impl<'a> Round<'a> {
     ) -> f64 {
         let mut searches = self.descent.best();
         let mut new = figures.of(&searches);
-        if self.passes() && !new[self.leader].is_certain() {
-            figures.sharpen(answers.iter_mut().chain(&mut new));
+        let mut is_settled = true;
+        // What a search rejects for what few shots may be off can pass on validation shots.
+        if self.passes() || new[self.leader].passes() {
+            if !new[self.leader].is_certain() {
+                figures.sharpen(answers.iter_mut().chain(&mut new));
+            }
+            let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
+            is_settled = self.refine(search, answer, figures).unwrap_or(true);
         }
-        let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
-        let is_settled = self.refine(search, answer, figures).unwrap_or(true);
         let worst = self.least_violation(&new, answers);
         let accuracy = self.sought.asked.problem.accuracy;
         // Whether J of what was found here is known.
@@ -115,7 +119,7 @@ impl<'a> Round<'a> {
         worst
     }
 
-    /// Goes on with more shots where it passes, on which shares are corrected by those on many: on few a search stays
+    /// Goes on with more shots, on which shares are corrected by those on many: on few a search stays
     /// as far from what is allowed as these may be off, or fails. Whether the stage that has found the answer, where
     /// one has, gained no more.
     fn refine(&self, search: &mut Search, answer: &mut Answer, figures: &Figures) -> Option<bool> {
@@ -126,7 +130,7 @@ impl<'a> Round<'a> {
             ..
         } = *self.sought;
         let shots = self.descent.shots * RISE;
-        if !self.passes() || shots > control.most_shots {
+        if shots > control.most_shots {
             return None;
         }
         let sampler = &self.descent.sampler;
