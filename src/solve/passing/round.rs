@@ -130,7 +130,7 @@ impl<'a> Round<'a> {
             ..
         } = *self.sought;
         let shots = self.descent.shots * RISE;
-        if shots > control.most_shots {
+        if shots > control.most_shots || control.is_stopped() {
             return None;
         }
         let sampler = &self.descent.sampler;
