@@ -38,24 +38,29 @@ impl LargestImpulses {
         if shots.len() <= MOST_ALONE {
             return some(shots);
         }
-        Self::join(shots.par_chunks(CHUNK).map(some).collect())
+        let parts = shots.par_chunks(CHUNK).map(some).collect();
+        Self::join(parts, scenario.surfaces.len())
     }
 
     /// Those of several sets of shots together.
-    fn join(parts: Vec<Self>) -> Self {
-        let mut parts = parts.into_iter();
-        let mut all = parts.next().expect("many shots are several sets");
-        let mut tallies = vec![all.tally];
-        for part in parts {
+    fn join(parts: Vec<Self>, surfaces: usize) -> Self {
+        let mut tallies = Vec::with_capacity(parts.len());
+        let (mut sticking, mut missed) = (0, Vec::new());
+        let mut largest = vec![Vec::new(); surfaces];
+        for mut part in parts {
             tallies.push(part.tally);
-            all.sticking += part.sticking;
-            all.missed.extend(part.missed);
-            for (largest, more) in all.largest.iter_mut().zip(part.largest) {
-                largest.extend(more);
+            sticking += part.sticking;
+            missed.append(&mut part.missed);
+            for (all, some) in largest.iter_mut().zip(&mut part.largest) {
+                all.append(some);
             }
         }
-        let tally = Tally::join(tallies);
-        Self { tally, ..all }
+        Self {
+            tally: Tally::join(tallies),
+            sticking,
+            missed,
+            largest,
+        }
     }
 
     fn of_some(scenario: &Scenario, settings: &Settings, shots: &[ShotSample]) -> Self {

@@ -68,27 +68,29 @@ impl<'a> Figures<'a> {
     /// J of a contact that could win, or about a verdict on the best one.
     fn sharpened(&mut self, answers: Vec<Answer>, searches: &[Search]) -> Vec<Answer> {
         let problem = &self.scenario.problem;
-        let has_all =
-            problem.has_one_ray() || self.validation.shots() >= self.control.validation_shots;
-        if has_all
-            || self.control.is_stopped()
-            || !(is_noisy(&answers, problem) || is_open(&answers, problem))
-        {
-            return answers;
+        let say_little = is_noisy(&answers, problem) || is_open(&answers, problem);
+        if say_little && self.draw_all() {
+            return self.of(searches);
         }
-        self.validation =
-            ValidationSample::new(problem, purpose::ANSWERS, self.control.validation_shots);
-        self.of(searches)
+        answers
+    }
+
+    /// Draws all shots that may be drawn, unless they are there already or the search is to stop. Whether it did.
+    fn draw_all(&mut self) -> bool {
+        let problem = &self.scenario.problem;
+        let most = self.control.validation_shots;
+        if problem.has_one_ray() || self.validation.shots() >= most || self.control.is_stopped() {
+            return false;
+        }
+        self.validation = ValidationSample::new(problem, purpose::ANSWERS, most);
+        true
     }
 
     /// Evaluates answers again on all shots that may be drawn, as all others from then on.
     pub fn sharpen<'b>(&mut self, answers: impl Iterator<Item = &'b mut Answer>) {
-        let problem = &self.scenario.problem;
-        let most = self.control.validation_shots;
-        if problem.has_one_ray() || self.validation.shots() >= most || self.control.is_stopped() {
+        if !self.draw_all() {
             return;
         }
-        self.validation = ValidationSample::new(problem, purpose::ANSWERS, most);
         for answer in answers.filter(|it| it.evaluation.is_some()) {
             let evaluation = evaluate_adaptively(self.scenario, &answer.settings, &self.validation);
             *answer = Answer {

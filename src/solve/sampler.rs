@@ -89,8 +89,8 @@ impl<'a> Sampler<'a> {
         self.draw_from(Replicates::stream(purpose::CONFIRMATION, group), shots)
     }
 
-    /// Shots that are independent of those on which settings were found, to bound how far these are from the best
-    /// ones; `number` tells such samples apart.
+    /// Shots that are independent of those on which settings were found, to bound how far these are from the best ones,
+    /// or to tell their shares; `number` tells such samples apart.
     pub fn draw_anew(&self, number: u32, shots: usize) -> Samples {
         self.draw_from(Replicates::stream(purpose::OPTIMALITY_GAP, number), shots)
     }

@@ -105,9 +105,9 @@ fn an_allowed_share_is_used_up() {
     let best = &solution.answers[0];
     let violation = best.largest_violation();
     assert!(best.passes() && violation > 0.92, "{violation}");
-    // The least J that 60 seeds have found is 0.2899.
+    // The least J that 60 seeds have found is 0.2897.
     let objective = best.evaluation.as_ref().unwrap().terms.total();
-    assert!(objective < 0.2899 * 1.01, "{objective}");
+    assert!(objective < 0.2897 * 1.01, "{objective}");
 }
 
 /// What passes costs 25 times the J of settings that just fail: before violations outweighed that, two seeds of these three

@@ -119,9 +119,8 @@ impl<'a> Round<'a> {
         worst
     }
 
-    /// Goes on with more shots, on which shares are corrected by those on many: on few a search stays
-    /// as far from what is allowed as these may be off, or fails. Whether the stage that has found the answer, where
-    /// one has, gained no more.
+    /// Goes on with more shots, on which shares are corrected by those on many: on few a search stays as far from what is
+    /// allowed as these may be off, or fails. Whether the stage that has found the answer, where one has, gained no more.
     fn refine(&self, search: &mut Search, answer: &mut Answer, figures: &Figures) -> Option<bool> {
         let Sought {
             asked,
@@ -192,14 +191,9 @@ fn is_known(claimed: Option<f64>, answer: &Answer, bound: f64, accuracy: f64) ->
     bound <= accuracy * found && found - claimed <= accuracy * found + answer.standard_error()
 }
 
-/// What J of an answer that passes owes to the error of the share that bounds it.
+/// What J of an answer that passes owes to the error of the share that bounds it: as much as J costs by that share
+/// between it and what fails. Shares are tails of distributions, in whose logarithms J is nearly straight.
 fn error_by_bound(failing: &Answer, passing: &Answer) -> f64 {
-    price_of_bound(failing, passing) * passing.error_of_violation()
-}
-
-/// What the share that bounds an answer costs in J, for the same part of it: as much as between that and what fails.
-/// Shares are tails of distributions, in whose logarithms J is nearly straight.
-fn price_of_bound(failing: &Answer, passing: &Answer) -> f64 {
     let (Some(least), Some(found)) = (failing.objective(), passing.objective()) else {
         return 0.0;
     };
@@ -207,7 +201,8 @@ fn price_of_bound(failing: &Answer, passing: &Answer) -> f64 {
     if failing.passes() || violations[1] <= 0.0 {
         return 0.0;
     }
-    (found - least).max(0.0) / ln(violations[0] / violations[1])
+    let price = (found - least).max(0.0) / ln(violations[0] / violations[1]);
+    price * passing.error_of_violation()
 }
 
 /// Share of the accuracy by which a stage has to lower J for another one.
