@@ -113,7 +113,13 @@ impl<'a> Descent<'a> {
         let mut number = GROUPS;
         loop {
             let fails = self.searches[contact].best().fitness.penalty() > 0.0;
-            let most = if fails { MOST_THAT_FAIL } else { MOST_GROUPS };
+            let is_penalised = self.sampler.penalty().is_some();
+            let most = match agreement.missing {
+                _ if fails => MOST_THAT_FAIL,
+                // What passes often lies along a valley that every group ends elsewhere in.
+                2.. if is_penalised => MOST_THAT_SCATTER,
+                _ => MOST_GROUPS,
+            };
             let end = most.min(number + agreement.missing);
             if agreement.is_reached || self.control.is_stopped() {
                 return agreement;
@@ -172,6 +178,8 @@ impl<'a> Descent<'a> {
 
 /// Numbers of groups end here.
 const MOST_GROUPS: u32 = 8;
+/// Here where no two of those that are to pass agree.
+const MOST_THAT_SCATTER: u32 = 4;
 /// Here where the best of them fails.
 const MOST_THAT_FAIL: u32 = 3;
 
