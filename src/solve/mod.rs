@@ -126,6 +126,8 @@ struct Wanted {
     ablations: bool,
     /// J to within the accuracy, even where it is far from passing.
     failing: bool,
+    /// What violates least, as near as many shots tell, where nothing passes by far.
+    nearest: bool,
 }
 
 impl Wanted {
@@ -133,6 +135,7 @@ impl Wanted {
         passing: true,
         ablations: true,
         failing: true,
+        nearest: true,
     };
 }
 
@@ -192,6 +195,7 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
         searched: &searched,
         effort: &effort,
         control,
+        nearest: wanted.nearest,
     };
     if wanted.passing {
         sought.passing(&mut answers, &mut agreements, &mut figures);

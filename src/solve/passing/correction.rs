@@ -8,6 +8,8 @@
 use super::super::answer::Answer;
 use super::super::evaluator::Effort;
 use super::super::sampler::Sampler;
+use super::super::search::Search;
+use super::super::stage::Stage;
 use super::penalty::Penalty;
 use crate::control::Control;
 use crate::evaluate::LargestImpulses;
@@ -20,8 +22,9 @@ use crate::verdict::{ShareEstimate, Subject, allowed_shares};
 pub(super) struct Corrector<'a> {
     scenario: &'a Scenario,
     effort: &'a Effort,
+    control: &'a Control,
     penalty: Penalty,
-    few: &'a Samples,
+    few: Samples,
     many: Samples,
     /// The shares where they were measured last, of the whole, then of each watched station.
     shares: Vec<Vec<Share>>,
@@ -37,29 +40,36 @@ struct Share {
 }
 
 impl<'a> Corrector<'a> {
-    /// For the few shots of a search, with as many of its sampler as one may take, or those of a validation at each
-    /// station of a stroke.
+    /// For a search on few shots of a sampler that penalises, with many others of it.
     pub fn new(
         scenario: &'a Scenario,
         effort: &'a Effort,
-        control: &Control,
+        control: &'a Control,
         sampler: &Sampler,
-        few: &'a Samples,
+        [few, many]: [usize; 2],
     ) -> Option<Self> {
-        let penalty = sampler.penalty()?.clone();
-        let many = match penalty.watched.is_empty() {
-            true => control.most_shots,
-            false => control.validation_shots,
-        };
         Some(Self {
             scenario,
             effort,
-            penalty,
-            few,
-            many: sampler.draw_anew(0, many.max(few.shots.len())),
+            control,
+            penalty: sampler.penalty()?.clone(),
+            few: sampler.draw(few),
+            many: sampler.draw_anew(0, many.max(few)),
             shares: Vec::new(),
             excess: Vec::new(),
         })
+    }
+
+    /// Goes on with a search on the few shots, with shares corrected by what was measured last, until J differs by less
+    /// than a share of the accuracy.
+    pub fn refine(&self, search: &mut Search, settled: f64) {
+        let sampler = Sampler::penalised(self.scenario, self.penalty());
+        let evaluator = sampler.evaluator(self.scenario, &self.few, self.effort, self.control);
+        let stage = Stage {
+            settled,
+            ..Stage::beyond(self.few.shots.len())
+        };
+        search.refine_together(&evaluator, &stage);
     }
 
     /// Measures the shares at some settings.
@@ -69,7 +79,7 @@ impl<'a> Corrector<'a> {
     }
 
     fn shares_in(&self, scenario: &Scenario, settings: &Settings) -> Vec<Share> {
-        let [few, many] = [self.few, &self.many].map(|samples| {
+        let [few, many] = [&self.few, &self.many].map(|samples| {
             let impulses = LargestImpulses::of(scenario, settings, &samples.shots);
             self.effort.add(0, impulses.rays());
             let shares = impulses.shares(scenario, settings.speed);
@@ -82,7 +92,7 @@ impl<'a> Corrector<'a> {
     }
 
     /// The penalty with what shares are corrected by where they were measured last.
-    pub fn penalty(&self) -> Penalty {
+    fn penalty(&self) -> Penalty {
         let correction = |share: &Share| {
             let correction = share.few.correction(&share.many)?;
             Some(correction * self.excess_of(share.subject))
@@ -101,10 +111,11 @@ impl<'a> Corrector<'a> {
             .map_or(1.0, |(_, excess)| *excess)
     }
 
-    /// Whether the many shots say that more than allowed is used up where shares were measured last.
-    pub fn fails(&self) -> bool {
-        let mut shares = self.shares.iter().flatten();
-        shares.any(|share| share.many.utilisation() > 1.0)
+    /// How much of what is allowed is used up at most where shares were measured last, by the many shots.
+    pub fn utilisation(&self) -> f64 {
+        let shares = self.shares.iter().flatten();
+        let used = shares.map(|share| share.many.utilisation());
+        used.fold(0.0, f64::max)
     }
 
     /// Corrects by more in what an answer fails whose shares were measured last.

@@ -84,6 +84,9 @@ impl<'a> Round<'a> {
             }
             let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
             is_settled = self.refine(search, answer, figures).unwrap_or(true);
+        } else if self.sought.nearest && new[self.leader].fails_by_far() {
+            let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
+            is_settled = self.approach(search, answer, figures).unwrap_or(true);
         }
         let worst = self.least_violation(&new, answers);
         let accuracy = self.sought.asked.problem.accuracy;
@@ -122,36 +125,27 @@ impl<'a> Round<'a> {
     /// Goes on with more shots, on which shares are corrected by those on many: on few a search stays as far from what is
     /// allowed as these may be off, or fails. Whether the stage that has found the answer, where one has, gained no more.
     fn refine(&self, search: &mut Search, answer: &mut Answer, figures: &Figures) -> Option<bool> {
-        let Sought {
-            asked,
-            effort,
-            control,
-            ..
-        } = *self.sought;
-        let shots = self.descent.shots * RISE;
-        if shots > control.most_shots || control.is_stopped() {
-            return None;
-        }
-        let sampler = &self.descent.sampler;
-        let few = sampler.draw(shots);
-        let mut corrector = Corrector::new(self.scenario, effort, control, sampler, &few)?;
-        corrector.measure(&search.best().settings);
+        let Sought { asked, control, .. } = *self.sought;
+        // As many as one may take, or those of a validation at each station of a stroke.
+        let many = match self.descent.sampler.penalty()?.watched.is_empty() {
+            true => control.most_shots,
+            false => control.validation_shots,
+        };
+        let mut corrector = self.corrector(search, many)?;
         // Validation shots may let pass what the many do not.
-        let mut is_doubtful = corrector.fails();
+        let mut is_doubtful = corrector.utilisation() > 1.0;
         let mut here = self.descent.searches[self.leader].clone();
         let accuracy = asked.problem.accuracy;
         let is_worthwhile =
             |it: &Search| it.gain() > WORTHWHILE * accuracy * it.best().fitness.rank();
         let mut is_settled = None;
         for _ in 0..MOST_STAGES {
-            let sampler = Sampler::penalised(self.scenario, corrector.penalty());
-            let evaluator = sampler.evaluator(self.scenario, &few, effort, control);
-            here.refine_together(&evaluator, &Stage::beyond(shots));
+            corrector.refine(&mut here, SETTLED);
             if here.best().fitness.penalty() > 0.0 || control.is_stopped() {
                 break;
             }
             corrector.measure(&here.best().settings);
-            if corrector.fails() {
+            if corrector.utilisation() > 1.0 {
                 continue;
             }
             let found = figures.of(std::slice::from_ref(&here)).pop()?;
@@ -167,6 +161,55 @@ impl<'a> Round<'a> {
             }
         }
         is_settled
+    }
+
+    /// Goes on with more shots where nothing passes by far: what violates least is told from the rest no better than its
+    /// share is known. Whether the last stage gained no more.
+    fn approach(
+        &self,
+        search: &mut Search,
+        answer: &mut Answer,
+        figures: &Figures,
+    ) -> Option<bool> {
+        let Sought { asked, control, .. } = *self.sought;
+        let mut corrector = self.corrector(search, control.validation_shots)?;
+        let mut least = corrector.utilisation();
+        let mut here = self.descent.searches[self.leader].clone();
+        let mut is_settled = false;
+        for _ in 0..MOST_STAGES {
+            if is_settled {
+                break;
+            }
+            corrector.refine(&mut here, SETTLED_FAR);
+            if control.is_stopped() {
+                break;
+            }
+            corrector.measure(&here.best().settings);
+            let found = corrector.utilisation();
+            is_settled = found >= least * (1.0 - WORTHWHILE_FAR * asked.problem.accuracy);
+            if found < least {
+                *search = here.clone();
+                least = found;
+            }
+        }
+        *answer = figures.of(std::slice::from_ref(search)).pop()?;
+        Some(is_settled)
+    }
+
+    /// Corrects shares on more shots than those of this search by those on many, first at what was found.
+    fn corrector(&self, found: &Search, many: usize) -> Option<Corrector<'_>> {
+        let Sought {
+            effort, control, ..
+        } = *self.sought;
+        let shots = self.descent.shots * RISE;
+        if shots > control.most_shots || control.is_stopped() {
+            return None;
+        }
+        let sampler = &self.descent.sampler;
+        let shots = [shots, many];
+        let mut corrector = Corrector::new(self.scenario, effort, control, sampler, shots)?;
+        corrector.measure(&found.best().settings);
+        Some(corrector)
     }
 
     /// The least violation of new answers, as far as they are better than all that pass by more than the accuracy.
@@ -209,3 +252,9 @@ fn error_by_bound(failing: &Answer, passing: &Answer) -> f64 {
 const WORTHWHILE: f64 = 0.35;
 /// Stages with shares that are corrected where the one before has ended.
 const MOST_STAGES: usize = 4;
+/// Share of the accuracy by which J differs at the end of a stage,
+const SETTLED: f64 = 0.1;
+/// and where nothing passes by far, what violations cost.
+const SETTLED_FAR: f64 = 1.0;
+/// By this many times the accuracy a stage has to lower the largest violation there for another one.
+const WORTHWHILE_FAR: f64 = 2.0;

@@ -140,6 +140,7 @@ impl<'a> Cut<'a> {
         };
         let wanted = Wanted {
             ablations: false,
+            nearest: false,
             ..Wanted::ALL
         };
         let solution = best_of(&part, &control, wanted);
