@@ -1,7 +1,6 @@
 //! The answer for one contact, with its figures.
 
 use super::evaluator::{Effort, Fitness};
-use super::passing::NEAR;
 use super::polish::Candidate;
 use crate::evaluate::{Evaluation, evaluate_each_adaptively};
 use crate::feasibility::{Obstacle, infeasibility};
@@ -41,11 +40,6 @@ impl Answer {
     /// The largest share of shots that break a goal or a limit, over what is allowed: at most 1 where all pass.
     pub fn largest_violation(&self) -> f64 {
         Verdict::largest_violation(&self.verdicts)
-    }
-
-    /// Whether the nozzle fits and what it violates is far from passing.
-    pub(super) fn fails_by_far(&self) -> bool {
-        self.evaluation.is_some() && self.largest_violation() > NEAR
     }
 
     /// J, where the nozzle fits.

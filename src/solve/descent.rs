@@ -114,11 +114,13 @@ impl<'a> Descent<'a> {
         loop {
             let fails = self.searches[contact].best().fitness.penalty() > 0.0;
             let is_penalised = self.sampler.penalty().is_some();
-            let most = match agreement.missing {
-                _ if fails => MOST_THAT_FAIL,
+            let most = if fails {
+                MOST_THAT_FAIL
+            } else if is_penalised && agreement.missing > 1 {
                 // What passes often lies along a valley that every group ends elsewhere in.
-                2.. if is_penalised => MOST_THAT_SCATTER,
-                _ => MOST_GROUPS,
+                MOST_THAT_SCATTER
+            } else {
+                MOST_GROUPS
             };
             let end = most.min(number + agreement.missing);
             if agreement.is_reached || self.control.is_stopped() {

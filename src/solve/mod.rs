@@ -126,8 +126,6 @@ struct Wanted {
     ablations: bool,
     /// J to within the accuracy, even where it is far from passing.
     failing: bool,
-    /// What violates least, as near as many shots tell, where nothing passes by far.
-    nearest: bool,
 }
 
 impl Wanted {
@@ -135,7 +133,6 @@ impl Wanted {
         passing: true,
         ablations: true,
         failing: true,
-        nearest: true,
     };
 }
 
@@ -195,7 +192,6 @@ fn best_of(scenario: &Scenario, control: &Control, wanted: Wanted) -> Solution {
         searched: &searched,
         effort: &effort,
         control,
-        nearest: wanted.nearest,
     };
     if wanted.passing {
         sought.passing(&mut answers, &mut agreements, &mut figures);

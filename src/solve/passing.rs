@@ -25,8 +25,6 @@ pub(super) struct Sought<'a> {
     pub searched: &'a Scenario,
     pub effort: &'a Effort,
     pub control: &'a Control,
-    /// Whether settings that violate least are worth more shots where nothing passes by far.
-    pub nearest: bool,
 }
 
 impl Sought<'_> {
@@ -142,6 +140,6 @@ const PRICE: f64 = 100.0;
 /// Factor on it where a violation is worth it.
 const DEARER: f64 = 30.0;
 /// A violation up to this is near.
-pub(super) const NEAR: f64 = 1.5;
+const NEAR: f64 = 1.5;
 /// What is left of the allowed share for the next search.
 const ROOM: f64 = 0.95;

@@ -24,6 +24,7 @@ pub(super) struct Corrector<'a> {
     effort: &'a Effort,
     control: &'a Control,
     penalty: Penalty,
+    stage: Stage,
     few: Samples,
     many: Samples,
     /// The shares where they were measured last, of the whole, then of each watched station.
@@ -40,36 +41,33 @@ struct Share {
 }
 
 impl<'a> Corrector<'a> {
-    /// For a search on few shots of a sampler that penalises, with many others of it.
+    /// For a stage on few shots of a sampler that penalises, with many others of it.
     pub fn new(
         scenario: &'a Scenario,
         effort: &'a Effort,
         control: &'a Control,
         sampler: &Sampler,
-        [few, many]: [usize; 2],
+        stage: Stage,
+        many: usize,
     ) -> Option<Self> {
         Some(Self {
             scenario,
             effort,
             control,
             penalty: sampler.penalty()?.clone(),
-            few: sampler.draw(few),
-            many: sampler.draw_anew(0, many.max(few)),
+            stage,
+            few: sampler.draw(stage.shots),
+            many: sampler.draw_anew(0, many.max(stage.shots)),
             shares: Vec::new(),
             excess: Vec::new(),
         })
     }
 
-    /// Goes on with a search on the few shots, with shares corrected by what was measured last, until J differs by less
-    /// than a share of the accuracy.
-    pub fn refine(&self, search: &mut Search, settled: f64) {
+    /// Takes a search through the stage, with shares corrected by what was measured last.
+    pub fn refine(&self, search: &mut Search) {
         let sampler = Sampler::penalised(self.scenario, self.penalty());
         let evaluator = sampler.evaluator(self.scenario, &self.few, self.effort, self.control);
-        let stage = Stage {
-            settled,
-            ..Stage::beyond(self.few.shots.len())
-        };
-        search.refine_together(&evaluator, &stage);
+        search.refine_together(&evaluator, &self.stage);
     }
 
     /// Measures the shares at some settings.

@@ -10,7 +10,7 @@ use super::super::stage::Stage;
 use super::super::stopping_rule::{least_found, still_gains};
 use super::super::{RISE, tie};
 use super::correction::Corrector;
-use super::{Penalty, Sought};
+use super::{NEAR, Penalty, Sought};
 use crate::elementary::ln;
 use crate::scenario::Scenario;
 
@@ -84,7 +84,7 @@ impl<'a> Round<'a> {
             }
             let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
             is_settled = self.refine(search, answer, figures).unwrap_or(true);
-        } else if self.sought.nearest && new[self.leader].fails_by_far() {
+        } else if fails_by_far(&new[self.leader]) {
             let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
             is_settled = self.approach(search, answer, figures).unwrap_or(true);
         }
@@ -131,7 +131,7 @@ impl<'a> Round<'a> {
             true => control.most_shots,
             false => control.validation_shots,
         };
-        let mut corrector = self.corrector(search, many)?;
+        let mut corrector = self.corrector(search, self.next_stage(), many)?;
         // Validation shots may let pass what the many do not.
         let mut is_doubtful = corrector.utilisation() > 1.0;
         let mut here = self.descent.searches[self.leader].clone();
@@ -140,7 +140,7 @@ impl<'a> Round<'a> {
             |it: &Search| it.gain() > WORTHWHILE * accuracy * it.best().fitness.rank();
         let mut is_settled = None;
         for _ in 0..MOST_STAGES {
-            corrector.refine(&mut here, SETTLED);
+            corrector.refine(&mut here);
             if here.best().fitness.penalty() > 0.0 || control.is_stopped() {
                 break;
             }
@@ -172,15 +172,16 @@ impl<'a> Round<'a> {
         figures: &Figures,
     ) -> Option<bool> {
         let Sought { asked, control, .. } = *self.sought;
-        let mut corrector = self.corrector(search, control.validation_shots)?;
+        let stage = Stage {
+            settled: SETTLED_FAR,
+            ..self.next_stage()
+        };
+        let mut corrector = self.corrector(search, stage, control.validation_shots)?;
         let mut least = corrector.utilisation();
         let mut here = self.descent.searches[self.leader].clone();
-        let mut is_settled = false;
+        let (mut nearer, mut is_settled) = (None, false);
         for _ in 0..MOST_STAGES {
-            if is_settled {
-                break;
-            }
-            corrector.refine(&mut here, SETTLED_FAR);
+            corrector.refine(&mut here);
             if control.is_stopped() {
                 break;
             }
@@ -188,26 +189,36 @@ impl<'a> Round<'a> {
             let found = corrector.utilisation();
             is_settled = found >= least * (1.0 - WORTHWHILE_FAR * asked.problem.accuracy);
             if found < least {
-                *search = here.clone();
+                nearer = Some(here.clone());
                 least = found;
             }
+            if is_settled {
+                break;
+            }
         }
-        *answer = figures.of(std::slice::from_ref(search)).pop()?;
+        if let Some(nearer) = nearer {
+            *search = nearer;
+            *answer = figures.of(std::slice::from_ref(search)).pop()?;
+        }
         Some(is_settled)
     }
 
-    /// Corrects shares on more shots than those of this search by those on many, first at what was found.
-    fn corrector(&self, found: &Search, many: usize) -> Option<Corrector<'_>> {
+    /// The stage after those of this search.
+    fn next_stage(&self) -> Stage {
+        Stage::beyond(self.descent.shots * RISE)
+    }
+
+    /// Corrects shares on the shots of a stage by those on many, first at what was found; none where a search may not
+    /// have that stage.
+    fn corrector(&self, found: &Search, stage: Stage, many: usize) -> Option<Corrector<'_>> {
         let Sought {
             effort, control, ..
         } = *self.sought;
-        let shots = self.descent.shots * RISE;
-        if shots > control.most_shots || control.is_stopped() {
+        if stage.shots > control.most_shots || control.is_stopped() {
             return None;
         }
         let sampler = &self.descent.sampler;
-        let shots = [shots, many];
-        let mut corrector = Corrector::new(self.scenario, effort, control, sampler, shots)?;
+        let mut corrector = Corrector::new(self.scenario, effort, control, sampler, stage, many)?;
         corrector.measure(&found.best().settings);
         Some(corrector)
     }
@@ -223,6 +234,11 @@ impl<'a> Round<'a> {
             .map(Answer::largest_violation)
             .fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Whether the nozzle fits and what an answer violates is far from passing.
+fn fails_by_far(answer: &Answer) -> bool {
+    answer.evaluation.is_some() && answer.largest_violation() > NEAR
 }
 
 /// Whether J on the shots of the search is J on validation shots, within the accuracy, and so is what J owes to the
@@ -252,9 +268,7 @@ fn error_by_bound(failing: &Answer, passing: &Answer) -> f64 {
 const WORTHWHILE: f64 = 0.35;
 /// Stages with shares that are corrected where the one before has ended.
 const MOST_STAGES: usize = 4;
-/// Share of the accuracy by which J differs at the end of a stage,
-const SETTLED: f64 = 0.1;
-/// and where nothing passes by far, what violations cost.
+/// Share of the accuracy by which what violations cost differs at the end of a stage where nothing passes by far.
 const SETTLED_FAR: f64 = 1.0;
 /// By this many times the accuracy a stage has to lower the largest violation there for another one.
 const WORTHWHILE_FAR: f64 = 2.0;

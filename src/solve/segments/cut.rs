@@ -140,7 +140,6 @@ impl<'a> Cut<'a> {
         };
         let wanted = Wanted {
             ablations: false,
-            nearest: false,
             ..Wanted::ALL
         };
         let solution = best_of(&part, &control, wanted);
