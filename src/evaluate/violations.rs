@@ -36,7 +36,7 @@ pub fn importance_of(scenario: &Scenario, settings: &Settings) -> (ImportanceDen
 /// runs saw none, and J was up to 16 standard errors off.
 const STRETCHES: [f64; 6] = [1.7, 1.4, 1.2, 1.1, 1.05, 1.0];
 /// Shots of each pilot run.
-const SHOTS: usize = 1024;
+const SHOTS: usize = 2048;
 
 /// Weighted violations of the shots whose violation is rare; others are averaged well enough as it is.
 fn rare(violation: &[f64], shots: &[ShotSample]) -> Vec<f64> {
@@ -57,7 +57,7 @@ fn rare(violation: &[f64], shots: &[ShotSample]) -> Vec<f64> {
 }
 
 /// A violation is rare if it is this many times the mean.
-const RARE: f64 = 10.0;
+const RARE: f64 = 3.0;
 
 /// Adds up what each shot's violations cost.
 struct ViolationAccumulator {

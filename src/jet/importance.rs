@@ -1,16 +1,23 @@
 //! Importance density: where violating shots come from, so that more of them are drawn there.
 
+mod component;
+
 use super::qmc_point::{DIMENSIONS, Dimension};
 use crate::elementary::square;
+use component::Component;
 
-/// Density relative to the boundary proposal: a product over dimensions of histograms with a few cells.
+/// Density relative to the boundary proposal: a mixture of components, since violations come from several corners of what
+/// exit, cone and tolerance allow. A product over dimensions alone, fitted to two opposite corners, is as dense in all the
+/// corners between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportanceDensity {
-    density: [[f64; CELLS]; DIMENSIONS],
-    /// A bit for each dimension whose histogram is not flat.
-    varied: u32,
+    components: [Component; MOST_COMPONENTS],
+    /// How many of them there are.
+    count: usize,
 }
 
+/// Components at most.
+const MOST_COMPONENTS: usize = 4;
 /// Cells of a dimension.
 const CELLS: usize = 16;
 
@@ -20,55 +27,90 @@ pub(super) type Cells = [u8; DIMENSIONS];
 /// In place of a cell in dimensions that are not drawn from.
 pub(super) const NO_CELL: u8 = u8::MAX;
 
+/// Periodic dimensions: their last cell is a neighbour of the first.
+const TURNS: [usize; 2] = [Dimension::ConeTurn as usize, Dimension::ExitTurn as usize];
+
+/// Where a violation came from, and what it weighs.
+struct Event<'a> {
+    cells: &'a Cells,
+    weight: f64,
+}
+
+/// Which share of each event comes from each component.
+type Belonging = Vec<[f64; MOST_COMPONENTS]>;
+
 impl ImportanceDensity {
     /// The boundary proposal itself.
     pub const NONE: Self = Self {
-        density: [[1.0; CELLS]; DIMENSIONS],
-        varied: 0,
+        components: [Component::FLAT; MOST_COMPONENTS],
+        count: 1,
     };
 
-    /// Adapts each dimension's histogram to where violations were found, shrunk towards the histogram before
-    /// by least squares: differences within chance change little.
+    /// Adapts the mixture to where violations were found, by expectation maximisation (A. P. Dempster and others, Journal
+    /// of the Royal Statistical Society B 39, 1977). There are as many components as there are events to tell them apart.
     pub(super) fn on(&self, cells: &[Cells], violation: &[f64]) -> Self {
         let most = violation.iter().copied().fold(0.0, f64::max);
         if !(most > 0.0 && most.is_finite()) {
             return self.clone();
         }
-        let mut sums = [[0.0; CELLS]; DIMENSIONS];
-        let (mut total, mut squares) = (0.0, 0.0);
-        for (cells, violation) in cells.iter().zip(violation) {
-            let violation = violation / most;
-            total += violation;
-            squares += violation * violation;
-            for (sums, &cell) in sums.iter_mut().zip(cells) {
-                if let Some(sum) = sums.get_mut(usize::from(cell)) {
-                    *sum += violation;
-                }
-            }
+        let violations = cells.iter().zip(violation);
+        let violations = violations.filter(|(_, violation)| **violation > 0.0);
+        let event = |(cells, violation): (_, &f64)| Event {
+            cells,
+            weight: violation / most,
+        };
+        let events: Vec<Event> = violations.map(event).collect();
+        let count = effective_count(events.iter().map(|event| event.weight));
+        let wanted = ((count / EVENTS_PER_COMPONENT) as usize).min(MOST_COMPONENTS);
+        let (before, belonging) = if self.count < wanted {
+            let belonging = nearest(&seeds(&events, wanted), &events);
+            (self.with_components(wanted), belonging)
+        } else {
+            (self.clone(), self.belonging(&events))
+        };
+        let mut fitted = before.fitted(&events, &belonging);
+        for _ in 1..ROUNDS {
+            fitted = before.fitted(&events, &fitted.belonging(&events));
         }
-        // As many equal events would scatter as much.
-        let events = total * total / squares;
-        let mut density = self.density;
-        for (dimension, (density, sums)) in density.iter_mut().zip(&sums).enumerate() {
-            if cells[0][dimension] == NO_CELL {
-                continue;
+        fitted
+    }
+
+    /// The same with more components, each of which is still what the first one is.
+    fn with_components(&self, count: usize) -> Self {
+        let mut more = self.clone();
+        more.components[self.count..count].fill(self.components[0]);
+        Self { count, ..more }
+    }
+
+    /// Which share of each event comes from each component, by their densities there.
+    fn belonging(&self, events: &[Event]) -> Belonging {
+        let shares = |event: &Event| {
+            let mut densities = [0.0; MOST_COMPONENTS];
+            for (density, component) in densities.iter_mut().zip(self.components()) {
+                *density = component.share * component.density(event.cells);
             }
-            let found = smooth(sums, TURNS.contains(&dimension));
-            let found = found.map(|sum| CELLS as f64 * sum / total);
-            let apart: f64 = found.iter().zip(&*density).map(apart).sum();
-            let by_chance = SMOOTHED * (CELLS - 1) as f64 / events;
-            let share = (1.0 - by_chance / (apart / CELLS as f64)).clamp(0.0, 1.0);
-            let share = share.min(events / (events + DOUBT));
-            for (density, found) in density.iter_mut().zip(found) {
-                *density += share * (found - *density);
-            }
+            let sum: f64 = densities.iter().sum();
+            densities.map(|density| density / sum)
+        };
+        events.iter().map(shares).collect()
+    }
+
+    /// The components adapted to what belongs to them.
+    fn fitted(&self, events: &[Event], belonging: &Belonging) -> Self {
+        let total: f64 = events.iter().map(|event| event.weight).sum();
+        let mut fitted = self.clone();
+        let components = fitted.components[..self.count].iter_mut();
+        for (index, component) in components.enumerate() {
+            let pairs = events.iter().zip(belonging);
+            let weights: Vec<f64> = pairs.map(|(event, of)| event.weight * of[index]).collect();
+            component.share = weights.iter().sum::<f64>() / total;
+            component.adapt(events, &weights);
         }
-        let is_varied = |cells: &[f64; CELLS]| u32::from(*cells != [1.0; CELLS]);
-        let bits = density.iter().enumerate();
-        let varied = bits
-            .map(|(dimension, cells)| is_varied(cells) << dimension)
-            .sum();
-        Self { density, varied }
+        fitted
+    }
+
+    fn components(&self) -> &[Component] {
+        &self.components[..self.count]
     }
 
     /// The cell of a coordinate in 0 to 1.
@@ -76,152 +118,92 @@ impl ImportanceDensity {
         ((coordinate * CELLS as f64) as usize).min(CELLS - 1) as u8
     }
 
-    /// A coordinate with this density, from one that is uniform in 0 to 1.
-    pub(super) fn drawn(&self, dimension: Dimension, uniform: f64) -> f64 {
-        // What the search below gives for a flat histogram.
-        if self.varied & (1 << dimension as u32) == 0 {
-            return uniform;
+    /// Whether there are several components to draw from.
+    pub(super) fn is_mixed(&self) -> bool {
+        self.count > 1
+    }
+
+    /// The component to draw a point with, from a number that is uniform in 0 to 1.
+    pub(super) fn component(&self, uniform: f64) -> usize {
+        let mut left = uniform;
+        for (index, component) in self.components().iter().enumerate() {
+            if left < component.share {
+                return index;
+            }
+            left -= component.share;
         }
-        let density = &self.density[dimension as usize];
-        let mut left = uniform * CELLS as f64;
-        let mut cell = 0;
-        while cell < CELLS - 1 && left >= density[cell] {
-            left -= density[cell];
-            cell += 1;
-        }
-        // Rounding must not carry it into the next cell.
-        let within = (left / density[cell]).min(1.0 - f64::EPSILON);
-        (cell as f64 + within) / CELLS as f64
+        0
+    }
+
+    /// A coordinate with the density of a component, from one that is uniform in 0 to 1.
+    pub(super) fn drawn(&self, component: usize, dimension: Dimension, uniform: f64) -> f64 {
+        self.components[component].drawn(dimension, uniform)
     }
 
     /// The density at a point relative to that of the boundary proposal.
     pub(super) fn density(&self, cells: &Cells) -> f64 {
-        let (mut product, mut varied) = (1.0, self.varied);
-        while varied != 0 {
-            let dimension = varied.trailing_zeros() as usize;
-            let density = self.density[dimension].get(usize::from(cells[dimension]));
-            product *= density.copied().unwrap_or(1.0);
-            varied &= varied - 1;
-        }
-        product
+        let density = |component: &Component| component.share * component.density(cells);
+        self.components().iter().map(density).sum()
     }
 }
 
-/// Periodic dimensions: their last cell is a neighbour of the first.
-const TURNS: [usize; 2] = [Dimension::ConeTurn as usize, Dimension::ExitTurn as usize];
-
-/// The histogram before weighs at least as much as this number of events.
-const DOUBT: f64 = 4.0;
-
-/// Variance of a smoothed cell relative to a raw one: the squares of 1/4, 1/2 and 1/4.
-const SMOOTHED: f64 = 0.375;
-
-/// Contribution of a cell to chi squared, per event.
-fn apart((found, expected): (&f64, &f64)) -> f64 {
-    square(found - expected) / expected
+/// As many equal events would scatter as much.
+fn effective_count(weights: impl Iterator<Item = f64>) -> f64 {
+    let (mut total, mut squares) = (0.0, 0.0);
+    for weight in weights {
+        total += weight;
+        squares += weight * weight;
+    }
+    total * total / squares
 }
 
-/// A quarter of each sum goes to either neighbour, or stays where there is none.
-fn smooth(sums: &[f64; CELLS], is_turn: bool) -> [f64; CELLS] {
-    std::array::from_fn(|cell| {
-        let (before, after) = if is_turn {
-            ((cell + CELLS - 1) % CELLS, (cell + 1) % CELLS)
-        } else {
-            (cell.saturating_sub(1), (cell + 1).min(CELLS - 1))
+/// Events far from each other, the heavier the sooner.
+fn seeds<'a>(events: &[Event<'a>], count: usize) -> Vec<&'a Cells> {
+    let mut seeds: Vec<&Cells> = Vec::with_capacity(count);
+    while seeds.len() < count {
+        let gain = |event: &Event| {
+            let distances = seeds.iter().map(|seed| distance(seed, event.cells));
+            event.weight * distances.fold(f64::MAX, f64::min)
         };
-        0.25 * (sums[before] + 2.0 * sums[cell] + sums[after])
-    })
+        let farthest = events.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)));
+        let Some(farthest) = farthest else { break };
+        seeds.push(farthest.cells);
+    }
+    seeds
 }
+
+/// Each event belongs to the seed that is nearest to it.
+fn nearest(seeds: &[&Cells], events: &[Event]) -> Belonging {
+    let nearest = |event: &Event| {
+        let distances = seeds.iter().map(|seed| distance(seed, event.cells));
+        let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        let mut belonging = [0.0; MOST_COMPONENTS];
+        belonging[nearest.map_or(0, |(index, _)| index)] = 1.0;
+        belonging
+    };
+    events.iter().map(nearest).collect()
+}
+
+/// Square of the distance between two points, in cells.
+fn distance(one: &Cells, other: &Cells) -> f64 {
+    let pairs = one.iter().zip(other).enumerate();
+    let squares = pairs.map(|(dimension, (a, b))| {
+        let apart = usize::from(a.abs_diff(*b));
+        let is_turn = TURNS.contains(&dimension);
+        let apart = if is_turn {
+            apart.min(CELLS.saturating_sub(apart))
+        } else {
+            apart
+        };
+        square(apart as f64)
+    });
+    squares.sum()
+}
+
+/// Rounds of expectation and maximisation.
+const ROUNDS: usize = 6;
+/// Equal events that it takes to fit a component.
+const EVENTS_PER_COMPONENT: f64 = 8.0;
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Cells of uniform points, of which those low in one dimension and on both sides of the seam of another violate.
-    fn violated(count: usize) -> (Vec<Cells>, Vec<f64>) {
-        let coordinate = |index: usize, step: f64| (index as f64 * step).fract();
-        let point = |index: usize| {
-            let mut cells = [NO_CELL; DIMENSIONS];
-            cells[Dimension::ConeAngle as usize] =
-                ImportanceDensity::cell(coordinate(index, 0.618_034));
-            cells[Dimension::ConeTurn as usize] =
-                ImportanceDensity::cell(coordinate(index, 0.754_878));
-            cells[Dimension::Azimuth as usize] =
-                ImportanceDensity::cell(coordinate(index, 0.569_840));
-            cells
-        };
-        let cells: Vec<Cells> = (0..count).map(point).collect();
-        let violation = cells.iter().map(|cells| {
-            let [angle, turn] = [cells[0], cells[1]];
-            f64::from(u8::from(angle < 4 && !(2..14).contains(&turn)))
-        });
-        let violation = violation.collect();
-        (cells, violation)
-    }
-
-    #[test]
-    fn it_is_denser_where_violations_come_from_and_nowhere_empty() {
-        let (cells, violation) = violated(4096);
-        let importance = ImportanceDensity::NONE.on(&cells, &violation);
-        for density in &importance.density {
-            let sum: f64 = density.iter().sum();
-            assert!((sum - CELLS as f64).abs() < 1e-9, "{density:?}");
-            assert!(density.iter().all(|&density| density > 0.0), "{density:?}");
-        }
-        let of = |dimension: Dimension| &importance.density[dimension as usize];
-        let angle = of(Dimension::ConeAngle);
-        assert!(angle[..3].iter().all(|&density| density > 3.0));
-        assert!(angle[6..].iter().all(|&density| density < 0.1));
-        let turn = of(Dimension::ConeTurn);
-        assert!(turn[0] > 3.0 && turn[15] > 3.0, "{turn:?}");
-        assert!(turn[4..12].iter().all(|&density| density < 0.1));
-        // What tells nothing is left as it is, and what is not drawn from.
-        assert!(of(Dimension::Azimuth).iter().all(|d| (d - 1.0).abs() < 0.1));
-        assert_eq!(of(Dimension::Size), &[1.0; CELLS]);
-    }
-
-    #[test]
-    fn chance_and_absurd_violations_change_little_or_nothing() {
-        let (cells, _) = violated(4096);
-        let none = vec![0.0; cells.len()];
-        assert_eq!(
-            ImportanceDensity::NONE.on(&cells, &none),
-            ImportanceDensity::NONE
-        );
-        let mut one = none.clone();
-        one[7] = 1e200;
-        let importance = ImportanceDensity::NONE.on(&cells, &one);
-        let all = importance.density.iter().flatten();
-        assert!(all.into_iter().all(|density| (0.79..3.3).contains(density)));
-        one[7] = f64::INFINITY;
-        assert_eq!(
-            ImportanceDensity::NONE.on(&cells, &one),
-            ImportanceDensity::NONE
-        );
-    }
-
-    #[test]
-    fn coordinates_are_drawn_by_the_density() {
-        let (cells, violation) = violated(4096);
-        let importance = ImportanceDensity::NONE.on(&cells, &violation);
-        let dimension = Dimension::ConeTurn;
-        let mut counts = [0; CELLS];
-        let draws = 160_000;
-        for draw in 0..draws {
-            let uniform = (f64::from(draw) + 0.5) / f64::from(draws);
-            let drawn = importance.drawn(dimension, uniform);
-            assert!((0.0..1.0).contains(&drawn));
-            counts[usize::from(ImportanceDensity::cell(drawn))] += 1;
-        }
-        for (count, density) in counts.iter().zip(&importance.density[dimension as usize]) {
-            let expected = density * f64::from(draws) / CELLS as f64;
-            assert!(
-                (f64::from(*count) - expected).abs() < 2.0,
-                "{count} {expected}"
-            );
-        }
-        let last = importance.drawn(dimension, 1.0 - f64::EPSILON);
-        assert_eq!(ImportanceDensity::cell(last), 15);
-        assert_eq!(importance.density(&[NO_CELL; DIMENSIONS]), 1.0);
-    }
-}
+mod tests;

@@ -77,6 +77,8 @@ pub(super) struct QmcPoint<'a> {
     sequence: Sequence,
     by: Proposal,
     importance: &'a ImportanceDensity,
+    /// That of its components which it is drawn with.
+    component: usize,
     /// Whether the next fields are kept up.
     keeps_account: bool,
     /// Density of the boundary proposal over that of the jet, so far.
@@ -116,14 +118,19 @@ impl<'a> QmcPoint<'a> {
             Proposal::Importance => 2,
         };
         let mixed = mix(mix(stream.seed(seed) ^ block) ^ set);
-        let sequence = Sequence::Sobol {
+        let mut sequence = Sequence::Sobol {
             index: index % POINTS_PER_SEED,
             seed: (mixed >> 32) as u32,
             known: [None; 5],
         };
+        let component = match by == Proposal::Importance && importance.is_mixed() {
+            true => importance.component(sequence.coordinate(DIMENSIONS as u32)),
+            false => 0,
+        };
         Self {
             by,
             importance,
+            component,
             keeps_account: true,
             ..Self::of(sequence)
         }
@@ -155,6 +162,7 @@ impl<'a> QmcPoint<'a> {
             sequence,
             by: Proposal::Nominal,
             importance: &ImportanceDensity::NONE,
+            component: 0,
             keeps_account: false,
             boundary_density: 1.0,
             cells: [NO_CELL; DIMENSIONS],
@@ -165,7 +173,7 @@ impl<'a> QmcPoint<'a> {
     pub fn uniform(&mut self, dimension: Dimension) -> f64 {
         let uniform = self.sequence.coordinate(dimension as u32);
         let drawn = match self.by {
-            Proposal::Importance => self.importance.drawn(dimension, uniform),
+            Proposal::Importance => self.importance.drawn(self.component, dimension, uniform),
             Proposal::Nominal | Proposal::Boundary => uniform,
         };
         self.cells[dimension as usize] = ImportanceDensity::cell(drawn);
