@@ -177,7 +177,7 @@ fn standard_errors_tell_of_events_that_most_samples_do_not_hold() {
         ..spread_settings(&scenario, 0, 1)[0]
     };
     let settings = Setting::StaticFriction.with(&settings, 0.082_956_344_6);
-    let mut apart: Vec<f64> = (1..=24)
+    let mut apart: Vec<f64> = (1..=96)
         .map(|seed| {
             scenario.problem.seed = seed;
             let validation = ValidationSample::new(&scenario.problem, purpose::ANSWERS, 1 << 14);
@@ -186,5 +186,6 @@ fn standard_errors_tell_of_events_that_most_samples_do_not_hold() {
         })
         .collect();
     apart.sort_by(f64::total_cmp);
-    assert!(apart[21] < 2.0 && apart[23] < 4.0, "{apart:?}");
+    // One in twelve may be two of them off, none four.
+    assert!(apart[87] < 2.0 && apart[95] < 4.0, "{apart:?}");
 }
