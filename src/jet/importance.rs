@@ -53,13 +53,7 @@ impl ImportanceDensity {
         if !(most > 0.0 && most.is_finite()) {
             return self.clone();
         }
-        let violations = cells.iter().zip(violation);
-        let violations = violations.filter(|(_, violation)| **violation > 0.0);
-        let event = |(cells, violation): (_, &f64)| Event {
-            cells,
-            weight: violation / most,
-        };
-        let events: Vec<Event> = violations.map(event).collect();
+        let events = events(cells, violation, most);
         let count = effective_count(events.iter().map(|event| event.weight));
         let wanted = ((count / EVENTS_PER_COMPONENT) as usize).min(MOST_COMPONENTS);
         let (before, belonging) = if self.count < wanted {
@@ -145,6 +139,17 @@ impl ImportanceDensity {
         let density = |component: &Component| component.share * component.density(cells);
         self.components().iter().map(density).sum()
     }
+}
+
+/// The violations among some points; one of `most` weighs 1.
+fn events<'a>(cells: &'a [Cells], violation: &[f64], most: f64) -> Vec<Event<'a>> {
+    let pairs = cells.iter().zip(violation);
+    let violations = pairs.filter(|(_, violation)| **violation > 0.0);
+    let event = |(cells, violation): (_, &f64)| Event {
+        cells,
+        weight: violation / most,
+    };
+    violations.map(event).collect()
 }
 
 /// As many equal events would scatter as much.

@@ -81,18 +81,10 @@ fn opposite_corners_have_components_of_their_own() {
     // A product of histograms is as dense there.
     let elsewhere = mass(&importance, between);
     assert!(elsewhere < 0.1, "{elsewhere}");
-    let one = ImportanceDensity::NONE.fitted(
-        &events(&cells, &violation),
-        &vec![[1.0, 0.0, 0.0, 0.0]; violation.iter().filter(|it| **it > 0.0).count()],
-    );
+    let events = events(&cells, &violation, 1.0);
+    let all_of_one = vec![[1.0, 0.0, 0.0, 0.0]; events.len()];
+    let one = ImportanceDensity::NONE.fitted(&events, &all_of_one);
     assert!(mass(&one, between) > 0.3, "{}", mass(&one, between));
-}
-
-fn events<'a>(cells: &'a [Cells], violation: &[f64]) -> Vec<Event<'a>> {
-    let pairs = cells.iter().zip(violation);
-    let violations = pairs.filter(|(_, violation)| **violation > 0.0);
-    let event = |(cells, &weight): (_, &f64)| Event { cells, weight };
-    violations.map(event).collect()
 }
 
 #[test]
