@@ -77,14 +77,14 @@ impl<'a> Round<'a> {
         let mut searches = self.descent.best();
         let mut new = figures.of(&searches);
         let mut is_settled = true;
-        // What a search rejects for what few shots may be off can pass on validation shots.
-        if self.passes() || new[self.leader].passes() {
+        // What a search rejects for what few shots may be off can pass on validation shots, or hardly fails there.
+        if self.passes() || is_near(&new[self.leader]) {
             if !new[self.leader].is_certain() {
                 figures.sharpen(answers.iter_mut().chain(&mut new));
             }
             let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
             is_settled = self.refine(search, answer, figures).unwrap_or(true);
-        } else if fails_by_far(&new[self.leader]) {
+        } else if new[self.leader].evaluation.is_some() {
             let (search, answer) = (&mut searches[self.leader], &mut new[self.leader]);
             is_settled = self.approach(search, answer, figures).unwrap_or(true);
         }
@@ -123,7 +123,8 @@ impl<'a> Round<'a> {
     }
 
     /// Goes on with more shots, on which shares are corrected by those on many: on few a search stays as far from what is
-    /// allowed as these may be off, or fails. Whether the stage that has found the answer, where one has, gained no more.
+    /// allowed as these may be off, or fails. It ends where nothing comes nearer to passing or, of what passes, J falls no
+    /// more. Whether the stage that has found the answer, where one has, gained no more.
     fn refine(&self, search: &mut Search, answer: &mut Answer, figures: &Figures) -> Option<bool> {
         let Sought { asked, control, .. } = *self.sought;
         // As many as one may take, or those of a validation at each station of a stroke.
@@ -138,14 +139,19 @@ impl<'a> Round<'a> {
         let accuracy = asked.problem.accuracy;
         let is_worthwhile =
             |it: &Search| it.gain() > WORTHWHILE * accuracy * it.best().fitness.rank();
-        let mut is_settled = None;
+        let (mut is_settled, mut least) = (None, corrector.utilisation());
         for _ in 0..MOST_STAGES {
             corrector.refine(&mut here);
-            if here.best().fitness.penalty() > 0.0 || control.is_stopped() {
+            if control.is_stopped() {
                 break;
             }
             corrector.measure(&here.best().settings);
-            if corrector.utilisation() > 1.0 {
+            let used = corrector.utilisation();
+            if used > 1.0 {
+                if here.best().fitness.penalty() > 0.0 && used >= least {
+                    break;
+                }
+                least = least.min(used);
                 continue;
             }
             let found = figures.of(std::slice::from_ref(&here)).pop()?;
@@ -236,9 +242,9 @@ impl<'a> Round<'a> {
     }
 }
 
-/// Whether the nozzle fits and what an answer violates is far from passing.
-fn fails_by_far(answer: &Answer) -> bool {
-    answer.evaluation.is_some() && answer.largest_violation() > NEAR
+/// Whether the nozzle fits and an answer passes or nearly does.
+fn is_near(answer: &Answer) -> bool {
+    answer.evaluation.is_some() && answer.largest_violation() <= NEAR
 }
 
 /// Whether J on the shots of the search is J on validation shots, within the accuracy, and so is what J owes to the
