@@ -154,25 +154,31 @@ impl LargestImpulses {
         over.map(|impact| impact.weight)
     }
 
-    /// The speed in `range` at which J and a cost that depends on it are least together: where that costs nothing the
-    /// one with the least J, or else the best of some round it.
+    /// The speed in `range` at which J and a cost that depends on it are least together: the one with the least J where
+    /// that costs nothing, or else the best of some round it and, where these cost something, of a compass search from there.
     pub fn best_speed(&self, scenario: &Scenario, range: Range, cost: impl Fn(f64) -> f64) -> f64 {
         let least = self.tally.best_speed(&scenario.problem.goals, range);
         if cost(least) <= 0.0 {
             return least;
         }
         let total = |speed: f64| self.terms(scenario, speed).total() + cost(speed);
-        let within = |factor: f64| (least * factor).max(range.min).min(range.max);
-        let speeds = (0..=2 * SPEEDS).map(|step| {
-            let offset = f64::from(step) / f64::from(SPEEDS) - 1.0;
-            within(1.0 + FARTHEST_SPEED * offset)
-        });
-        let mut best = (least, total(least));
-        for speed in speeds {
+        let within = |speed: f64| speed.max(range.min).min(range.max);
+        let better = |best: (f64, f64), speed: f64| {
             let total = total(speed);
-            if total < best.1 {
-                best = (speed, total);
+            if total < best.1 { (speed, total) } else { best }
+        };
+        let offsets = (0..=2 * SPEEDS).map(|step| f64::from(step) / f64::from(SPEEDS) - 1.0);
+        let speeds = offsets.map(|offset| within(least * (1.0 + FARTHEST_SPEED * offset)));
+        let mut best = speeds.fold((least, total(least)), better);
+        // What passes may do so between two of them only.
+        let mut step = least * FARTHEST_SPEED / f64::from(SPEEDS);
+        for _ in 0..HALVINGS {
+            if cost(best.0) <= 0.0 {
+                break;
             }
+            step *= 0.5;
+            let beside = [best.0 - step, best.0 + step].map(within);
+            best = beside.into_iter().fold(best, better);
         }
         // Towards the least J as far as it costs no more.
         let (mut near, mut far) = (best.0, least);
@@ -291,6 +297,27 @@ mod tests {
         let mean = values.iter().sum::<f64>() / count;
         let squares = values.iter().map(|value| (value - mean) * (value - mean));
         (mean, squares.sum::<f64>() / (count - 1.0))
+    }
+
+    #[test]
+    fn the_best_speed_passes_where_only_those_of_a_narrow_band_do() {
+        let (scenario, settings) = t_slot();
+        let samples = Samples::new(&scenario.problem, Stream::Search, 1024);
+        let impulses = LargestImpulses::of(&scenario, &settings, &samples.shots);
+        let whole = scenario.problem.ranges.speed;
+        let least = impulses.best_speed(&scenario, whole, |_| 0.0);
+        let price = 1e4 * impulses.terms(&scenario, least).total();
+        let range = Range {
+            min: 0.4 * least,
+            max: 2.0 * least,
+        };
+        for middle in [0.6, 0.89, 0.985, 0.99, 1.015, 1.2, 1.39] {
+            let [slowest, fastest] = [0.998, 1.002].map(|part| least * middle * part);
+            let excess = |speed: f64| (slowest / speed).max(speed / fastest) - 1.0;
+            let cost = |speed: f64| price * excess(speed).max(0.0);
+            let speed = impulses.best_speed(&scenario, range, cost);
+            assert!((slowest..=fastest).contains(&speed), "{middle}: {speed}");
+        }
     }
 
     #[test]

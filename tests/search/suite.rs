@@ -110,7 +110,7 @@ fn an_allowed_share_is_used_up() {
     assert!(objective < 0.2897 * 1.01, "{objective}");
 }
 
-/// What passes costs 25 times the J of settings that just fail: before violations outweighed that, one seed of these two
+/// What passes costs 20 times the J of settings that just fail: before violations outweighed that, one seed of these two
 /// at least ended at what fails.
 #[test]
 fn a_narrow_window_is_found_where_passing_costs_many_times_the_least_j() {
@@ -132,10 +132,33 @@ fn a_narrow_window_is_found_where_passing_costs_many_times_the_least_j() {
         let best = &solution.answers[0];
         let objective = best.evaluation.as_ref().unwrap().terms.total();
         // Only there.
-        assert!(!best.passes() || objective > 0.1, "{seed}: {objective}");
+        assert!(!best.passes() || objective > 0.05, "{seed}: {objective}");
         best.passes()
     });
     assert_eq!(pass, [true; 2]);
+}
+
+/// Only one speed in a hundred passes at the poses that are good here: of speeds 4 % apart none did, and these seeds said
+/// FAIL.
+#[test]
+#[ignore = "takes half a minute"]
+fn what_only_a_narrow_band_of_speeds_lets_pass_is_found() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/gear-root.yaml");
+    let changes = [
+        ("goals.miss.share", "0.6355 %"),
+        ("goals.rebound.share", "0.3097 %"),
+    ];
+    let changes = changes.map(|(key, value)| Change::new(key, value).unwrap());
+    let study = Study::open_changed(&path, &changes).unwrap_or_else(|it| panic!("{it}"));
+    let mut scenario = study.scenario().clone();
+    for seed in [2, 3] {
+        scenario.problem.seed = seed;
+        let solution = solve(&scenario, &Control::default());
+        let best = &solution.answers[0];
+        let objective = best.evaluation.as_ref().unwrap().terms.total();
+        // The least J that three seeds have found is 0.01163; one of them was 50 % above.
+        assert!(best.passes() && objective < 0.0118, "{seed}: {objective}");
+    }
 }
 
 /// On the shots of the search alone what this seed finds violates 9 % more than the best known.
