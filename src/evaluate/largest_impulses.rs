@@ -158,40 +158,49 @@ impl LargestImpulses {
     /// that costs nothing, or else the best of some round it and, where these cost something, of a compass search from there.
     pub fn best_speed(&self, scenario: &Scenario, range: Range, cost: impl Fn(f64) -> f64) -> f64 {
         let least = self.tally.best_speed(&scenario.problem.goals, range);
-        if cost(least) <= 0.0 {
+        let there = cost(least);
+        if there <= 0.0 {
             return least;
         }
-        let total = |speed: f64| self.terms(scenario, speed).total() + cost(speed);
-        let within = |speed: f64| speed.max(range.min).min(range.max);
-        let better = |best: (f64, f64), speed: f64| {
-            let total = total(speed);
-            if total < best.1 { (speed, total) } else { best }
+        let priced = |speed: f64, cost: f64| PricedSpeed {
+            speed,
+            cost,
+            total: self.terms(scenario, speed).total() + cost,
         };
+        let better = |best: PricedSpeed, speed: f64| {
+            let found = priced(speed, cost(speed));
+            if found.total < best.total {
+                found
+            } else {
+                best
+            }
+        };
+        let within = |speed: f64| speed.max(range.min).min(range.max);
         let offsets = (0..=2 * SPEEDS).map(|step| f64::from(step) / f64::from(SPEEDS) - 1.0);
         let speeds = offsets.map(|offset| within(least * (1.0 + FARTHEST_SPEED * offset)));
-        let mut best = speeds.fold((least, total(least)), better);
+        let mut best = speeds.fold(priced(least, there), better);
         // What passes may do so between two of them only.
         let mut step = least * FARTHEST_SPEED / f64::from(SPEEDS);
         for _ in 0..HALVINGS {
-            if cost(best.0) <= 0.0 {
+            if best.cost <= 0.0 {
                 break;
             }
             step *= 0.5;
-            let beside = [best.0 - step, best.0 + step].map(within);
+            let beside = [best.speed - step, best.speed + step].map(within);
             best = beside.into_iter().fold(best, better);
         }
         // Towards the least J as far as it costs no more.
-        let (mut near, mut far) = (best.0, least);
+        let mut far = least;
         for _ in 0..HALVINGS {
-            let middle = 0.5 * (near + far);
-            let there = total(middle);
-            if there <= best.1 {
-                (near, best) = (middle, (middle, there));
+            let middle = 0.5 * (best.speed + far);
+            let found = priced(middle, cost(middle));
+            if found.total <= best.total {
+                best = found;
             } else {
                 far = middle;
             }
         }
-        best.0
+        best.speed
     }
 
     /// Violations at a launch speed, m/s.
@@ -211,6 +220,13 @@ impl LargestImpulses {
     }
 }
 
+/// A launch speed, m/s, with a cost there, and that with J.
+struct PricedSpeed {
+    speed: f64,
+    cost: f64,
+    total: f64,
+}
+
 /// One thread traces up to this many shots alone,
 const MOST_ALONE: usize = 2048;
 /// or this many of more at a time.
@@ -218,7 +234,7 @@ const CHUNK: usize = 1024;
 /// Speeds on either side of that with the least J, and how far they go.
 const SPEEDS: u32 = 12;
 const FARTHEST_SPEED: f64 = 0.5;
-/// Halvings of the way to it.
+/// Halvings of the step of a compass search, and of the way to that with the least J.
 const HALVINGS: u32 = 6;
 
 /// Collects [`LargestImpulses`].

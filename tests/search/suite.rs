@@ -5,6 +5,7 @@ use std::path::Path;
 
 use peenpose::control::Control;
 use peenpose::problem::change::Change;
+use peenpose::scenario::Scenario;
 use peenpose::solve::{Answer, Status, solve};
 use peenpose::study::Study;
 
@@ -20,7 +21,7 @@ const SHOTS: usize = 1 << 15;
 const NOISE: f64 = 0.005;
 
 /// Whether an answer is as good as the best known.
-fn is_good(known: &KnownBest, scenario: &peenpose::scenario::Scenario, answer: &Answer) -> bool {
+fn is_good(known: &KnownBest, scenario: &Scenario, answer: &Answer) -> bool {
     if !known.passes {
         return answer.largest_violation() <= known.violation * (1.0 + NEARLY);
     }
@@ -50,6 +51,28 @@ fn searched(names: &[&str], seeds: std::ops::Range<u64>) -> (usize, usize, usize
         }
     }
     (all, good, untrue)
+}
+
+/// A shipped problem with some of its keys changed.
+fn changed(name: &str, changes: &[[&str; 2]]) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("problems")
+        .join(name);
+    let changes = changes.iter();
+    let changes: Vec<Change> = changes
+        .map(|[key, value]| Change::new(key, value).unwrap())
+        .collect();
+    let study = Study::open_changed(&path, &changes).unwrap_or_else(|it| panic!("{it}"));
+    study.scenario().clone()
+}
+
+/// The best answer with a seed, its J, and the status.
+fn solved(scenario: &mut Scenario, seed: u64) -> (Answer, f64, Status) {
+    scenario.problem.seed = seed;
+    let mut solution = solve(scenario, &Control::default());
+    let best = solution.answers.remove(0);
+    let objective = best.evaluation.as_ref().unwrap().terms.total();
+    (best, objective, solution.status)
 }
 
 #[test]
@@ -83,14 +106,11 @@ fn what_passes_is_found_where_two_shares_are_used_up_at_once() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/search/t_slot.yaml");
     let mut scenario = scenario(&path).unwrap();
     for seed in [4, 8] {
-        scenario.problem.seed = seed;
-        let solution = solve(&scenario, &Control::default());
-        let best = &solution.answers[0];
-        let objective = best.evaluation.as_ref().unwrap().terms.total();
+        let (best, objective, status) = solved(&mut scenario, seed);
         assert!(best.passes() && objective < 0.85, "{seed}: {objective}");
         // The least J that 18 seeds have found is 0.800.
         let is_best = objective < 0.800 * 1.02;
-        assert!(is_best || solution.status != Status::Converged, "{seed}");
+        assert!(is_best || status != Status::Converged, "{seed}");
     }
 }
 
@@ -100,13 +120,10 @@ fn an_allowed_share_is_used_up() {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/gear-root-unit-weights.yaml");
     let mut scenario = scenario(&path).unwrap();
-    scenario.problem.seed = 25;
-    let solution = solve(&scenario, &Control::default());
-    let best = &solution.answers[0];
+    let (best, objective, _) = solved(&mut scenario, 25);
     let violation = best.largest_violation();
     assert!(best.passes() && violation > 0.92, "{violation}");
     // The least J that 60 seeds have found is 0.2897.
-    let objective = best.evaluation.as_ref().unwrap().terms.total();
     assert!(objective < 0.2897 * 1.01, "{objective}");
 }
 
@@ -114,25 +131,19 @@ fn an_allowed_share_is_used_up() {
 /// at least ended at what fails.
 #[test]
 fn a_narrow_window_is_found_where_passing_costs_many_times_the_least_j() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/keyway.yaml");
     let changes = [
-        ("goals.normal_impulse.tolerance", "12.75 %"),
-        ("goals.rebound.allow", "20 uN.s"),
-        ("nozzle.body", "[ { ball: { radius: 2.55 mm } } ]"),
-        ("contacts.oiled.mu_s", "0.072"),
-        ("tolerance.incidence", "1.4 deg"),
-        ("tolerance.azimuth", "2.4 deg"),
+        ["goals.normal_impulse.tolerance", "12.75 %"],
+        ["goals.rebound.allow", "20 uN.s"],
+        ["nozzle.body", "[ { ball: { radius: 2.55 mm } } ]"],
+        ["contacts.oiled.mu_s", "0.072"],
+        ["tolerance.incidence", "1.4 deg"],
+        ["tolerance.azimuth", "2.4 deg"],
     ];
-    let changes = changes.map(|(key, value)| Change::new(key, value).unwrap());
-    let study = Study::open_changed(&path, &changes).unwrap_or_else(|it| panic!("{it}"));
-    let mut scenario = study.scenario().clone();
+    let mut scenario = changed("keyway.yaml", &changes);
     let pass = [1, 2].map(|seed| {
-        scenario.problem.seed = seed;
-        let solution = solve(&scenario, &Control::default());
-        let best = &solution.answers[0];
-        let objective = best.evaluation.as_ref().unwrap().terms.total();
+        let (best, objective, _) = solved(&mut scenario, seed);
         // Only there.
-        assert!(!best.passes() || objective > 0.05, "{seed}: {objective}");
+        assert!(!best.passes() || objective > 0.09, "{seed}: {objective}");
         best.passes()
     });
     assert_eq!(pass, [true; 2]);
@@ -143,19 +154,13 @@ fn a_narrow_window_is_found_where_passing_costs_many_times_the_least_j() {
 #[test]
 #[ignore = "takes half a minute"]
 fn what_only_a_narrow_band_of_speeds_lets_pass_is_found() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("problems/gear-root.yaml");
     let changes = [
-        ("goals.miss.share", "0.6355 %"),
-        ("goals.rebound.share", "0.3097 %"),
+        ["goals.miss.share", "0.6355 %"],
+        ["goals.rebound.share", "0.3097 %"],
     ];
-    let changes = changes.map(|(key, value)| Change::new(key, value).unwrap());
-    let study = Study::open_changed(&path, &changes).unwrap_or_else(|it| panic!("{it}"));
-    let mut scenario = study.scenario().clone();
+    let mut scenario = changed("gear-root.yaml", &changes);
     for seed in [2, 3] {
-        scenario.problem.seed = seed;
-        let solution = solve(&scenario, &Control::default());
-        let best = &solution.answers[0];
-        let objective = best.evaluation.as_ref().unwrap().terms.total();
+        let (best, objective, _) = solved(&mut scenario, seed);
         // The least J that three seeds have found is 0.01163; one of them was 50 % above.
         assert!(best.passes() && objective < 0.0118, "{seed}: {objective}");
     }
